@@ -1,4 +1,4 @@
-// `burnish bake`: tables and maps that shading reads.
+// `burnish bake`: makes the tables and maps that shading reads.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -87,7 +87,7 @@ struct BakeArguments {
     bool quiet = false;
 };
 
-// The size that was asked for, or the usual one of what is made.
+// Returns the requested size, or the default size for the baked data.
 PictureSize size_of(const BakeArguments& a, PictureSize usual)
 {
     return a.size.width > 0 ? a.size : usual;
@@ -161,14 +161,14 @@ Status check_direction(const BakeArguments& a)
 
 using Warnings = std::vector<std::string>;
 
-// The one of a picture of floats that holds what are none.
+// Warns about non-finite pixels of a float picture.
 Warnings repaired(const Image& picture, const std::string& path)
 {
     const std::uint64_t bad = picture.type == PixelType::f32 ? count_not_finite(picture) : 0;
     return bad == 0 ? Warnings() : Warnings{fmt::format("{}: {} pixels are no numbers and are repaired", path, bad)};
 }
 
-// What is made, as a file that `write` writes, and what --preview shows of it.
+// Writes baked data with `write`, and previews from `show` if --preview is given.
 template <class Write, class Show>
 int write_made(const BakeArguments& a, const std::string& path, const Warnings& warnings, Write write, Show show)
 {
@@ -211,7 +211,7 @@ int run_direction(const BakeArguments& arguments)
                      [](const Image& map) { return preview_of_rotations(map, RotationEncoding::direction); });
 }
 
-// Of quaternions and rotations, which keep floats where the file does. inputs: that it must not overwrite.
+// Returns the pixel type of quaternion and rotation maps: floats if the file format keeps them. inputs: must not be overwritten.
 Result<PixelType> map_type(const BakeArguments& a, const std::vector<std::string>& inputs)
 {
     if (a.output.empty())
@@ -267,7 +267,7 @@ int run_straighten(const BakeArguments& a)
     if (made.covered == 0)
         return fail({ExitCode::bad_input, a.mesh, "", "has no texture coordinates that cover a texel"});
     Warnings warnings = (*data)->scene.warnings;
-    if (made.without > 0 || made.twice > made.covered / 100) // edges are of two triangles
+    if (made.without > 0 || made.twice > made.covered / 100) // an edge texel may lie in two triangles
         warnings.push_back(fmt::format("{}: of {} texels {} have the direction along their normal; {} lie in another triangle too", a.mesh,
                                        made.covered, made.without, made.twice));
     return write_rotations(a, made.directions, *type, warnings);

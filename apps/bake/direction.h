@@ -1,4 +1,4 @@
-// Maps of the grain's direction made of pictures.
+// Makes anisotropy direction maps from pictures.
 #pragma once
 #include "core/image/image.h"
 
@@ -6,9 +6,9 @@ namespace burnish {
 
 enum class DirectionFrom { hue, luminance };
 
-// An anisotropy texture (KHR_materials_anisotropy, 8 bits): what `from` says of a pixel, once around, is an angle from 0 to pi from the
-// tangent, counter-clockwise, red and green its direction; blue: strength, [0, 1]. Grey pixels have hue 0. Pictures of floats are linear,
-// others sRGB; luminance is what the eye takes for even steps, the sRGB value of grey that is as bright.
+// Returns an anisotropy texture (KHR_materials_anisotropy, 8 bits). The hue circle or the luminance range [0,1] becomes an angle from 0
+// to pi, counter-clockwise from the tangent. Red and green hold the direction, blue holds `strength` in [0,1]. Grey pixels have hue 0.
+// Float pictures are linear, others sRGB. Luminance is perceptually even: the sRGB value of the equally bright grey.
 Image direction_map(const Image& picture, DirectionFrom from, double strength);
 
 } // namespace burnish

@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostDisplaced = std::size_t{1} << 24; // 156 bytes each at most, and a .glb holds less than 2^32
+constexpr std::size_t kMostDisplaced = std::size_t{1} << 24; // at most 156 bytes each, and a .glb holds less than 2^32
 
 template <std::size_t N> glm::dvec3 vector_of(const float (&v)[N])
 {
@@ -31,7 +31,7 @@ glm::dvec2 coordinates_of(const DrawTables& t, std::uint32_t v)
     return {static_cast<double>(t.shading[v].uv0[0]), static_cast<double>(t.shading[v].uv0[1])};
 }
 
-// Metres a length of texture coordinates, by vertex: those in one place have one.
+// Returns metres a unit of texture coordinates, by vertex. Vertices at one position share a value.
 std::vector<double> texture_lengths(const DrawTables& t)
 {
     struct Sum {
@@ -88,7 +88,7 @@ class Displacer {
     std::string glb() const;
 
   private:
-    static constexpr std::size_t kWords = 12; // a vertex: place, normal, tangent, coordinates
+    static constexpr std::size_t kWords = 12; // a vertex: position, normal, tangent, texture coordinates
 
     template <class Value> auto blend(double b, double c, const Value& value) const
     {
@@ -105,15 +105,18 @@ class Displacer {
     void vertex(double b, double c)
     {
         const double step = 0.25 / parts_;
+        // Estimate the normal from displaced neighbours
         const glm::dvec3 along = place(b + step, c) - place(b - step, c), across = place(b, c + step) - place(b, c - step);
         glm::dvec3 n = glm::cross(along, across);
         const glm::dvec3 before = blend(b, c, [&](std::uint32_t v) { return vector_of(t_.shading[v].normal); });
         n = glm::dot(n, n) > 0.0 ? glm::normalize(n) : glm::normalize(before);
+        // Make the tangent perpendicular to the normal
         glm::dvec3 t = blend(b, c, [&](std::uint32_t v) { return vector_of(t_.shading[v].tangent); });
         t -= n * glm::dot(n, t);
         if (!(glm::dot(t, t) > 1e-12))
             t = std::abs(n.x) < 0.7 ? glm::cross(n, glm::dvec3(1.0, 0.0, 0.0)) : glm::cross(n, glm::dvec3(0.0, 1.0, 0.0));
         t = glm::normalize(t);
+        // Append the vertex
         const glm::dvec2 uv = blend(b, c, [&](std::uint32_t v) { return coordinates_of(t_, v); });
         const glm::dvec3 p = place(b, c);
         for (const double word :
@@ -126,7 +129,7 @@ class Displacer {
     const DrawTables& t_;
     const Image& heights_;
     double depth_;
-    int parts_; // of a side
+    int parts_; // along a triangle's side
     std::vector<double> lengths_;
     std::uint32_t corner_[3] = {};
     std::vector<float> words_;

@@ -1,4 +1,4 @@
-// Heights as triangles: what parallax mapping is measured against.
+// Turns height maps into displaced triangles, as ground truth for parallax mapping.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -14,9 +14,10 @@ struct Displaced {
     std::size_t triangles = 0;
 };
 
-// All triangles of the tables, world space, each in k x k, as many as `least_triangles` takes, moved against the normal by (1 - height)
-// times `depth`, in lengths of the first texture coordinates; a vertex's length is the mean of its triangles'. Normals are those of what
-// comes out, tangents and texture coordinates go along. Heights repeat. Errors: more than 2^26 triangles. file: for errors.
+// Splits each triangle of the tables (world space) into k x k, with the least k for `least_triangles` in all. Moves vertices against the
+// normal by (1 - height) times `depth`, in units of the first texture coordinates. A vertex takes the mean scale of its triangles.
+// Normals are recomputed; tangents and texture coordinates are interpolated. Heights repeat. Fails above 2^24 triangles. file: named in
+// errors.
 Result<Displaced> displaced(const DrawTables& tables, const Image& heights, double depth, std::size_t least_triangles,
                             const std::string& file);
 

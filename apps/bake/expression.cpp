@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-bool is_angle(double x) // that det_sin() takes
+bool is_angle(double x) // range of det_sin()
 {
     return std::fabs(x) < 1e6;
 }
@@ -35,7 +35,7 @@ class Parsed : public Expression {
 
     Result<double> at(double u, double v) override
     {
-        if (wrong_) // the library must not be asked twice
+        if (wrong_) // muParser must not evaluate again after an error
             return *wrong_;
         u_ = u, v_ = v;
         try {

@@ -1,4 +1,4 @@
-// Expressions as users write them.
+// Parses and evaluates expressions given by users.
 #pragma once
 #include <memory>
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace burnish {
 
-class Expression { // of u and v; the same bits on every machine where it keeps to + - * / sin, cos, sqrt and atan2
+class Expression { // in u and v; bit-exact on all machines for + - * / sin, cos, sqrt and atan2
   public:
     virtual ~Expression() = default;
-    // Errors: ExitCode::usage with the column of what is wrong, at any place the same; ExitCode::unavailable in a program without them.
+    // Fails with ExitCode::usage and the column of the error, the same for every u and v; with ExitCode::unavailable without
+    // muParser.
     virtual Result<double> at(double u, double v) = 0;
 };
 

@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a table is made as others make theirs: each node by itself.
+// True for the reference fit: each node fitted independently, as other LTC implementations do.
 bool others_path(const LtcArguments& a)
 {
     return a.norm != ltc::Norm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
 }
 
-// Whose lobes a table is of; none where --brdf names others than can be fitted.
+// Returns the model with this lobe, or none if --brdf names a lobe without an LTC fit.
 std::optional<ltc::Model> model_of(int brdf)
 {
     const auto* const found = std::find(std::begin(ltc::kModelNames), std::end(ltc::kModelNames), std::string_view(lobe_model(brdf).name));
@@ -96,7 +96,7 @@ Status write_report_files(const std::string& folder, const Json& figures, const 
     return {};
 }
 
-// The table that was asked for; nothing where it was stopped.
+// Returns the requested table, or nothing after a stop signal.
 Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& given, const Jobs& jobs, Report& report)
 {
     const LtcArguments& a = b.options;
@@ -163,24 +163,26 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
         return fail(fits.error());
     Report report(b.quiet, b.verbosity);
     const Jobs jobs(b.threads);
+    // Make or read the table
     const Result<std::optional<ltc::Table>> table = table_of(b, given, jobs, report);
     if (!table)
         return fail(table.error());
     report.release();
     if (!*table) {
         report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", b.output));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     if (!b.preview.empty())
         if (Status written = write_preview(b.preview, preview_of_ltc(**table), report); !written)
             return fail(written.error());
     if (a.report.empty())
         return 0;
+    // Measure its quality and draw the report
     const LtcQuality quality = measure_ltc(**table, a.cosines, jobs);
     Json figures = ltc_json(quality, **table);
     std::vector<std::pair<std::string, Drawing>> drawings = {{"quality", plot_ltc_quality(quality)}};
     std::string lines = ltc_lines(quality);
-    if ((*table)->model() == ltc::Model::ggx && !(*table)->grid.round) { // the document's figures are of its lobes
+    if ((*table)->model() == ltc::Model::ggx && !(*table)->grid.round) { // published figures are for these lobes
         drawings.emplace_back("lobes", plot_ltc(LobePlot(), **table));
         const LtcResolutions resolutions = measure_resolutions(**table, jobs);
         figures["resolutions"] = resolution_json(resolutions);

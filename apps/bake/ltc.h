@@ -1,4 +1,4 @@
-// `burnish bake ltc`: a table of transformed cosines, made or measured.
+// `burnish bake ltc`: makes or measures an LTC table (linearly transformed cosines).
 #pragma once
 #include <string>
 #include <vector>
@@ -17,13 +17,13 @@ struct LtcArguments {
 };
 std::vector<Option> ltc_options(LtcArguments& to);
 
-struct LtcBake { // with what all of `burnish bake` has
+struct LtcBake { // with the options common to `burnish bake`
     const LtcArguments& options;
     int brdf; // a lobe (shading/models.def)
     std::string picture, output, preview;
     int threads, verbosity;
     bool quiet;
 };
-int run_ltc(const LtcBake& bake, const OptionTable& given); // the exit code; given: what was
+int run_ltc(const LtcBake& bake, const OptionTable& given); // returns the exit code; given: the options present on the command line
 
 } // namespace burnish

@@ -21,7 +21,7 @@ Result<Image> rotations_of(const std::vector<std::string>& expressions, const Pi
     for (const std::string& text : expressions) {
         if (text.empty() || text.size() > kMostCharacters)
             return usage_error("--expr", fmt::format("is of {} characters, not of 1 to {}", text.size(), kMostCharacters));
-        for (std::size_t i = 0; i < text.size(); ++i) { // which muParser would assign by
+        for (std::size_t i = 0; i < text.size(); ++i) { // muParser treats '=' as an assignment
             const auto is = [&](std::size_t at, const char* one_of) {
                 return at < text.size() && std::string(one_of).find(text[at]) != std::string::npos;
             };

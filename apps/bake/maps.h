@@ -1,4 +1,4 @@
-// Maps of rotations, made of expressions.
+// Makes rotation maps from expressions.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace burnish {
 
-// A rotation's direction along tangent and bitangent by two expressions of u and v, [0,1] at the texels' centres, v = 0 the top row.
-// Errors: ExitCode::usage, with the column of what is no expression, or the texel where one has no finite value or both are 0.
+// Returns rotation directions along tangent and bitangent, from two expressions in u and v. u and v are in [0,1] at texel centres, v = 0
+// is the top row. Fails with ExitCode::usage and the column of a syntax error, or the texel with a non-finite or zero direction.
 Result<Image> rotations_of(const std::vector<std::string>& expressions, const PictureSize& size);
 
-// Directions, 3 floats a texel, as a map in an encoding that directions_of_rotations() reads.
+// Encodes directions, 3 floats a texel, for directions_of_rotations().
 Image encoded_rotations(const Image& directions, RotationEncoding encoding, PixelType type);
 
 } // namespace burnish

@@ -30,7 +30,7 @@ std::byte mip_code(float unit)
     return static_cast<std::byte>(static_cast<int>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f));
 }
 
-// Base colours, metalness and heights of all materials, each once.
+// Returns the base colour, metalness and height maps of all materials, without duplicates.
 struct MaterialMap {
     const Material* material;
     UsedMap map;
@@ -78,7 +78,7 @@ Value lobe_value(int& to)
 
 std::vector<std::string> plain_names(const std::vector<std::string>& materials)
 {
-    constexpr std::size_t kMostLetters = 100; // a file's name has 255 bytes
+    constexpr std::size_t kMostLetters = 100; // a file name has at most 255 bytes
     std::vector<std::string> names;
     std::set<std::string> taken;
     std::map<std::string, int> last;
@@ -144,6 +144,7 @@ int run_mip(const MipBake& bake)
 {
     const MipArguments& a = bake.options;
     const auto name_of = [](MipFilter filter) { return mip_filters()[static_cast<std::size_t>(filter)].name; };
+    // Check the options that need no file
     if (bake.material.empty())
         return fail(usage_error("PICTURE", "is needed: a scene, or a folder of a material's pictures"));
     if (!makes_lobes(a.filter))
@@ -162,6 +163,7 @@ int run_mip(const MipBake& bake)
     if (!bake.preview.empty())
         if (const Status path = check_folder_path(bake.preview); !path)
             return fail(path.error());
+    // Open the scene, or a sphere for a folder of pictures
     Dress with;
     with.mip_filter = a.filter;
     with.couple_albedo = a.couple_albedo, with.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
@@ -176,6 +178,7 @@ int run_mip(const MipBake& bake)
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
+    // Check the output again, with the scene's own files as inputs
     std::vector<std::string> inputs = scene.files;
     inputs.push_back(bake.material);
     if (pyramid)
@@ -186,12 +189,13 @@ int run_mip(const MipBake& bake)
         report.warning(warning);
     if (a.gains && !takes_gains(a.filter))
         report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_of(a.filter)));
+    // Filter the levels, with one progress bar a material
     const Jobs jobs(bake.threads);
     const double begin_ms = wall_ms();
     std::optional<Progress> progress;
     std::size_t told = 0;
     const MaterialLevels levels = filtered_levels(scene, jobs, [&](std::size_t done, std::size_t all) {
-        if (done < told) // of the next material
+        if (done < told) // the next material begins
             progress.reset(), told = 0;
         if (!progress)
             progress.emplace("texels", all, bake.quiet);
@@ -199,6 +203,7 @@ int run_mip(const MipBake& bake)
         told = done;
     });
     progress.reset();
+    // Collect the materials with levels
     std::vector<const MipLevels*> each;
     for (const std::shared_ptr<const MipLevels>& of : levels)
         if (of && std::find(each.begin(), each.end(), of.get()) == each.end())
@@ -207,12 +212,14 @@ int run_mip(const MipBake& bake)
         return fail({ExitCode::bad_input, bake.material, "", "has no maps of normals, roughness or anisotropy"});
     report.event("levels",
                  fmt::format("of {} by {} in {:.0f} ms", counted(each.size(), "material"), name_of(a.filter), wall_ms() - begin_ms));
+    // Make the preview before writing anything
     Preview preview;
     if (!bake.preview.empty())
         preview = preview_of(scene, levels);
     inputs.push_back(bake.output);
     if (const Status fits = check_preview(bake.preview, preview, inputs); !fits)
         return fail(fits.error());
+    // Write the pyramid file or the textures
     if (pyramid) {
         const std::vector<MaterialMap> maps = all_maps(scene, jobs);
         const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, maps[i].id, jobs); };

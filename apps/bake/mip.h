@@ -1,4 +1,4 @@
-// `burnish bake mip`: levels of a scene's materials, to be kept, for other programs, and to be looked at.
+// `burnish bake mip`: writes the mip levels of a scene's materials, for burnish, for other programs and for inspection.
 #pragma once
 #include <optional>
 #include <string>
@@ -20,33 +20,33 @@ enum class MipFormat { pyramid, exr_mip, png_levels };
 struct MipArguments {
     MipFilter filter;
     std::optional<double> kappa;
-    std::string net; // of filter mipnet; empty: the program's for brdf
+    std::string net; // for the filter mipnet; empty: the built-in net for brdf
     MipFallback fallback{};
-    bool gains = false; // of levels' reflectances
-    int brdf = 0;       // a lobe; of ltc, too
+    bool gains = false; // with the levels' reflectance gains
+    int brdf = 0;       // a lobe of shading/models.def, or ltc
     MipFormat format = MipFormat::pyramid;
-    bool couple_albedo = false; // base colour and metalness weighted by how texels face
+    bool couple_albedo = false; // weights base colour and metalness by the texels' projected area
     ColourKernel color_kernel = ColourKernel::box;
     MipArguments();
 };
 std::vector<Option> mip_options(MipArguments& to);
-Value lobe_value(int& to); // of --brdf: a lobe's place by its name
+Value lobe_value(int& to); // value of --brdf: a lobe's index, by name
 
-struct MipBake { // with what all of `burnish bake` has
+struct MipBake { // with the options common to `burnish bake`
     const MipArguments& options;
     std::string material, output, preview;
     Limits limits;
     int threads, verbosity;
     bool quiet;
 };
-int run_mip(const MipBake& bake); // the exit code
+int run_mip(const MipBake& bake); // returns the exit code
 
-// Of every level from 1 on two pictures: normals as a normal map has them, and lobes in false colour: red and green the widths' roots
-// (perceptual roughness, 0 to 1) along tangent and bitangent, blue how the axis lies between them (128: along one).
+// Draws two pictures for every level from 1 on. One is the normal map. The other shows lobes: red and green are perceptual roughness
+// [0,1] along tangent and bitangent, blue is the correlation of both (128: axis along one of them).
 Preview mip_pictures(const std::string& material, const MipLevels& levels);
 
-// Names of materials as they may stand in files' names, each once: what is no letter or digit is _, only the first hundred letters count,
-// and a number follows where two are alike.
+// Returns material names for use in file names, without duplicates. Replaces all but letters and digits by _, keeps the first hundred
+// characters, and appends a number to duplicates.
 std::vector<std::string> plain_names(const std::vector<std::string>& materials);
 
 } // namespace burnish

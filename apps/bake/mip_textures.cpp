@@ -66,8 +66,8 @@ Image one_colour(int width, int height, const Image& of)
     return to;
 }
 
-// Levels of base colours times the gains of levels as large, or nearest to that, none of them beyond 1. What has one colour everywhere gets
-// levels of the maps' sizes.
+// Multiplies base-colour levels by the gains of the levels nearest in size. Results stay at most 1, or the base colour if larger. A
+// uniform colour gets levels in the maps' sizes.
 std::vector<Image> with_gains(std::vector<Image> colours, const MipLevels& levels)
 {
     if (levels.gained == 0)
@@ -80,7 +80,7 @@ std::vector<Image> with_gains(std::vector<Image> colours, const MipLevels& level
     }
     for (Image& colour : colours) {
         const auto off = [&](int width, int height) { return std::abs(std::max(colour.width, colour.height) - std::max(width, height)); };
-        float gain = 1.0f; // of level 0
+        float gain = 1.0f; // level 0
         int least = off(levels.width, levels.height);
         for (const MipLevel& level : levels.levels)
             if (off(level.width, level.height) < least)
@@ -103,7 +103,7 @@ Image coded(const Image& unit, bool srgb)
     return to;
 }
 
-// inputs: that are not written over
+// inputs: must not be overwritten
 Status add_file(FileSet& files, const std::string& name, const std::vector<std::uint8_t>& bytes, const std::vector<std::string>& inputs)
 {
     for (const std::string& input : inputs)
@@ -131,10 +131,11 @@ Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const 
 }
 
 struct Off {
-    double at = 0.0, between = 0.0; // texels
+    double at = 0.0, between = 0.0; // at texel centres, between texels
 };
 
-// Errors of shown levels of at most so many texels, each level counting alike, and the one that is worst between texels.
+// Formats mean errors, each level weighted equally, and the level with the worst error between texels. Skips levels above kMostShown
+// texels.
 constexpr std::size_t kMostShown = 1u << 14;
 
 std::string figures_of(const std::string& name, const StandardLevels& held, const MipSource& source, const MipLevels& levels,
@@ -178,6 +179,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
         for (std::size_t i = 0; i < levels.size(); ++i) {
             if (!levels[i])
                 continue;
+            // Make the levels, rounded as the files will hold them
             const Material& m = scene.materials[i];
             const MipSource source = mip_source(scene, m);
             StandardLevels made = standard_levels(source, *levels[i], metallic_levels(scene, m, source, a, jobs), m.metallic);
@@ -196,11 +198,13 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
+            // List the textures to write
             const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a, jobs), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))
                 parts.push_back({"_anisotropy", made.anisotropy, false});
+            // Write them, and measure their errors
             for (const Part& part : parts)
                 if (Status added = add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files);
                     !added)

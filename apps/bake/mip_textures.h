@@ -1,4 +1,4 @@
-// Levels of materials as folders of textures that other programs read.
+// Writes the mip levels of materials as standard textures for other programs.
 #pragma once
 #include <string>
 
@@ -11,11 +11,11 @@ namespace burnish {
 
 struct WrittenTextures {
     std::vector<std::string> files;
-    std::string figures; // lines: what the textures show wrong of their levels
+    std::string figures; // lines: errors of the textures against their levels
 };
 
-// Into a folder, which is made: normals, metallic-roughness, anisotropy where a lobe has any, and base colours, as standard_textures.h has
-// them, by material. On failure nothing of them is left.
+// Makes the folder and writes, for each material, normals, metallic-roughness, base colours and, for anisotropic lobes, anisotropy
+// (standard_textures.h). Leaves no file behind on failure.
 Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
                                            const MipArguments& options, const Jobs& jobs);
 

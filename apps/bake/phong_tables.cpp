@@ -44,7 +44,7 @@ Image albedo_table(double nu, double nv, const PictureSize& size, AzimuthAxis az
         for (int x = 0; x < size.width; ++x, to += 3) {
             const double across = static_cast<double>(x) / std::max(size.width - 1, 1),
                          eye = static_cast<double>(y) / std::max(size.height - 1, 1);
-            const double wide = nu <= nv ? across : 1.0 - across; // off the wide axis, of 90 degrees
+            const double wide = nu <= nv ? across : 1.0 - across; // angle from the wide axis, in units of 90 degrees
             const double root = azimuth == AzimuthAxis::root ? across : std::sqrt(std::max(det_cos(0.5 * kPi * wide), 0.0));
             const PhongAlbedo a = phong_albedo_at(nu, nv, eye, root);
             to[0] = static_cast<float>(a.s), to[1] = static_cast<float>(a.b), to[2] = 0.0f;

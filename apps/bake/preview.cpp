@@ -16,7 +16,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kPreviewSide = 256; // small tables are enlarged to about it
+constexpr int kPreviewSide = 256; // pixels: small tables are enlarged to about this side
 
 std::string preview_path(const std::string& folder, const PreviewPicture& picture)
 {
@@ -33,7 +33,7 @@ std::size_t pixels_of(const Image& image)
     return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
-// Each texel as a square of pixels.
+// Draws each texel as a square of pixels.
 Image enlarged(const Image& image)
 {
     const int times = std::max(kPreviewSide / std::max(image.width, image.height), 1);
@@ -59,7 +59,7 @@ Image in_8_bits(const Image& sixteen)
     return out;
 }
 
-// x, y, z, -1 to 1, of texels of `channels` values.
+// Maps x, y, z from [-1,1] to colours. Texels have `channels` values.
 Image colours_of_vectors(int width, int height, const float* from, std::size_t channels)
 {
     Image out = make_image(width, height, 3, PixelType::u8);
@@ -69,19 +69,19 @@ Image colours_of_vectors(int width, int height, const float* from, std::size_t c
     return out;
 }
 
-// turn: of the colour circle, [0,1); full saturation is the pure colour, none white.
+// turn: position on the colour circle, [0,1). Full saturation gives the pure colour, 0 gives white.
 std::array<double, 3> colour_of_hue(double turn, double saturation)
 {
     std::array<double, 3> rgb{};
     const double sixths[3] = {turn * 6.0, turn * 6.0 + 4.0, turn * 6.0 + 2.0};
     for (std::size_t c = 0; c < 3; ++c) {
-        const double at = sixths[c] - 6.0 * std::floor(sixths[c] / 6.0); // red is around 0
+        const double at = sixths[c] - 6.0 * std::floor(sixths[c] / 6.0); // red lies around 0
         rgb[c] = 1.0 - saturation * (1.0 - std::clamp(std::fabs(at - 3.0) - 1.0, 0.0, 1.0));
     }
     return rgb;
 }
 
-// Level `level` of a cube in the direction (x, y, z), between texels, as radiance.
+// Returns the radiance of a cube level in the direction (x, y, z), interpolated between texels.
 std::array<float, 3> seen_in_cube(const CubeMap& cube, int level, double x, double y, double z)
 {
     const double ax = std::fabs(x), ay = std::fabs(y), az = std::fabs(z), most = std::max({ax, ay, az});
@@ -152,7 +152,7 @@ Status write_preview(const std::string& folder, const Preview& pictures, Report&
 
 Preview preview_of_rotations(const Image& map, RotationEncoding encoding)
 {
-    const Image directions = directions_of_rotations(map, encoding).image; // as it is read back
+    const Image directions = directions_of_rotations(map, encoding).image; // decoded as the renderer decodes it
     const auto* from = reinterpret_cast<const std::uint16_t*>(directions.bytes.data());
     const std::size_t channels = static_cast<std::size_t>(directions.channels);
     Image out = make_image(map.width, map.height, 3, PixelType::u8);

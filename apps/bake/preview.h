@@ -1,4 +1,4 @@
-// What bakers show of what they make (`--preview FOLDER`): pictures of 8 bits to be looked at, which nothing reads back.
+// 8-bit pictures of baked data for inspection (`--preview FOLDER`). No program reads these files back.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,33 +13,33 @@
 namespace burnish {
 
 struct PreviewPicture {
-    std::string name; // of a file, without its extension
+    std::string name; // file name without extension
     Image image;
 };
 using Preview = std::vector<PreviewPicture>;
 
-// Nothing where `folder` is empty. files: that the command reads and writes; a picture may be none of them.
+// Returns success for an empty `folder`. files: paths that the command reads and writes; a picture must not overwrite them.
 Status check_preview(const std::string& folder, const Preview& pictures, const std::vector<std::string>& files);
-// Makes the folder; names each picture in the report.
+// Makes the folder and reports each picture.
 Status write_preview(const std::string& folder, const Preview& pictures, Report& report);
 
-// A map of rotations in one of its encodings: "grain", as --direction-map reads hues: the angle off the tangent is the hue, 180 degrees
-// once around; strength is the saturation.
+// Draws a rotation map as "grain", in the encoding of --direction-map: hue is the angle from the tangent, 180 degrees a circle;
+// saturation is strength.
 Preview preview_of_rotations(const Image& map, RotationEncoding encoding);
-// "normals": the normal map that such a map stands for.
+// Draws "normals": the normal map equivalent to the quaternion map.
 Preview preview_of_quaternions(const Image& map);
-// "half_vectors": x, y and z, -1 to 1; with four channels also "density": its logarithm, a thousandth of the most is black.
+// Draws "half_vectors": x, y and z from -1 to 1. With four channels also "density": its logarithm, black at a thousandth of the maximum.
 Preview preview_of_half_vectors(const Image& table);
-// "albedo": red and green as they are, linear.
+// Draws "albedo": red and green unchanged, linear.
 Preview preview_of_albedo(const Image& table);
-// "radiance_LL", the levels that lobes of alpha_lin LL / (levels - 1) fetch, "irradiance", and with key lights "whole": all around (u grows
-// to the right, the top is up), as a display shows them.
+// Draws "radiance_LL", the level for lobes with alpha_lin LL / (levels - 1), "irradiance" and, with key lights, "whole". Pictures are
+// tonemapped panoramas (u grows to the right, up is at the top).
 Preview preview_of_environment(const Environment& environment);
-// "heights" as they repeat, and "normals": those that heights of `depth`, in lengths of texture coordinates, have.
+// Draws "heights" as they repeat, and "normals" for heights scaled by `depth`, in units of texture coordinates.
 Preview preview_of_heights(const Image& heights, double depth);
-// "m00" to "m22", "nD", "fD": entries, each between its least and its most; theta and within it phi go down, alpha and within it lambda
-// to the right.
+// Draws "m00" to "m22", "nD", "fD": each entry from its minimum to its maximum. Rows are theta and, within theta, phi; columns are alpha
+// and, within alpha, lambda.
 Preview preview_of_ltc(const ltc::Table& table);
-Preview names_of_ltc(); // the same without pictures, before there is a table
+Preview names_of_ltc(); // names of preview_of_ltc() without pictures, before a table exists
 
 } // namespace burnish

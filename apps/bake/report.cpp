@@ -78,7 +78,7 @@ std::vector<Paint> colours(const std::vector<double>& values, double most)
 {
     Image image = make_image(static_cast<int>(values.size()), 1, 1, PixelType::f32);
     for (std::size_t i = 0; i < values.size(); ++i)
-        image.f32()[i] = static_cast<float>(0.95 * std::clamp(values[i] / most, 0.0, 1.0)); // the last tints are too pale on paper
+        image.f32()[i] = static_cast<float>(0.95 * std::clamp(values[i] / most, 0.0, 1.0)); // the last colours are too pale on paper
     const Image mapped = magma_map(image);
     std::vector<Paint> paints;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -132,8 +132,8 @@ void draw_map(Drawing& out, const LtcQuality& quality, int across, int up, doubl
     out.text(x - 48.0, y + kSide / 2.0, "title middle", kAxes[up], -90.0);
 }
 
-// What was measured of the authors' own table (KT et al. 2022), on lists of as many lobes spread in the same way, not on these: best is
-// the floor of its list. NaN: not known.
+// Figures measured for the authors' own table (KT et al. 2022), on other lobe lists with equal size and distribution. best: the part's
+// lower bound. NaN: unknown.
 struct PublishedFigures {
     const char* part;
     double l1, p95, most, best, light, light_p95, absolute, all_relative;

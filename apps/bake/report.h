@@ -1,4 +1,4 @@
-// What a table of transformed cosines is worth, as figures and as a drawing.
+// Quality report of an LTC table: error statistics and a drawing.
 #pragma once
 #include <string>
 #include <utility>
@@ -11,14 +11,14 @@
 
 namespace burnish {
 
-// Figures of a list of lobes, or of a part of one.
+// Statistics over a lobe list, or over a part.
 struct LtcFigures {
     const char* name; // "all", "grazing", ...
     std::size_t lobes = 0;
     ltc::Spread l1, best_l1, with_pairs, light_relative, light_absolute, all_relative, grazing_absolute;
 };
 
-// How far samples scatter, of a part of the list: see ltc::Sampled.
+// Sampler variance over a part: see ltc::Sampled.
 struct LtcSampling {
     const char* name;
     std::size_t lights = 0; // with enough light to be counted
@@ -28,20 +28,20 @@ struct LtcSampling {
 struct LtcQuality {
     std::vector<LtcFigures> parts;
     std::vector<LtcSampling> sampling;
-    std::size_t probes = 0, broken = 0; // lookups, and those without a positive determinant
+    std::size_t probes = 0, broken = 0; // lookups; lookups without a positive determinant
     std::vector<double> l1_of_cells;    // see ltc::l1_of_cells
-    ltc::Grid grid;                     // whose cells they are
+    ltc::Grid grid;                     // grid of these cells
     int cosines = 1;
     ltc::Model model = ltc::Model::ggx;
 };
 
-// cosines: 2: also the nearest sums of two, see ltc::judge().
+// cosines: 2 also judges the nearest sums of two cosines, see ltc::judge().
 LtcQuality measure_ltc(const ltc::Table& table, int cosines, const Jobs& jobs);
 
-std::string ltc_lines(const LtcQuality& quality); // a line a part, of GGX with what is known of the published table below
+std::string ltc_lines(const LtcQuality& quality); // one line a part; for GGX also the figures known of the published table
 Json ltc_json(const LtcQuality& quality, const ltc::Table& table);
 
-// Mean L1 over each pair of axes, darker where there is more.
+// Draws mean L1 over each pair of axes, darker for larger errors.
 Drawing plot_ltc_quality(const LtcQuality& quality);
 
 } // namespace burnish

@@ -15,23 +15,23 @@ namespace {
 
 constexpr std::size_t kLobes = 64;
 constexpr int kSizes[] = {8, 12, 16, 64};
-constexpr int kMostDrawn = 16;  // nodes along an axis: a ball needs a thousand of finer ones
-constexpr int kBallPixels = 56; // pixels of a ball
+constexpr int kMostDrawn = 16;  // nodes along an axis: a ball touches thousands of finer nodes
+constexpr int kBallPixels = 56; // pixels along a ball's side
 constexpr double kAlpha = 0.45, kLambda = 0.2;
 
 using ltc::Vec;
 using Quad = std::vector<Vec>;
 
-// Strips beside a ball about 0, seen from along z.
+// Light strips beside a unit ball at the origin, seen along z.
 constexpr Vec kStrips[2][4] = {{{-1.6, 1.2, 2.2}, {-1.2, 1.2, 2.2}, {-1.2, -1.2, 2.2}, {-1.6, -1.2, 2.2}},
                                {{0.3, 2.0, -1.0}, {0.7, 2.0, -1.0}, {0.7, 2.0, 1.5}, {0.3, 2.0, 1.5}}};
 
-struct Pixel { // of the ball: its lobe, and the strips from there in the lobe's frame
+struct Pixel { // a ball pixel: its lobe, and the strips in the lobe's frame
     ltc::Place place;
     Quad strips[2];
 };
 
-// The grain runs along circles about y. Lobes are mirrored into the table's quadrant, and what they see with them.
+// The grain runs along circles about y. Mirrors each lobe and its strips into the table's quadrant.
 Pixel pixel_at(double x, double y)
 {
     const Vec n = {x, y, std::sqrt(1.0 - x * x - y * y)}, tangent = ltc::unit({n.z, 0.0, -n.x}), bitangent = ltc::cross(n, tangent);
@@ -55,9 +55,9 @@ double light_by(const ltc::Matrix& m, const Pixel& pixel)
 
 struct Ball {
     std::vector<Pixel> pixels;
-    std::vector<std::size_t> at; // in the picture
+    std::vector<std::size_t> at; // pixel index in the picture
     std::vector<ltc::Matrix> exact;
-    std::vector<double> light; // of the lobes themselves
+    std::vector<double> light; // reflected by the lobes themselves
 };
 
 Ball make_ball(const Jobs& jobs)
@@ -81,7 +81,7 @@ Ball make_ball(const Jobs& jobs)
     return ball;
 }
 
-// of_lobes, of_pixels: matrices; the latter may be none.
+// of_lobes, of_pixels: one matrix a lobe and a ball pixel; of_pixels may be empty.
 LtcResolution row_of(const std::string& name, const std::vector<ltc::Place>& places, const std::vector<ltc::Matrix>& of_lobes,
                      const Ball& ball, const std::vector<ltc::Matrix>& of_pixels, const Jobs& jobs)
 {
@@ -105,7 +105,7 @@ LtcResolution row_of(const std::string& name, const std::vector<ltc::Place>& pla
     return row;
 }
 
-// Cells of one shade in a row are one rectangle. white: the value that is drawn white.
+// Draws cells, with runs of one shade as one rectangle. white: the value drawn white.
 void draw_pixels(Drawing& out, const std::vector<double>& values, double x, double y, double side, double white)
 {
     const double cell = side / kBallPixels;

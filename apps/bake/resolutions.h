@@ -1,4 +1,4 @@
-// What finer tables of transformed cosines would gain: KT, Heitz, Dupuy, Narasimhan 2022, figure 12.
+// Estimates the gain of finer LTC tables: KT, Heitz, Dupuy, Narasimhan 2022, figure 12.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,20 +11,21 @@
 namespace burnish {
 
 struct LtcResolution {
-    std::string name;                  // of a row: "this table", "8 nodes", ..., "exact"
-    ltc::Spread l1, light_relative;    // over lobes, the same for all rows
-    std::vector<double> pixels, apart; // of the drawn ball, light over radiance, and its distance from GGX's; empty: not drawn
+    std::string name;                  // row name: "this table", "8 nodes", ..., "exact"
+    ltc::Spread l1, light_relative;    // over the lobes, common to all rows
+    std::vector<double> pixels, apart; // the drawn ball: lighting over radiance, and its distance from GGX lighting; empty: not drawn
     double mean_apart = 0.0;           // over the ball
 };
 
 struct LtcResolutions {
     std::size_t lobes = 0;
-    std::vector<double> reference; // of the ball, rows from the top; NaN: beside it
+    std::vector<double> reference; // the ball, rows from the top; NaN: outside it
     std::vector<LtcResolution> rows;
 };
 
-// The table, tables of 8, 12, 16 and 64 nodes along an axis of which only those around the lobes are fitted, each alone, and the nearest
-// cosine to each lobe: on lobes spread over all, and as a brushed ball under two strips; 64 on the lobes only. Of GGX.
+// Compares, for GGX: the given table, tables with 8, 12, 16 and 64 nodes an axis, and the nearest cosine of each lobe. Fits only the
+// nodes around the tested lobes, each node independently. Tests lobes spread over the domain and a brushed ball under two strips; 64
+// nodes on lobes alone.
 LtcResolutions measure_resolutions(const ltc::Table& table, const Jobs& jobs);
 
 std::string resolution_lines(const LtcResolutions& all); // a line a row

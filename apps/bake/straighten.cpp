@@ -9,7 +9,7 @@ namespace burnish {
 namespace {
 
 constexpr int kGutter = 16;      // texels around an island
-constexpr double kMostTurns = 8; // of the texture over one triangle
+constexpr double kMostTurns = 8; // texture repeats over one triangle
 
 glm::dvec3 point_of(const float* p)
 {
@@ -47,7 +47,7 @@ class Painter {
             }
     }
 
-    // Texels beside painted ones take their mean.
+    // Gives texels beside painted ones the mean of those neighbours.
     void grow()
     {
         const std::vector<std::uint8_t> before = painted_;
@@ -65,7 +65,7 @@ class Painter {
             }
     }
 
-    // Half of the double angles.
+    // Writes directions at half of the stored double angles.
     void put(float* to) const
     {
         for (std::size_t i = 0; i < painted_.size(); ++i, to += 3) {
@@ -100,7 +100,7 @@ class Painter {
         const glm::dvec3 b = glm::cross(n, t) * static_cast<double>(corner[0]->tangent[3]);
         const double x = glm::dot(t, direction_), y = glm::dot(b, direction_), length2 = x * x + y * y;
         ++covered;
-        if (!(length2 > 1e-6)) { // NaN of a frame that has collapsed, too
+        if (!(length2 > 1e-6)) { // also true for NaN of a degenerate frame
             ++without;
             return;
         }
@@ -109,7 +109,7 @@ class Painter {
 
     PictureSize size_;
     glm::dvec3 direction_;
-    std::vector<double> cosine_, sine_; // of twice the angle
+    std::vector<double> cosine_, sine_; // of double angles
     std::vector<std::uint8_t> painted_;
 };
 

@@ -1,4 +1,4 @@
-// Maps of rotations that lay the grain of a mesh along one direction of space.
+// Makes rotation maps that align a mesh's grain with one direction in space.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -9,12 +9,12 @@
 namespace burnish {
 
 struct Straightened {
-    Image directions;                                // 3 floats a texel, as encoded_rotations() takes them
-    std::size_t covered = 0, without = 0, twice = 0; // texels on the mesh; where the direction is along the normal; in two triangles
+    Image directions;                                // 3 floats a texel, as input to encoded_rotations()
+    std::size_t covered = 0, without = 0, twice = 0; // texels on the mesh; with the direction along the normal; in two triangles
 };
 
-// The direction's part in the surface, along tangent and bitangent of the mesh's first texture coordinates. Around islands it goes on for
-// some texels, for filters. Of texels in two triangles the first counts; what no triangle is near lies along the tangent.
+// Projects the direction into the surface, along tangent and bitangent of the first texture coordinates. Extends islands by some texels,
+// for filters. The first triangle on a texel counts; texels far from the mesh point along the tangent.
 Straightened straighten(const DrawTables& tables, const glm::vec3& direction, const PictureSize& size);
 
 } // namespace burnish

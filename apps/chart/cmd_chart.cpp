@@ -1,4 +1,4 @@
-// `burnish chart`: what every technique costs and what it gets wrong, as figures, as charts, as a page.
+// `burnish chart`: speed and errors of every technique, as figures, charts and a page.
 #include <fmt/core.h>
 #include <map>
 #include <memory>
@@ -68,7 +68,7 @@ Status write_report(const ChartReport& chart, const Keeper& keeper, Report& repo
     return {};
 }
 
-// The models that mip filters are measured under: the one that is asked for, or all three.
+// Returns the models to measure mip filters under: the requested model, or all three.
 Result<std::vector<mipnet::Lobe>> measured_lobes(const RenderArguments& in, const OptionTable& given)
 {
     std::vector<mipnet::Lobe> lobes = {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley};
@@ -145,7 +145,7 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
         return fail(measured.error());
     if (measured->stopped) {
         report.event("stopped", fmt::format("the same command goes on from {}; no report was written", keeper->file("rows.json")));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const ChartReport& chart = measured->report;
     for (const ChartRow& row : chart.rows)

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxKeptBytes = 256ull << 20;
 constexpr std::chrono::milliseconds kSaveEvery{300};
 
-// Whether a file has the name of a chart: NAME-NUMBER.svg or .png.
+// True for file names of charts: NAME-NUMBER.svg or .png.
 bool is_chart(const std::string& file)
 {
     const std::size_t dot = file.rfind('.'), dash = file.rfind('-');
@@ -28,7 +28,7 @@ bool is_chart(const std::string& file)
            (name == "time-flip" || name == "samples-flip" || name == "samples-time" || name.rfind("heat-", 0) == 0);
 }
 
-// Whether a file has the name of a row's picture or a reference's: KEY-SETTINGS.jpg.
+// True for file names of row pictures and reference pictures: KEY-SETTINGS.jpg.
 bool is_picture(const std::string& file)
 {
     constexpr std::size_t kDigits = 16;
@@ -45,7 +45,7 @@ Result<Keeper> Keeper::open(const std::string& folder, Report& report)
     for (const std::string& needed : {folder, folder + "/pictures"})
         BN_TRY(make_output_folder(needed));
     const std::string path = keeper.file("rows.json");
-    std::error_code ignored; // reading says what is wrong
+    std::error_code ignored; // read_file() reports the reason
     if (fs::status(path, ignored).type() == fs::file_type::not_found)
         return keeper;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxKeptBytes);
@@ -81,7 +81,7 @@ void Keeper::remove_stale(const std::set<std::string>& used) const
                 stale.push_back(at->path());
         }
         for (const fs::path& path : stale)
-            fs::remove(path, ignored); // what cannot be removed does no harm
+            fs::remove(path, ignored); // a leftover file does no harm
     }
 }
 

@@ -1,4 +1,4 @@
-// REPORT_DIR while a chart is made: rows.json with what has been measured, and the pictures.
+// REPORT_DIR while a chart is made: rows.json with the measurements so far, and the pictures.
 #pragma once
 #include <chrono>
 #include <set>
@@ -11,17 +11,17 @@ namespace burnish {
 
 class Keeper {
   public:
-    // Makes the folder where needed and reads the rows of an earlier run; a file that holds something else is told and left behind.
+    // Makes the folder if needed and reads the rows of an earlier run. Reports an unreadable rows.json and starts anew.
     static Result<Keeper> open(const std::string& folder, Report& report);
 
     Measured& row(const std::string& key) { return kept_.rows[key]; }
     std::map<std::string, ReferenceNoise>& references() { return kept_.references; }
     std::optional<double>& others() { return kept_.others; }
-    Status save();           // now
-    Status save_sometimes(); // unless that was a moment ago
+    Status save();           // at once
+    Status save_sometimes(); // if the last save is some time ago
     std::string picture(const std::string& name) const { return folder_ + "/pictures/" + name + ".jpg"; }
     std::string file(const std::string& name) const { return folder_ + "/" + name; }
-    // Removes charts and pictures of earlier reports that are not among `used` (whole paths), and nothing that has not their names.
+    // Removes charts and pictures of earlier reports that are not among `used` (full paths). Leaves files with other names alone.
     void remove_stale(const std::set<std::string>& used) const;
 
   private:

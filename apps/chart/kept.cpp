@@ -1,4 +1,4 @@
-// What is read back of an earlier run.
+// Reads the measurements of an earlier run.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,20 +13,20 @@ double number_of(const nlohmann::json& json)
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-// Times of a row, or nothing where one of them is none.
+// True if every entry is a valid time in milliseconds.
 bool are_times(const std::vector<double>& ms)
 {
     return std::all_of(ms.begin(), ms.end(), [](double x) { return x >= 0.0 && x < 1e12; });
 }
 
-bool is_error_or_unknown(double x) // NaN where there is none
+bool is_error_or_unknown(double x) // NaN: unknown
 {
     return !(x < 0.0);
 }
 
 std::uint64_t count_of(const nlohmann::json& json)
 {
-    return json.get_ref<const nlohmann::json::number_unsigned_t&>(); // throws where it is no whole number, or too large for one
+    return json.get_ref<const nlohmann::json::number_unsigned_t&>(); // throws for negative, fractional and too large numbers
 }
 
 } // namespace

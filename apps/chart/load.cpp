@@ -27,7 +27,7 @@ std::optional<std::pair<double, double>> ticks_of(const std::string& proc_stat)
     words >> name;
     double all = 0.0, idle = 0.0, ticks = 0.0;
     int count = 0;
-    // user nice system idle iowait irq softirq steal; guests' time is in user's already
+    // Fields: user nice system idle iowait irq softirq steal. User time includes guest time.
     for (; count < 8 && words >> ticks; ++count) {
         all += ticks;
         idle += count == 3 || count == 4 ? ticks : 0.0;
@@ -55,7 +55,7 @@ void LoadMeter::end()
 
 std::optional<double> LoadMeter::others() const
 {
-    constexpr double kLeast = 0.2; // seconds of a core: ticks are coarse
+    constexpr double kLeast = 0.2; // core seconds: ticks are coarse
     if (all_s_ < kLeast)
         return std::nullopt;
     return std::clamp((busy_s_ - own_s_) / all_s_, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// How busy other programs keep the machine.
+// CPU load by other programs.
 #pragma once
 #include <optional>
 #include <string>
@@ -6,15 +6,15 @@
 
 namespace burnish {
 
-// Ticks that all cores have been busy, and all ticks, of the text of /proc/stat (proc(5)); none where it says nothing of the kind.
+// Returns {busy ticks, all ticks} over all cores, from the text in /proc/stat (proc(5)), or none if the text has another format.
 std::optional<std::pair<double, double>> ticks_of(const std::string& proc_stat);
 
-// Adds up over the times between begin() and end().
+// Sums the load over the times between begin() and end().
 class LoadMeter {
   public:
     void begin();
     void end();
-    // Mean share of the cores that other programs took, [0, 1]; none where this machine does not tell, or nothing was measured.
+    // Returns the mean share of the cores that other programs took, [0,1]. None without /proc/stat, or after too short a time.
     std::optional<double> others() const;
 
   private:

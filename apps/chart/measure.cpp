@@ -33,13 +33,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a file its name, whatever folders it lies in: lines stay short.
+// Strips the folders from a file name, to keep lines short.
 std::string base_name(const std::string& name)
 {
     return fs::path(name).filename();
 }
 
-// ", +- 1.2 %"; nothing where too few samples tell nothing.
+// Formats ", +- 1.2 %". Empty if too few samples give no estimate.
 std::string error_text(double relative_error)
 {
     return std::isfinite(relative_error) ? fmt::format(", +- {:.2g} %", 100.0 * relative_error) : "";
@@ -53,18 +53,18 @@ class Chart {
     {
     }
     Status load_all();
-    Status measure(); // ends early, without an error, where a signal came
+    Status measure(); // returns early, without an error, after a signal
     bool stopped() const { return stop_.load(); }
     ChartReport take();
 
   private:
-    struct Place { // where rows are compared with each other
+    struct Place { // rows of one place are compared with each other
         const SeenScene& scene;
         Session& tile;
-        FrameDesc desc; // of the pictures that are compared, but for technique and samples
+        FrameDesc desc; // for the compared pictures, without technique and samples
         std::string env;
         Cell cell;
-        std::uint64_t key = 0; // of scene, environment, view and overrides
+        std::uint64_t key = 0; // hash of scene, environment, view and overrides
     };
     Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
@@ -84,14 +84,14 @@ class Chart {
     std::vector<Setting> settings_;
     std::vector<SeenScene> scenes_;
     std::vector<std::shared_ptr<const Environment>> environments_;
-    std::uint64_t program_ = program_hash(); // rows of an older program are not this one's: the kernels may have changed
+    std::uint64_t program_ = program_hash(); // ignores rows of other builds: their kernels may differ
     int picture_width_ = 0;
     std::unique_ptr<Progress> progress_;
     LoadMeter load_; // while frames are timed
     ChartReport out_;
 };
 
-// Everything is read before anything is measured: a wrong last file shall not cost minutes.
+// Reads every file before measuring: an unreadable last file must not cost minutes.
 Status Chart::load_all()
 {
     for (const std::string& name : options_.scenes) {
@@ -148,6 +148,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
     for (std::size_t i = 0; i < options_.cells.size(); ++i) {
         RenderOptions options = options_.cell_options[i];
         options.scene = scene.data->name;
+        // Make the swept parts of the session anew
         if (options_.sweeps_environments || options_.sweeps_scenes) {
             SessionParts parts = tile->parts();
             if (options_.sweeps_environments) {
@@ -164,6 +165,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
             BN_TRY(next);
             *tile = std::move(*next);
         }
+        // Measure the place, and save
         const Result<ChosenView> view = choose_view(options, tile->scene(), tile->tables());
         BN_TRY(view);
         Place place{scene, *tile, options.frame, env, options_.cells[i]};
@@ -183,12 +185,14 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
 Status Chart::measure_place(const Place& place)
 {
     const Activity activity(fmt::format("{}, {}", place.scene.data->name, describe(place.cell)));
+    // Find rows without errors
     std::vector<ChartRow> rows;
-    bool complete = true; // nothing is left to be compared with the reference
+    bool complete = true; // every row has been compared with the reference
     for (const Setting& setting : settings_) {
         rows.push_back(new_row(place, setting));
         complete = complete && rows.back().measured.has_errors;
     }
+    // Render the reference and compare, unless all is kept
     const std::string kept_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
     complete = complete && keeper_.references().count(kept_reference);
     const std::string picture = keeper_.picture(
@@ -213,6 +217,7 @@ Status Chart::measure_place(const Place& place)
         progress_->step(rows.size());
     }
     out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
+    // Time the rows
     load_.begin();
     const Status timed = time_rows(place, rows);
     load_.end();
@@ -260,7 +265,7 @@ FrameDesc Chart::timed_desc_of(const Place& place, const Setting& setting) const
     return desc;
 }
 
-// The row with what was kept of it, but no errors where their pictures are gone.
+// Makes the row from kept measurements. Drops its errors if their pictures are gone.
 ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
@@ -319,8 +324,8 @@ Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& 
     return keeper_.save_sometimes();
 }
 
-// Round robin, every other round backwards: what slows the machine down for a while slows all settings, and none always follows the
-// same neighbour.
+// Times all settings in turn, every other round in reverse order. A slow phase of the machine then slows all settings, and no setting
+// always follows the same neighbour.
 Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
 {
     const std::size_t runs = static_cast<std::size_t>(options_.runs);
@@ -330,7 +335,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             order.push_back(i);
     progress_->step((rows.size() - order.size()) * runs);
     Frame last;
-    for (const std::size_t i : order) { // warm
+    for (const std::size_t i : order) { // warm-up
         if (stopped())
             return {};
         Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
@@ -359,7 +364,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
     for (ChartRow& row : rows) {
         const Measured& kept = keeper_.row(row.key);
         row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
-        row.measured.ms.resize(runs); // an earlier chart may have asked for more
+        row.measured.ms.resize(runs); // an earlier chart may have had more runs
         row.measured.cpu_ms.resize(runs);
     }
     return {};

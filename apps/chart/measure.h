@@ -1,5 +1,5 @@
-// Renders and times what a chart shows: a reference and every setting at each place, which is a scene under an environment, its
-// surfaces overridden or not.
+// Renders and times a chart: the reference and every setting at each place. A place is a scene, an environment and optional overrides
+// of the surfaces.
 #pragma once
 #include <memory>
 
@@ -11,7 +11,7 @@ namespace burnish {
 
 struct MeasuredChart {
     ChartReport report;
-    bool stopped = false; // by a signal, with everything kept; the report is not complete
+    bool stopped = false; // by a signal; all rows are kept, the report is incomplete
 };
 
 Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, Keeper& keeper, Report& report);

@@ -20,7 +20,7 @@ namespace {
 
 using mipnet::Texels;
 
-struct TexelMaps { // of a material, as scenes have them
+struct TexelMaps { // textures of a material, as in a scene file
     Image normal, roughness, direction;
     MipMaps maps() const
     {
@@ -48,7 +48,7 @@ TexelMaps maps_of_texels(const Texels& t)
     return maps;
 }
 
-// What frames make of maps that are averaged each by itself: normal, roughness, s^2 d d^T, s^4 d d^T; and of slopes and their products.
+// Quantities that the renderer averages independently: normal, roughness, s^2 d d^T, s^4 d d^T, slopes and products of slopes.
 constexpr std::size_t kMeans = 15;
 using Means = std::array<float, kMeans>;
 
@@ -112,7 +112,7 @@ std::vector<Texels> map_by_map(const TexelMaps& maps, bool lean)
 
 struct FilteredLevels {
     std::vector<Texels> texels;
-    std::vector<float> gains; // empty: none
+    std::vector<float> gains; // empty: no gains
 };
 
 FilteredLevels levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe lobe, bool metal, const MipRowOptions& options,
@@ -135,14 +135,14 @@ std::string family_of(const mipnet::TestMaterial& m)
     return m.set == "real" || m.set == "crossed" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
 }
 
-// Of what baseline gets wrong more than the teacher; where that is next to nothing, none of it.
+// Returns the closed share of the L1 gap between baseline and teacher. None if the gap is negligible.
 std::optional<double> gap_closed(double l1, double baseline, double teacher)
 {
-    constexpr double kLeastGap = 0.02; // of baseline's
+    constexpr double kLeastGap = 0.02; // relative to baseline's L1
     return baseline - teacher > kLeastGap * baseline ? std::optional((baseline - l1) / (baseline - teacher)) : std::nullopt;
 }
 
-// baseline's mean L1 by set, model and material says which are hard.
+// Ranks materials by baseline's mean L1, within each set and model.
 void mark_hardest(std::vector<MipRow>& rows)
 {
     std::map<std::pair<std::string, std::string>, std::map<std::string, double>> of;
@@ -176,6 +176,7 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             std::vector<std::vector<Texels>> filters;
             std::vector<std::vector<float>> gains;
             std::vector<double> ms;
+            // Filter the material by every filter
             for (std::size_t f = 0; f < mip_filters().size(); ++f) {
                 const double begin = wall_ms();
                 FilteredLevels levels = levels_by(static_cast<MipFilter>(f), maps, lobe, m.material.metal, options, jobs);
@@ -190,12 +191,14 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
             for (const MipFilterInfo& filter : mip_filters())
                 names.emplace_back(filter.name);
             const ShownSurface surface = shown_surface(lobe, m.material.metal);
+            // Crossed grain: search two lobes a texel
             if (m.set == "crossed") {
                 const double begin = wall_ms();
                 LobePairs pairs = taught_pairs(level0, filters[static_cast<std::size_t>(kMipFilter_teacher)], surface, jobs);
                 filters.push_back(std::move(pairs.first)), second.push_back(std::move(pairs.second));
                 ms.push_back(wall_ms() - begin), names.emplace_back("two lobes");
             }
+            // Compare all levels with level 0
             const auto errors = judged_errors(level0, filters, surface, jobs, {}, second, gains);
             for (std::size_t f = 0; f < filters.size(); ++f)
                 for (std::size_t l = 0; l < kMipRowLevels; ++l)
@@ -215,7 +218,7 @@ Json mip_rows_json(const std::vector<MipRow>& rows)
         Json row = {{"set", r.set},           {"family", r.family}, {"material", r.material}, {"brdf", r.brdf},
                     {"mip_filter", r.filter}, {"level", r.level},   {"hardest", r.hardest},   {"flip", r.error.flip},
                     {"l1", r.error.l1},       {"mse", r.error.mse}, {"light", r.error.light}, {"ms", r.ms}};
-        if (r.error.flip == 0.0) // too small a square
+        if (r.error.flip == 0.0) // the level is too small for FLIP
             row["flip"] = nullptr;
         if (r.gap)
             row["gap"] = *r.gap;
@@ -242,7 +245,7 @@ std::string mip_summary(const std::vector<MipRow>& rows)
         double flip = 0.0, l1 = 0.0, mse = 0.0, light = 0.0, farthest = 0.0;
         int flips = 0, count = 0;
     };
-    std::vector<std::pair<std::string, std::string>> order; // of what, filter
+    std::vector<std::pair<std::string, std::string>> order; // group, filter
     std::map<std::pair<std::string, std::string>, Sum> sums;
     const auto add = [&](const std::string& what, const MipRow& r) {
         const std::pair key(what, r.filter);

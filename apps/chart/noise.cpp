@@ -13,7 +13,7 @@
 namespace burnish {
 namespace {
 
-// A normal deviate of a pixel (Box, Muller 1958).
+// Returns a standard normal deviate for a pixel (Box and Muller 1958).
 double deviate(std::uint64_t pixel, std::uint32_t seed)
 {
     const std::uint64_t key[2] = {pixel, seed}, bits = hash_bytes(key, sizeof key);

@@ -13,7 +13,7 @@ namespace burnish {
 namespace {
 
 constexpr double kMaxCells = 10000.0;
-constexpr int kUsualErrorWidth = 480; // pixels: a reference of thousands of samples a pixel in a minute or two on two cores
+constexpr int kUsualErrorWidth = 480; // pixels: references with thousands of samples stay affordable
 
 Value sweeps(Sweeps& to)
 {
@@ -38,10 +38,10 @@ Status check_lobes(const FrameDesc& frame, const std::vector<std::string>& techn
     return {};
 }
 
-// The options of every cell, checked as `burnish render` does.
+// Checks the options of every cell as `burnish render` does.
 Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
 {
-    if (const double count = cell_count(out.sweeps); count > kMaxCells) // before they take memory
+    if (const double count = cell_count(out.sweeps); count > kMaxCells) // before the cells take memory
         return usage_error("--sweep", fmt::format("{:.0f} places under each environment, more than {:.0f}", count, kMaxCells));
     out.cells = cells_of(out.sweeps);
     for (const Cell& cell : out.cells) {
@@ -85,7 +85,7 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
     return {};
 }
 
-// All scenes and environments go through the checks of `burnish render`, one pair after another.
+// Checks every pair of scene and environment as `burnish render` does.
 Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOptions& out)
 {
     RenderArguments arguments = in.render;
@@ -101,7 +101,7 @@ Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOpti
     return check_lobes(out.base.frame, out.techniques);
 }
 
-// The same view in fewer pixels: sides in one proportion, but for what rounding to whole pixels needs.
+// Checks that the compared pictures show the same view: the same aspect ratio, up to rounding to whole pixels.
 Status check_error_size(const PictureSize& size, bool given, ChartOptions& out)
 {
     const FrameDesc& frame = out.base.frame;

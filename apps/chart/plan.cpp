@@ -11,8 +11,8 @@
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxSamples = 65536; // as of `burnish render`
-constexpr std::size_t kMaxValues = 64;      // of one sweep: more is a slip of the keyboard
+constexpr std::int64_t kMaxSamples = 65536; // as in `burnish render`
+constexpr std::size_t kMaxValues = 64;      // in one sweep: more is a typing error
 constexpr int kUsualSamples[] = {1, 2, 4, 8, 16, 32, 64};
 
 Error sweep_error(const std::string& reason)
@@ -31,7 +31,7 @@ Status read_numbers(const std::vector<std::string>& texts, double low, double hi
     for (const std::string& text : texts) {
         const Result<double> value = parse_number("--sweep", text, low, high);
         BN_TRY(value);
-        add_once(into, static_cast<float>(*value) + 0.0f); // -0 is 0
+        add_once(into, static_cast<float>(*value) + 0.0f); // turns -0 into 0
     }
     return {};
 }
@@ -115,7 +115,7 @@ std::vector<Cell> cells_of(const Sweeps& sweeps)
     for (const std::optional<float>& r : roughness)
         for (const std::optional<float>& a : anisotropy)
             cells.push_back({r, a});
-    for (const Sweeps::Named& named : sweeps.others) { // each cell so far with each value
+    for (const Sweeps::Named& named : sweeps.others) { // extends each cell by each value
         std::vector<Cell> more;
         for (const Cell& cell : cells)
             for (const std::string& value : named.values) {

@@ -1,4 +1,4 @@
-// What `burnish chart` measures: the techniques, how many samples each takes, and the surfaces that it is tried on.
+// The plan of `burnish chart`: techniques, their sample counts, and the surfaces they are tried on.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace burnish {
 
-struct Sweeps {    // values in the order given, each once; empty: not swept
-    struct Named { // any other option of the picture
+struct Sweeps {    // values in the order given, without repeats; empty: no sweep
+    struct Named { // any other picture option
         std::string option;
         std::vector<std::string> values;
     };
@@ -19,29 +19,29 @@ struct Sweeps {    // values in the order given, each once; empty: not swept
     std::vector<Named> others;
 };
 
-// "samples=1,2,4", "roughness=0.1,0.5", "anisotropy=-0.9,0,0.9" or NAME=VALUES of another option into its list; values that have commas
-// are kept apart by colons. Each list may be given once. Whether NAME is an option, and what it takes, is not looked at.
+// Parses "samples=1,2,4", "roughness=0.1,0.5", "anisotropy=-0.9,0,0.9" or NAME=VALUES into the option's list. Values with commas inside
+// are separated by colons. Each list may be given once. Does not check NAME or its values against the option table.
 Status parse_sweep(const std::string& text, Sweeps& into);
 
 struct Setting {
     std::string technique;
     int samples = 1;
-    bool sampled = false; // the technique takes samples at all
+    bool sampled = false; // the technique takes samples
 };
-// Without a sweep of samples: the technique's own number and powers of two around it. Numbers that a technique rounds to the same
-// one give one setting. By technique in the order given, then by samples.
+// Returns the settings by technique in the order given, then by samples. Without a sweep, samples are the technique's default and powers
+// of two around it. Counts that a technique rounds to the same number give one setting.
 std::vector<Setting> settings_of(const std::vector<std::string>& techniques, const std::vector<int>& samples);
 
-struct Cell {                                                     // what a place has of its own
-    std::optional<float> roughness, anisotropy;                   // overrides of every material; empty: as the scene has it
-    std::vector<std::pair<std::string, std::string>> others = {}; // options that are swept besides, with their values
+struct Cell {                                                     // surface overrides at a place
+    std::optional<float> roughness, anisotropy;                   // for every material; empty: the scene's own value
+    std::vector<std::pair<std::string, std::string>> others = {}; // further swept options and their values
     bool operator==(const Cell&) const = default;
 };
 std::vector<Cell> cells_of(const Sweeps& sweeps);
-double cell_count(const Sweeps& sweeps); // how many that would be
+double cell_count(const Sweeps& sweeps); // size of cells_of(), without making them
 std::string describe(const Cell& cell);  // "roughness 0.2, anisotropy 0.9, axis-k 2", or "the scene's own surfaces"
 
-// The setting that stands for a technique where only one can be shown: of `samples` the one nearest to the technique's own number.
+// Returns the sample count to show for a technique if there is room for one: the count of `samples` nearest to the technique's default.
 int representative_samples(const std::string& technique, const std::vector<int>& samples);
 
 } // namespace burnish

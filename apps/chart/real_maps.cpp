@@ -47,6 +47,7 @@ Found look_into(const fs::path& folder)
 
 Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& folder, const Limits& limits)
 {
+    // List the folders
     std::vector<fs::path> folders;
     std::error_code failed, ignored;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
@@ -60,6 +61,7 @@ Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& fold
         const Found found = look_into(path);
         if (found.normal.empty())
             continue;
+        // Read the maps; those with another size than the normal map are skipped
         const Result<Image> normal = read_image(found.normal, limits);
         BN_TRY(normal);
         std::optional<Image> roughness, metallic;
@@ -71,6 +73,7 @@ Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& fold
             if (read->width == normal->width && read->height == normal->height)
                 *image = std::move(*read);
         }
+        // Choose the square in the middle
         int side = 256;
         while (side > std::min(normal->width, normal->height))
             side /= 2;
@@ -79,6 +82,7 @@ Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& fold
         mipnet::TestMaterial m = {{path.filename().string(), mipnet::make_texels(side, side), false}, "real"};
         const int x0 = (normal->width - side) / 2, y0 = (normal->height - side) / 2;
         double metal = 0.0;
+        // Convert its texels
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 const std::size_t at =

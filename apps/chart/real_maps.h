@@ -1,4 +1,4 @@
-// Materials of pictures, to judge mipmaps by: folders with a normal map, and where they have them a roughness and a metallic map.
+// Photographed materials for tests of mip filters: folders with a normal map and optional roughness and metallic maps.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,8 +9,10 @@
 
 namespace burnish {
 
-// Each folder of `folder`, by name: the middle of its normal map, 256 x 256 texels or the largest power of two that fits. Files are known
-// by their names: "nor" or "normal"; "rough", or "orm" and "arm", whose green is roughness; "metal". A roughness that no file gives is .35.
+// Returns one material for each folder in `folder` with a normal map, sorted by name. Each is the middle of the map, 256 x 256 texels or
+// the
+// largest power of two that fits, 32 at least. File names tell the maps apart: "norm" or "_nor_"; "rough", or "_orm" and "_arm" with
+// roughness in green; "metal". Roughness is 0.35 without a file of the normal map's size.
 Result<std::vector<mipnet::TestMaterial>> real_materials(const std::string& folder, const Limits& limits);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// References as charts and the atlas have them: kept, so that each is made once.
+// References for charts and the atlas, kept on disk and made once.
 #pragma once
 #include <string>
 
@@ -7,20 +7,20 @@
 
 namespace burnish {
 
-struct ReferenceHome {      // where they are kept
-    bool use_cache = true;  // beside the cached environments, so that all charts of a view share them
-    std::string folder;     // where there is no such cache; empty: nowhere
-    double save_every = 10; // seconds, while one is made
+struct ReferenceHome {      // where references are kept
+    bool use_cache = true;  // beside the cached environments, shared by all charts of a view
+    std::string folder;     // fallback without that cache; empty: nowhere
+    double save_every = 10; // seconds between saves
 };
 
-// With files of their own there, or nowhere.
+// Returns `options` with checkpoint files in `home`.
 ReferenceOptions kept_options(ReferenceOptions options, const ReferenceHome& home, Report& report);
 
-// Of what `reference` draws by `desc`, with `options`, kept_options(), as it was made. Goes on from what is kept; a kept file that is
-// damaged is told and made anew. A frame whose stats.sampling.stopped is set is not finished: options.stop was.
+// Returns the reference's frame for `desc`, resumed from its file. `options` are those of the session, from kept_options(). Reports a
+// damaged file and renders anew. If stats.sampling.stopped is set, options.stop ended the frame early and the frame is incomplete.
 Result<Frame> kept_reference(Session& reference, const FrameDesc& desc, const ReferenceOptions& options, Report& report);
 
-// The same of what a session of the tile renderer draws.
+// As above, for the picture that a session of the tile renderer draws.
 Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa,
                              const ReferenceHome& home, Report& report);
 

@@ -142,7 +142,7 @@ std::string report_json(const ChartReport& report)
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
         const ChartRow& row = report.rows[i];
         if (i > 0 && place(report.rows[i - 1]) == place(row))
-            continue; // rows of a place stand together
+            continue; // rows of a place are adjacent
         Json settings = settings_json(report, row);
         Json reference = {
             {"scene", row.scene}, {"env", row.env}, {"roughness", settings["roughness"]}, {"anisotropy", settings["anisotropy"]}};

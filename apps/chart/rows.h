@@ -1,5 +1,5 @@
-// The rows of a chart: one technique with one setting on one surface, its errors and its times. Kept in a file while the chart is
-// made, so that one that was stopped goes on.
+// Chart rows: errors and times for one technique with one setting on one surface. Rows are kept in a file while the chart is made, so an
+// interrupted chart can resume.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -12,30 +12,30 @@
 
 namespace burnish {
 
-struct RowErrors { // against the reference; of pictures with NaN only the count is a number
+struct RowErrors { // against the reference; pictures with NaN have nan_pixels alone
     double flip_mean = 0.0, flip_p99 = 0.0, rel_mse = 0.0, max_abs = 0.0;
     std::uint64_t nan_pixels = 0;
 };
 
-struct Measured { // of a row, so far
+struct Measured { // measurements of a row so far
     bool has_errors = false;
     RowErrors errors;
-    std::vector<double> ms, cpu_ms; // by run
+    std::vector<double> ms, cpu_ms; // one entry a run
 };
-struct ReferenceNoise {          // how far a reference may be from the truth
+struct ReferenceNoise {          // estimated error of the reference itself
     std::uint64_t samples = 0;   // a pixel
-    double relative_error = 0.0; // half width of the 95 % confidence interval over the mean, averaged over the pixels that are not black
-    double flip = 0.0;           // mean FLIP between the reference and itself with as much noise again
+    double relative_error = 0.0; // half width of the 95 % confidence interval over the mean, averaged over pixels that are not black
+    double flip = 0.0;           // mean FLIP between the reference and the reference plus as much noise again
 };
 
-struct Kept {                                         // of earlier runs
+struct Kept {                                         // from earlier runs
     std::map<std::string, Measured> rows;             // by ChartRow::key
-    std::map<std::string, ReferenceNoise> references; // by key of the place and samples asked for
-    std::optional<double> others{};                   // the most of ChartMachine::others of the runs that timed them
+    std::map<std::string, ReferenceNoise> references; // by key of the place and requested samples
+    std::optional<double> others{};                   // largest ChartMachine::others of the runs behind the times
 };
 
 struct ChartRow {
-    std::string key; // of everything that decides its pictures and its times, 16 hexadecimal digits
+    std::string key; // hash of all inputs to pictures and times, 16 hexadecimal digits
     std::string scene, env;
     Setting setting;
     Cell cell;
@@ -47,9 +47,9 @@ struct ChartRow {
 struct ChartMachine {
     std::string version, processor, isa;
     int threads = 0;
-    std::optional<double> others{}; // mean share of the machine's cores that other programs took while frames were timed, [0, 1]
+    std::optional<double> others{}; // mean share of the cores taken by other programs during timing, [0,1]
 };
-inline constexpr double kBusy = 0.1; // of them: times are not to be trusted
+inline constexpr double kBusy = 0.1; // above this share of others, times are not reliable
 
 struct ChartReference {
     std::string picture; // file
@@ -59,29 +59,30 @@ struct ChartReference {
 struct ChartReport {
     ChartMachine machine;
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
-    int error_width = 0, error_height = 0;         // of the pictures compared with the reference
+    int error_width = 0, error_height = 0;         // pictures compared with the reference
     std::uint64_t reference_samples = 0;
-    bool display_flip = false;                        // errors are LDR-FLIP of pictures as they are shown; else HDR-FLIP
-    Json parameters = Json::object();                 // of techniques, the same of all rows
-    std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
+    bool display_flip = false;                        // LDR-FLIP on tonemapped pictures; otherwise HDR-FLIP on linear ones
+    Json parameters = Json::object();                 // technique parameters, common to all rows
+    std::vector<ChartRow> rows;                       // ordered by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };
 
-std::optional<double> number_in(const std::string& value); // of a swept option; none where it is a name or a vector
-std::string place(const ChartRow& row);                    // scene, environment and cell as one text: rows of one place are compared
+std::optional<double> number_in(const std::string& value); // value of a swept option; none for names and vectors
+std::string place(const ChartRow& row);                    // scene, environment and cell as one text; rows of one place are compared
 
 double flip_of(const ChartRow& row);
 double ms_of(const ChartRow& row);
 double p95_of(const ChartRow& row);
 
-// Which of the points are not beaten: no other is at least as good in both and better in one. What is not finite never is.
+// Returns the points on the Pareto front: no other point is as good in both coordinates and better in one. Non-finite points are never on
+// it.
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
-inline constexpr int kKeptVersion = 2; // of the layout of the text
+inline constexpr int kKeptVersion = 2; // file layout
 std::string kept_json(const Kept& kept);
 Result<Kept> parse_kept(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);
-std::string report_csv(const ChartReport& report); // of the rows
+std::string report_csv(const ChartReport& report); // rows only
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// `burnish info`: what this build is and what it found on this machine, and in an environment.
+// `burnish info`: describes this build, this machine and, if given, an environment.
 #include <cstdio>
 #include <fmt/core.h>
 #include <fstream>
@@ -53,7 +53,7 @@ Info gather()
     return info;
 }
 
-// The environment that was asked for, with its key lights; null where none was.
+// The requested environment with its key lights; null without --env.
 using Seen = std::shared_ptr<const Environment>;
 
 Result<Seen> see_environment(const RenderOptions& options, const OptionTable& given)

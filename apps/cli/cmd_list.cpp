@@ -1,5 +1,5 @@
-// `burnish list`: the names that options accept; the reflection models, and which of them --brdf takes; what is read of glTF. One a line
-// with what it is.
+// `burnish list`: prints the names of option values, the reflection models with their use in --brdf, and the glTF features read. One name
+// a line, with a description.
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
@@ -39,7 +39,7 @@ std::vector<Entry> technique_entries()
     return entries;
 }
 
-// What --brdf makes of it.
+// Names the options that accept the model.
 const char* model_use(const ModelInfo& model)
 {
     if (model.lobe < 0)

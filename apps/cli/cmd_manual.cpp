@@ -1,4 +1,4 @@
-// `burnish manual`: the manual page and the completions, as they are installed, and pages of the reference.
+// `burnish manual`: prints the manual page, the completions and the reference pages.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -52,7 +52,7 @@ Status print_markdown(const std::string& name)
     return found ? Status() : usage_error("SUBCOMMAND", "there is no subcommand '" + name + "'");
 }
 
-// Pages of the laboratory's subcommands are printed by its own program, which has their options.
+// True for the laboratory's subcommands: burnish-lab has their options and prints their pages.
 bool asks_lab(const std::string& name)
 {
     const std::vector<Command> commands = all_commands();

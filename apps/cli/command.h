@@ -1,5 +1,4 @@
-// A subcommand: what it is called, its options, and what runs once they are read. Each lives in its own cmd_NAME.cpp and has its line in
-// commands.def.
+// A subcommand: its name, its options and its entry function. Each has a file cmd_NAME.cpp and a line in commands.def.
 #pragma once
 #include <functional>
 #include <string>
@@ -12,8 +11,8 @@ namespace burnish {
 struct Command {
     std::string name, summary;
     OptionTable options;
-    std::string footer;                   // of the help: what else is worth knowing, and examples
-    std::function<int(OptionTable&)> run; // returns the exit code; empty: the laboratory's program runs it
+    std::string footer;                   // end of the help: further notes and examples
+    std::function<int(OptionTable&)> run; // returns the exit code; empty: burnish-lab runs the subcommand
 };
 
 #define BN_COMMAND(name) Command name##_command();
@@ -22,7 +21,7 @@ struct Command {
 // Returns the subcommands in the order of commands.def.
 std::vector<Command> all_commands();
 
-// Gives the program subcommands of the laboratory, in place of their summaries.
+// Gives the program the laboratory's subcommands, in place of their summaries.
 void add_lab_commands(std::vector<Command> (*commands)());
 
 } // namespace burnish

@@ -9,17 +9,17 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kColumn = 36; // where help texts begin
+constexpr std::size_t kColumn = 36; // start column of help texts
 constexpr const char* kHelp = "Print this text and exit";
 
-// What the words give each option, in the order of the table.
+// The texts given for each option, in table order.
 struct Given {
     std::vector<std::vector<std::string>> texts;
     Asked asked = Asked::nothing;
-    std::string wrong; // what is wrong with the words; empty: nothing
+    std::string wrong; // first error in the words; empty: none
 };
 
-// Splits words into options and what they are given.
+// Splits words into options and their texts.
 class Reader {
   public:
     Reader(const std::vector<Option>& options, const std::vector<std::string>& words) : options_(options), words_(words)
@@ -29,7 +29,7 @@ class Reader {
 
     Given read()
     {
-        bool only_places = false; // behind "--"
+        bool only_places = false; // after "--"
         while (at_ < words_.size()) {
             const std::string& word = words_[at_++];
             if (only_places || word.size() < 2 || word[0] != '-' || is_number(word))
@@ -45,7 +45,7 @@ class Reader {
     }
 
   private:
-    // "-1" and "-.5" are values, not letters.
+    // True for "-1" and "-.5": these are values, not option letters.
     static bool is_number(const std::string& word) { return (word[1] >= '0' && word[1] <= '9') || word[1] == '.'; }
 
     void refuse(const std::string& reason)
@@ -91,7 +91,7 @@ class Reader {
             take_next(i);
     }
 
-    // "-q", "-qv", "-t4", "-qt4", "-t 4"
+    // Reads option letters: "-q", "-qv", "-t4", "-qt4", "-t 4".
     void letters(const std::string& word)
     {
         for (std::size_t k = 1; k < word.size(); ++k) {
@@ -140,7 +140,7 @@ class Reader {
     Given given_;
 };
 
-// "  -o,--output FILE ...              Picture to write"
+// Formats "  -o,--output FILE ...              Picture to write".
 std::string help_line(const std::string& names, const std::string& text)
 {
     std::string line = "  " + names;

@@ -1,4 +1,4 @@
-// What is said about a baked environment: its light, and the key lights that left it.
+// Describes a baked environment: its light, and the key lights taken out of it.
 #pragma once
 #include <string>
 
@@ -8,11 +8,11 @@
 
 namespace burnish {
 
-std::string light_text(const Environment& environment); // its mean and peak radiance
+std::string light_text(const Environment& environment); // mean and peak radiance
 std::string key_light_text(const KeyLight& light);
 void report_key_lights(const Environment& environment, Report& report); // with -v
 
-// {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} each, the strongest first.
+// Returns {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} for each key light, the strongest first.
 Json key_lights_json(const Environment& environment);
 
 } // namespace burnish

@@ -20,7 +20,7 @@ std::string trimmed_end(const std::string& text)
     return text.substr(0, text.find_last_not_of(" \n") + 1);
 }
 
-// As roff reads it: no escape, no request at a line's beginning, a minus that can be copied.
+// Escapes text for roff: no escapes, no requests at line starts, and a minus that can be copied.
 std::string roff(const std::string& text)
 {
     std::string out = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
@@ -42,7 +42,7 @@ bool takes_path(const Option& option)
     return option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder;
 }
 
-// All that an option, or a place, may be told by name; with blanks between.
+// Returns all names that an option or a positional argument accepts, with blanks between.
 std::string words_of(const Option& option)
 {
     std::string words;
@@ -68,13 +68,13 @@ std::string subcommands(const std::vector<Command>& commands)
     return names + "help";
 }
 
-// In single quotes, for shells.
+// Quotes text for a shell, in single quotes.
 std::string quoted(const std::string& text)
 {
     return fmt::format("'{}'", replaced(text, "'", "'\\''"));
 }
 
-// What zsh's _arguments takes between brackets and colons.
+// Escapes text between brackets or colons of zsh's _arguments.
 std::string zsh_text(const std::string& text)
 {
     std::string out;
@@ -106,7 +106,7 @@ std::string zsh_option(const Option& option)
     return out;
 }
 
-// In a cell of a Markdown table: no end of the cell, no tag.
+// Escapes the text of a Markdown table cell: no cell end, no tag, no line break.
 std::string markdown_cell(const std::string& text)
 {
     return replaced(replaced(replaced(text, "|", "\\|"), "<", "&lt;"), "\n", " ");
@@ -129,7 +129,7 @@ std::string markdown_option(const Option& option)
     return fmt::format("| {} | {} | {} | {} |\n", names, value, at_first, meaning);
 }
 
-// One table under each heading of the options, in their order.
+// Writes one table under each option heading, in table order.
 std::string markdown_options(const OptionTable& table)
 {
     std::string out, heading;
@@ -147,7 +147,7 @@ std::string markdown_options(const OptionTable& table)
     return out;
 }
 
-// Words of the footer, and its examples as a block of code.
+// Writes the footer's text, and its examples as a code block.
 std::string markdown_footer(const std::string& footer)
 {
     const std::string mark = "Examples:\n";

@@ -1,4 +1,4 @@
-// The manual page, pages of the reference and the completions of shells, made of the tables of options that the command line is read by.
+// Writes the manual page, the reference pages and the shell completions, from the option tables behind the command line.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ std::string bash_completion(const std::vector<Command>& commands);
 std::string zsh_completion(const std::vector<Command>& commands);
 std::string fish_completion(const std::vector<Command>& commands);
 
-// A page of the reference, apps/manual/reference/NAME.md: what the subcommand does, its options as tables, its examples.
+// Returns a reference page, apps/manual/reference/NAME.md: the subcommand's purpose, its options as tables, its examples.
 std::string markdown_page(const Command& command);
 
 } // namespace burnish

@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-// Where the number of `pattern` stands: "%", digits, "d".
+// Position of the number in a pattern: "%", digits, "d".
 struct Place {
     std::size_t begin = std::string::npos, end = 0;
     int width = 0;
@@ -30,7 +30,7 @@ Place number_place(const std::string& pattern)
         if (at == pattern.size() || pattern[at] != 'd' || width > 20)
             continue;
         if (found.begin != std::string::npos)
-            return {}; // one number is enough
+            return {}; // only one number is allowed
         found = {i, at + 1, width, zeros};
     }
     return found;

@@ -1,4 +1,4 @@
-// Files in a row, named by a pattern with one number in it: frame_%04d.exr.
+// File sequences, named by a pattern with one number: frame_%04d.exr.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace burnish {
 
-bool has_number(const std::string& pattern);                  // %d, %4d or %04d, once
-std::string numbered(const std::string& pattern, int number); // of a pattern that has one
+bool has_number(const std::string& pattern);                  // %d, %4d or %04d, exactly once
+std::string numbered(const std::string& pattern, int number); // for a pattern with a number
 
-// The numbers for which a file of that name exists, from the least on. Errors: the folder cannot be read.
+// Returns the numbers of existing files, in ascending order. Fails if the folder cannot be read.
 Result<std::vector<int>> existing_numbers(const std::string& pattern);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Scenes and environments as users name them; what cannot be opened comes with a hint where the name tells what was meant.
+// Opens scenes and environments by the user's names. Errors carry a hint if a similar name exists.
 #pragma once
 #include <memory>
 #include <string>

@@ -10,7 +10,7 @@
 namespace burnish {
 namespace {
 
-// "32 or 64", "none, pbr-neutral or aces", "0 to 1"
+// Formats "32 or 64", "none, pbr-neutral or aces", "0 to 1".
 std::string values_text(const Value& value)
 {
     if (value.names.empty())

@@ -38,7 +38,7 @@ Error output_error(const std::string& path, const std::string& reason)
     return Error{ExitCode::output_failed, path, "", reason};
 }
 
-// A folder that there is, and that can be written to. path: what is to be written there.
+// Checks that the folder exists and is writable. path: the file to be written there.
 Status check_writable(const std::string& path, const fs::path& folder)
 {
     std::error_code failed;
@@ -57,13 +57,13 @@ Status check_writable(const std::string& path, const fs::path& folder)
 Status check_folder(const std::string& path)
 {
     struct stat info {};
-    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT && errno != ENOTDIR) // a name too long, a circle of links
+    if (::stat(path.c_str(), &info) != 0 && errno != ENOENT && errno != ENOTDIR) // such as too long a name or a loop of links
         return output_error(path, std::strerror(errno));
     const fs::path folder = fs::path(written_place(path)).parent_path();
     return check_writable(path, folder.empty() ? "." : folder);
 }
 
-// Writing over what is being read would lose the user's file.
+// Refuses to overwrite an input: the user's file would be lost.
 Status check_not_input(const std::string& path, const std::vector<std::string>& inputs)
 {
     std::error_code ignored;
@@ -73,10 +73,10 @@ Status check_not_input(const std::string& path, const std::vector<std::string>& 
     return {};
 }
 
-// Pipes and devices are written into; renaming a finished file over them would destroy them.
+// True for pipes and devices. These are written into; a finished file renamed over them would destroy them.
 bool is_special(const std::string& path)
 {
-    // /dev/stdout may lead to a regular file; the name itself must stay what it is.
+    // /dev/stdout may lead to a regular file, but must stay a link.
     for (const char* folder : {"/dev/", "/proc/"})
         if (path.rfind(folder, 0) == 0)
             return true;

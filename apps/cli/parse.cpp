@@ -13,8 +13,7 @@
 namespace burnish {
 namespace {
 
-// The whole of [first, last) as one value; std::from_chars knows no locale, so "0,5" never depends on the
-// machine.
+// Reads the whole of [first, last) as one value. std::from_chars ignores the locale, so "0,5" means the same on every machine.
 template <class T> bool read_all(const char* first, const char* last, T& value)
 {
     if (first != last && *first == '+')
@@ -62,14 +61,14 @@ Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text)
 
 Result<glm::dvec3> parse_dvec3(const std::string& option, const std::string& text)
 {
-    const Result<glm::vec3> fits = parse_three<glm::vec3>(option, text); // finite as floats
+    const Result<glm::vec3> fits = parse_three<glm::vec3>(option, text); // refuses values that overflow a float
     return fits ? parse_three<glm::dvec3>(option, text) : Result<glm::dvec3>(fits.error());
 }
 
 Result<double> parse_number(const std::string& option, const std::string& text, double low, double high)
 {
     double value = 0.0;
-    // The comparison is false for a NaN, which is therefore refused.
+    // The comparison is false for NaN, so NaN is refused.
     if (!read_all(text.data(), text.data() + text.size(), value) || !(value >= low && value <= high))
         return usage_error(option, fmt::format("expected a number from {:g} to {:g}, got '{}'", low, high, text));
     return value;
@@ -113,6 +112,7 @@ std::vector<std::string> split(const std::string& text, char at)
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text)
 {
     const auto refuse = [&](const std::string& reason) { return usage_error(option, fmt::format("'{}': {}", text, reason)); };
+    // Read the shape
     const std::vector<std::string> parts = split(text, ':');
     std::vector<std::string> shapes;
     for (int i = 0; i < kAreaShapes; ++i)
@@ -122,6 +122,7 @@ Result<AreaLight> parse_area_light(const std::string& option, const std::string&
         return refuse(fmt::format("begins with none of {}{}", join(shapes), did_you_mean(parts[0], shapes)));
     AreaLight light;
     light.shape = static_cast<AreaShape>(shape - shapes.begin());
+    // Read the keys
     const std::vector<std::string> keys = {"points", "radius", "radiance", "two-sided", "solid", "texture"};
     std::vector<std::string> seen;
     for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -162,6 +163,7 @@ Result<AreaLight> parse_area_light(const std::string& option, const std::string&
             light.radiance = *radiance;
         }
     }
+    // Check the whole light
     if (std::find(seen.begin(), seen.end(), "radiance") == seen.end())
         return refuse("has no radiance=R,G,B");
     if (const std::string fault = area_light_fault(light); !fault.empty())

@@ -1,5 +1,4 @@
-// Option values that are more than a number: sizes, vectors, byte counts. Every refusal names what was
-// expected.
+// Parses option values beyond plain numbers: sizes, vectors, byte counts. Every error names the expected format.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -17,7 +16,7 @@ struct PictureSize {
 
 Result<PictureSize> parse_picture_size(const std::string& option, const std::string& text); // "1280x720"
 Result<glm::vec3> parse_vec3(const std::string& option, const std::string& text);           // "x,y,z", finite
-Result<glm::dvec3> parse_dvec3(const std::string& option, const std::string& text);         // the same with all digits
+Result<glm::dvec3> parse_dvec3(const std::string& option, const std::string& text);         // with double precision
 Result<double> parse_number(const std::string& option, const std::string& text, double low, double high);
 Result<std::int64_t> parse_integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high);
 Result<std::uint64_t> parse_bytes(const std::string& option,
@@ -26,9 +25,9 @@ Result<std::uint64_t> parse_bytes(const std::string& option,
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text);
 std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 
-std::vector<std::string> technique_names(); // auto, then all in the registry's order
+std::vector<std::string> technique_names(); // auto, then all techniques in registry order
 
-// "all" or names by commas, in the registry's order.
+// Parses "all" or names with commas between; returns registry order.
 Result<std::vector<std::string>> parse_techniques(const std::string& text, const std::string& option = "--techniques");
 
 } // namespace burnish

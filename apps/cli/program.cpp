@@ -43,7 +43,7 @@ int print_help(const Command* command, const std::vector<Command>& commands)
     return 0;
 }
 
-// A call without words is a mistake, as a script makes it, and its answer is the list of subcommands.
+// Answers a call without words: an error, with the list of subcommands.
 int print_help_as_error(const std::vector<Command>& commands)
 {
     std::fputs(help_of(commands, kFooter).c_str(), stderr);
@@ -73,6 +73,7 @@ int run(const std::vector<std::string>& words)
     const auto find = [&](const std::string& name) {
         return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });
     };
+    // Handle the program's own options
     const std::string first = words.empty() ? "" : words[0];
     if (first == "-h" || first == "--help")
         return print_help(nullptr, commands);
@@ -90,6 +91,7 @@ int run(const std::vector<std::string>& words)
             return start_lab({words[1], "--help"});
         return print_help(command == commands.end() ? nullptr : &*command, commands);
     }
+    // Find the subcommand; a scene alone means `render`
     const auto named = find(first);
     const bool drawn = named == commands.end() && looks_like_scene(first);
     const auto command = drawn ? find("render") : named;
@@ -97,6 +99,7 @@ int run(const std::vector<std::string>& words)
         return refuse_subcommand(first, commands);
     if (!command->run)
         return start_lab(words);
+    // Answer --help and --version
     const std::vector<std::string> rest(words.begin() + !drawn, words.end());
     switch (asked_by(*command, rest)) {
     case Asked::help:
@@ -106,6 +109,7 @@ int run(const std::vector<std::string>& words)
     case Asked::nothing:
         break;
     }
+    // Run the subcommand
     if (const Status read = read_command_line(*command, rest); !read)
         return fail(read.error());
     Activity::tell(!command->options.given("--quiet"));
@@ -121,7 +125,7 @@ int flush_stdout(int code)
     return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
 }
 
-// Says that the work was done by fewer threads than were wanted. An error remains one line.
+// Warns if fewer threads did the work than were asked for. Prints nothing after an error, so an error stays one line.
 void warn_of_missing_threads(int code, const std::vector<std::string>& words)
 {
     const std::string missing = missing_threads();
@@ -133,7 +137,7 @@ void warn_of_missing_threads(int code, const std::vector<std::string>& words)
     report.release();
 }
 
-// A thread that the system refuses is no fault of the program: pools of burnish go on without, libraries may not.
+// Reports a thread that the system refused. Pools of burnish work without the thread; libraries may throw.
 int fail_by(const std::system_error& error)
 {
     const bool refused = error.code() == std::errc::resource_unavailable_try_again;
@@ -141,7 +145,7 @@ int fail_by(const std::system_error& error)
     return fail(Error{refused ? ExitCode::unavailable : ExitCode::internal, "", "", reason + error.what()});
 }
 
-// Where an exception cannot be caught: in what a library does as it is loaded, for one.
+// Handles exceptions that no frame can catch, such as those thrown while a library is loaded.
 [[noreturn]] void terminate()
 {
     try {
@@ -160,7 +164,7 @@ int fail_by(const std::system_error& error)
 
 int run_program(int argc, char** argv)
 {
-    // A file-size limit shall be a failed write with a message, not the death of the process.
+    // Turns a file-size limit into a failed write with a message; the default kills the process.
     std::signal(SIGXFSZ, SIG_IGN);
     std::set_terminate(terminate);
     try {

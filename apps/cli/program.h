@@ -1,4 +1,4 @@
-// Finds the subcommand, runs it, and turns every outcome into one of the exit codes of core/base/result.h.
+// Finds the subcommand, runs it, and maps every outcome to an exit code of core/base/result.h.
 #pragma once
 
 namespace burnish {

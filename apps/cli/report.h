@@ -1,5 +1,6 @@
-// What the program says to people: words on stderr, one line an event, figures on stdout, without colour. Machine output goes to stdout
-// or to files.
+// Messages for people: progress on stderr, one line an event; results on stdout, without colour. Machine-readable output goes to stdout
+// or
+// to files.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,7 +14,7 @@ namespace burnish {
 // Prints "burnish: FILE: PLACE: REASON" and returns the exit code of the error.
 int fail(const Error& error);
 
-// A wrong option: exit code 2. `place` is the option as the user writes it.
+// Returns the error for a wrong option, exit code 2. `place` is the option as the user writes it.
 Error usage_error(const std::string& place, const std::string& reason);
 
 std::string counted(std::uint64_t count, const std::string& noun); // "1 place", "2 places"
@@ -21,20 +22,19 @@ std::string counted(std::uint64_t count, const std::string& noun); // "1 place",
 // "a, b, c"
 std::string join(const std::vector<std::string>& names);
 
-// Labelled lines. They are held back until release(), so that a command whose input turns out to be bad says
-// one line only.
+// Labelled lines, held back until release(). A command with bad input thus prints a single line.
 class Report {
   public:
     Report(bool quiet, int verbosity) : quiet_(quiet), verbosity_(verbosity) {}
     void event(const std::string& label, const std::string& text);  // not with --quiet
     void detail(const std::string& label, const std::string& text); // only with -v
     void warning(const std::string& text);                          // "burnish: warning: ...", not with --quiet
-    void wrote(const std::string& path);                            // an event, but of standard output
-    // Results, on stdout; on stderr where stdout has been promised to machine output. Not with --quiet.
+    void wrote(const std::string& path);                            // an event, unless the path is standard output
+    // Prints results on stdout, or on stderr if stdout is promised to machine-readable output. Not with --quiet.
     void figures(const std::string& lines);
-    void asked_for(const std::string& lines);                       // the same, but also with --quiet: a "-" asked for them
-    void figure(const std::string& label, const std::string& text); // one line, labelled as events are
-    void promise_stdout(const std::vector<std::string>& files);     // where one of them is "-"
+    void asked_for(const std::string& lines);                       // like figures(), also with --quiet: the user asked with "-"
+    void figure(const std::string& label, const std::string& text); // one line, labelled like an event
+    void promise_stdout(const std::vector<std::string>& files);     // if one of `files` is "-"
     void release();
     bool quiet() const { return quiet_; }
     const std::vector<std::string>& warnings() const { return warnings_; } // all of them, also with --quiet

@@ -48,13 +48,13 @@ Result<int> find_camera(const Scene& scene, const std::string& wanted)
     return found;
 }
 
-// Places are drawn from the scene's origin.
+// Converts to draw space, whose origin is the scene's origin.
 glm::vec3 drawn_place(const glm::dvec3& place, const Scene& scene)
 {
     return glm::vec3(place - scene.origin);
 }
 
-// --fov and --target change what a camera of the scene says.
+// Applies --fov and --target to a camera of the scene.
 Result<View> changed(View view, const RenderOptions& options, const Scene& scene, const std::string& camera)
 {
     const int width = options.frame.width, height = options.frame.height;
@@ -127,7 +127,7 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
     View& view = chosen->view;
     view.tan_half_x /= options.zoom, view.tan_half_y /= options.zoom;
     for (const glm::vec3& v : {view.eye, view.right, view.up, view.forward})
-        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) // a camera node scaled to nothing, say
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) // for example a camera node with zero scale
             return options.eye      ? usage_error("--eye", "gives no view: too near or too far from its target")
                    : chosen->framed ? Error{ExitCode::bad_input, options.scene, "/nodes",
                                             "the scene is too large to be framed; give it a camera or --eye"}

@@ -1,4 +1,4 @@
-// A scene that is ready to be drawn many times, and how it is looked at.
+// A scene ready for rendering, with its view.
 #pragma once
 #include <memory>
 #include <string>
@@ -15,10 +15,10 @@ struct SeenScene {
     View view;
 };
 
-// Of `base` the limits, the camera and the picture's size are read.
+// Loads a scene with the limits, camera and picture size of `base`.
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report);
 
-// Warns where some of the techniques draw opaque what lets light through.
+// Warns if some techniques draw transmissive surfaces as opaque.
 void warn_of_opaque_glass(const Scene& scene, const std::vector<std::string>& techniques, Report& report);
 
 } // namespace burnish

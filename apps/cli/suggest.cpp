@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-// Letters changed, left out, added or swapped with their neighbour (Damerau 1964, neighbours swapped once).
+// Counts the letters changed, left out, added or swapped with a neighbour (Damerau 1964, neighbours swapped once).
 std::size_t distance(const std::string& a, const std::string& b)
 {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -71,12 +71,12 @@ Error with_hint(Error error, const std::string& hint)
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names)
 {
     std::string best;
-    std::size_t least = 1 + std::min<std::size_t>(3, (word.size() + 1) / 3); // not further than that
-    constexpr std::size_t kLongest = 64;                                     // of words that people mistype
+    std::size_t least = 1 + std::min<std::size_t>(3, (word.size() + 1) / 3); // exclusive bound
+    constexpr std::size_t kLongest = 64;                                     // longer words are not typing errors
     for (const std::string& name : names) {
         if (word.empty() || word.size() > kLongest)
             break;
-        // What was begun, or said without what stands before it, is as near as one slip.
+        // Counts a part of a name, such as its beginning, as one error.
         const bool part = word.size() >= 3 && name.find(word) != std::string::npos;
         const std::size_t d = name == word ? 0 : part ? 1 : distance(word, name);
         if (d < least)

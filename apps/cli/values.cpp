@@ -25,7 +25,7 @@ Value make(ValueKind kind, Put put, std::function<std::string()> get)
     return value;
 }
 
-// Reads by `parse` and hands the value on.
+// Parses with `parse` and passes the value to `use`.
 template <class T, class Parse, class Use> Put reading(Parse parse, Use use)
 {
     return [parse, use](const std::string& option, const std::string& text) -> Status {
@@ -36,7 +36,7 @@ template <class T, class Parse, class Use> Put reading(Parse parse, Use use)
     };
 }
 
-// Two numbers with a comma between, each in [low, high].
+// Parses two numbers with a comma between, each in [low, high].
 Result<glm::vec2> parse_angles(const std::string& option, const std::string& written, const glm::dvec2& low, const glm::dvec2& high)
 {
     const std::size_t comma = written.find(',');
@@ -77,7 +77,7 @@ Texts names_of(const std::vector<BuiltinInfo>& infos)
     return names;
 }
 
-// builtin:NAME=AMOUNT, of a scene that something breaks on
+// True for builtin:NAME=AMOUNT, a trial scene with an adjustable difficulty.
 bool is_trial(const std::string& text)
 {
     return contains(names_of(builtin_trials()), text.substr(0, text.find('=')));
@@ -89,7 +89,7 @@ Value path_value(std::string& to, ValueKind kind)
         kind, [&to](const std::string&, const std::string& text) { return to = text, Status(); }, [&to] { return to; });
 }
 
-// Each a path, or one of the names if it begins as they do.
+// Several values: each is a path, or one of the names if it begins like them.
 Value paths_value(Texts& to, const Texts& names, bool trials = false)
 {
     Value value;
@@ -226,7 +226,7 @@ Value picture_size(PictureSize& to)
 
 namespace {
 
-// unit: of one degree in what is held.
+// unit: stored value for one degree.
 Value angles_in(glm::vec2& to, double low, double high, float unit)
 {
     Value value = make(ValueKind::vector,

@@ -1,5 +1,5 @@
-// What options take: each function makes a Value that reads texts, says what is wrong with them, and puts what they mean into `to`, which
-// must outlive it. What `to` holds when the Value is made is the default.
+// Makes the values of options. Each Value reads texts, explains errors, and stores into `to`, which must outlive the Value. The initial
+// content of `to` is the default.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -16,13 +16,13 @@
 namespace burnish {
 namespace value_detail {
 
-using Integer = std::optional<std::int64_t>; // none: an optional that holds nothing
+using Integer = std::optional<std::int64_t>; // none: an empty optional
 using Number = std::optional<double>;
 Value integer(std::int64_t low, std::int64_t high, std::function<void(std::int64_t)> put, std::function<Integer()> get);
 Value number(double low, double high, std::function<void(double)> put, std::function<Number()> get);
 Value name(std::vector<std::string> names, std::function<void(std::size_t)> put, std::function<std::size_t()> get);
 
-template <class T> struct Held { // what T or std::optional<T> holds
+template <class T> struct Held { // the type inside T or std::optional<T>
     using Type = T;
     static constexpr bool optional = false;
 };
@@ -41,33 +41,33 @@ template <class As, class T> std::optional<As> held(const T& from)
 } // namespace value_detail
 
 Value flag(bool& to, bool becomes = true);
-Value count(int& to); // how often it is given
+Value count(int& to); // number of occurrences
 Value bytes(std::uint64_t& to);
 Value picture_size(PictureSize& to);
 Value angles(glm::vec2& to, double low, double high);     // degrees
-Value angles_rad(glm::vec2& to, double low, double high); // written in degrees, as is the range
+Value angles_rad(glm::vec2& to, double low, double high); // degrees on the command line and in the range, radians in `to`
 Value direction(std::optional<glm::vec2>& to);            // azimuth and elevation, degrees
 Value point(std::optional<glm::vec3>& to);
-Value place(std::optional<glm::dvec3>& to); // world space, with all digits
+Value place(std::optional<glm::dvec3>& to); // world space, double precision
 Value colour(std::optional<glm::vec3>& to); // red, green and blue, [0,1]
 Value text(std::string& to);
-Value texts(std::vector<std::string>& to); // one each time it is given
+Value texts(std::vector<std::string>& to); // one for each occurrence
 Value file(std::string& to);
-Value files(std::vector<std::string>& to); // one each time it is given
+Value files(std::vector<std::string>& to); // one for each occurrence
 Value folder(std::string& to);
 
-// A path, or "builtin:NAME" with one of the names that there are.
+// A path, or "builtin:NAME" with a known name.
 Value scene(std::string& to);
 Value scenes(std::vector<std::string>& to);
 Value environment(std::string& to);
 Value environments(std::vector<std::string>& to);
-Value area_lights(std::vector<AreaLight>& to); // one each time it is given
-Value key_lights(int& to);                     // how many at most; auto, off, or a number
+Value area_lights(std::vector<AreaLight>& to); // one for each occurrence
+Value key_lights(int& to);                     // the largest number; auto, off, or a number
 
-// Several by commas. `names`: what each may be; empty: anything.
+// Several words with commas between. `names`: the valid words; empty: any word.
 Value choices(std::vector<std::string>& to, std::vector<std::string> names);
 Value choices(std::vector<int>& to, const std::vector<int>& numbers);
-// "all" or names by commas, in the registry's order.
+// "all" or names with commas between, in registry order.
 Value techniques_value(std::vector<std::string>& to);
 
 template <class T> Value integer(T& to, std::int64_t low, std::int64_t high)
@@ -84,7 +84,7 @@ template <class T> Value number(T& to, double low, double high)
         low, high, [&to](double value) { to = static_cast<Type>(value); }, [&to] { return value_detail::held<double>(to); });
 }
 
-// One of a few names: an enumeration whose values count from 0 as the names do, a bool, or the name itself.
+// One name out of a few: an enumeration counted from 0 in the order of names, a bool, or the name itself.
 template <class T> Value choice(T& to, std::vector<std::string> names)
 {
     if constexpr (std::is_same_v<T, std::string>) {
@@ -102,9 +102,9 @@ template <class T> Value choice(T& to, std::vector<std::string> names)
             std::move(names), [&to](std::size_t i) { to = static_cast<T>(i); }, [&to] { return static_cast<std::size_t>(to); });
     }
 }
-Value choice(int& to, const std::vector<int>& numbers); // one of a few numbers
+Value choice(int& to, const std::vector<int>& numbers); // one number out of a few
 
-// The same, and where one of these words is refused, what was meant by it.
+// Adds a hint to the error if the refused word is one of these.
 using Hints = std::vector<std::pair<std::string, std::string>>;
 Value hinted(Value value, Hints hints);
 

@@ -1,4 +1,4 @@
-// Pictures of which only one has alpha: what is drawn with and without a background.
+// Compares pictures of which only one has alpha: rendered with and without a background.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace burnish {
 
-// Takes the alpha from the one that alone has it, so that colours are compared. Returns a line that says so; empty where both or neither
-// have alpha, or where they differ in more than that.
+// Drops the alpha channel if only one picture has alpha, so that colours are compared. Returns a note about this. Empty if both or
+// neither have alpha, or if the pictures differ in another way too.
 std::string drop_lone_alpha(Image& reference, const std::string& reference_name, Image& test, const std::string& test_name);
 
 } // namespace burnish

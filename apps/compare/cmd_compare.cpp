@@ -1,5 +1,4 @@
-// `burnish compare`: how far a picture is from its reference, as figures, as a picture of the errors, as a
-// page, as an exit code.
+// `burnish compare`: compares a picture with its reference. Reports metrics, an error map, a page and an exit code.
 #include <fmt/core.h>
 #include <memory>
 #include <utility>
@@ -31,7 +30,7 @@ Examples:
   burnish compare --sequence truth_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
   burnish compare mean.exr test.exr --variance variance.exr --significance 0.01)";
 
-// Each output's name with the option it belongs to.
+// Returns each output path with its option.
 std::vector<std::pair<std::string, std::string>> outputs_of(const CompareOptions& options)
 {
     std::vector<std::pair<std::string, std::string>> outputs;
@@ -71,7 +70,7 @@ std::string describe(const Image& image)
     return fmt::format("{}x{}, {} channel{}, {}", image.width, image.height, image.channels, image.channels == 1 ? "" : "s", type);
 }
 
-// Pictures that cannot be laid over each other. 8 and 16 bits can: both are display values.
+// Refuses pictures of different size or format. 8 and 16 bits match: both are display values.
 Status check_match(const std::string& name, const Image& image, const std::string& reference_name, const Image& reference)
 {
     const bool floats = image.type == PixelType::f32, reference_floats = reference.type == PixelType::f32;
@@ -95,7 +94,7 @@ Status check_variance(const std::string& name, const Image& variance, const Comp
     return {};
 }
 
-// Files are read side by side: decoding a large PNG takes longer than comparing it.
+// Reads files in parallel: decoding a large PNG takes longer than the comparison.
 Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
 {
     const std::vector<std::string> names = inputs_of(options);
@@ -138,8 +137,8 @@ Status write_page(const CompareOptions& options, const CompareFigures& figures, 
     return page ? write_text(options.html, *page) : Status(page.error());
 }
 
-// Tries every output even where one fails; the first failure decides. Of pictures with NaN only the figures
-// are written: there are no errors to show.
+// Tries every output even after one fails. Returns the first failure. For pictures with NaN only --json and --csv are written: there are
+// no errors to show.
 Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, Report& report)
 {
     Status first;

@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-// What suits the pictures, and what an output or a limit needs.
+// Returns the metrics for the pictures' format, and those that an output or a limit needs.
 Metrics wanted(const CompareOptions& options, bool floats)
 {
     Metrics m = options.metrics.value_or(Metrics{!floats, floats, true, true, true, true, true});
@@ -24,7 +24,7 @@ const char* flip_name(const Metrics& metrics)
     return metrics.flip_hdr ? "flip-hdr" : "flip";
 }
 
-// A number, or null: JSON has neither NaN nor infinity.
+// Returns a number, or null: JSON has neither NaN nor infinity.
 Json value_or_null(bool known, double value)
 {
     return known && std::isfinite(value) ? Json(value) : Json();

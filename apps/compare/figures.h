@@ -1,4 +1,4 @@
-// The figures of `burnish compare`, and what is made of them: text, JSON, a page, a verdict.
+// The metrics of `burnish compare`, and their output as text, JSON, page and verdict.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -16,16 +16,16 @@ namespace burnish {
 struct Pictures {
     Image reference, test;
     std::vector<Image> variances;
-    std::vector<std::string> warnings; // what their readers had to guess
-    std::string note;                  // on alpha, where only one of the two has it
+    std::vector<std::string> warnings; // guesses of the image readers
+    std::string note;                  // on alpha, if only one of the two has alpha
 };
 
 struct CompareFigures {
     Metrics asked;
     int width = 0, height = 0;
-    std::int64_t nan_pixels = 0; // any: nothing else is computed
+    std::int64_t nan_pixels = 0; // above 0: nothing else is computed
     FlipResult flip;
-    std::optional<ErrorSummary> errors; // of flip
+    std::optional<ErrorSummary> errors; // summary for `flip`
     std::optional<PixelFigures> pixels;
     std::optional<double> ssim;
     std::optional<ZTest> z;
@@ -33,17 +33,17 @@ struct CompareFigures {
 
 CompareFigures compare_pictures(const CompareOptions& options, const Pictures& pictures, const Jobs& jobs);
 
-// {width, height, flip_mean, ...}: what was asked for, null where a figure has no value (psnr of equal
-// pictures, everything about pictures with NaN).
+// Returns {width, height, flip_mean, ...}: the requested metrics. Null for a metric without a value (psnr of equal pictures, all metrics
+// of pictures with NaN).
 Json compare_json(const CompareOptions& options, const CompareFigures& figures);
 
-// Name and value for people to read, a figure a line.
+// Returns name and value for people, one metric a line.
 std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures);
 
-// An Error with ExitCode::differ that names the first limit that is passed.
+// Returns an Error with ExitCode::differ for the first limit exceeded.
 Status check_limits(const CompareOptions& options, const CompareFigures& figures);
 
-// A page that needs no other file and no network. REFERENCE, TEST and the error map side by side.
+// Returns a self-contained page: REFERENCE, TEST and the error map side by side, without other files or network.
 Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures);
 
 } // namespace burnish

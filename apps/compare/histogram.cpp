@@ -50,7 +50,7 @@ Drawing plot_histogram(const Image& error, const ErrorSummary& summary)
 {
     Drawing out(kWidth, kHeight, "chart", "How FLIP's errors are spread over the pixels");
     const double one_pixel = 1.0 / (static_cast<double>(error.width) * error.height);
-    const Axis y{std::min(0.5 * one_pixel, 0.01), 1.0, kBottom, kTop}; // logarithmic: a few wrong pixels are seen too
+    const Axis y{std::min(0.5 * one_pixel, 0.01), 1.0, kBottom, kTop}; // logarithmic, to show even a few wrong pixels
     for (double share = 1.0; share >= y.low; share /= 10.0) {
         out.line({{kLeft, y.at(share)}, {kRight, y.at(share)}}, "grid");
         out.text(kLeft - 7.0, y.at(share) + 4.5, "tick end", fmt::format("{} %", number(100.0 * share)));

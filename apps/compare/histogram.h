@@ -1,4 +1,4 @@
-// How FLIP's errors are spread over the pixels.
+// Distribution of FLIP errors over the pixels.
 #pragma once
 #include <vector>
 
@@ -8,9 +8,10 @@
 
 namespace burnish {
 
-inline constexpr int kHistogramBins = 50; // of errors from 0 to 1
+inline constexpr int kHistogramBins = 50; // over errors from 0 to 1
 
-std::vector<double> histogram_of(const Image& error); // part of the pixels by bin, [0, 1]; what is not below 1 is in the last one
+// Returns the pixels' shares by bin, [0,1]. Errors at or above 1, and NaN, count in the last bin.
+std::vector<double> histogram_of(const Image& error);
 Drawing plot_histogram(const Image& error, const ErrorSummary& summary);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// The options of `burnish compare`: as the user writes them, and checked.
+// The options of `burnish compare`: as given on the command line, then checked.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,20 +12,20 @@
 
 namespace burnish {
 
-// What is asked for. FLIP's kind is chosen by the pictures where the user names none.
+// The requested metrics. Without a choice by the user, the picture format selects LDR- or HDR-FLIP.
 struct Metrics {
     bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false, max = false;
 };
 
 struct CompareOptions {
     std::string reference, test;
-    std::optional<Metrics> metrics; // none: all that suit the pictures
+    std::optional<Metrics> metrics; // none: all metrics for the pictures' format
     FlipOptions flip;
-    std::string json, csv, html, error_map; // empty: not wanted; json, csv and html: "-" is standard output
+    std::string json, csv, html, error_map; // empty: no file; json, csv and html: "-" is standard output
     std::optional<double> fail_flip, fail_max, fail_fraction;
-    std::vector<std::string> variances; // of the reference, of the test
+    std::vector<std::string> variances; // the reference's, the test's
     double significance = 0.01, fail_z = 0.0;
-    bool sequence = false; // reference and test are patterns of files in a row
+    bool sequence = false; // reference and test are patterns of file sequences
     std::optional<double> fail_flicker;
     int threads = 0;
     Limits limits;
@@ -39,7 +39,7 @@ struct CompareArguments {
     Isa isa = Isa::scalar;
 };
 
-// With --sequence: how each picture of a row differs from its reference, and from the one after it. Returns the exit code.
+// With --sequence: compares each picture with its reference, and successive pictures with each other. Returns the exit code.
 int compare_sequences(const CompareOptions& options);
 
 OptionTable compare_option_table(CompareArguments& to);

@@ -1,5 +1,4 @@
-// The page of `burnish compare --html`: one file, pictures inside it, readable on a telephone and in the
-// dark.
+// The page of `burnish compare --html`: one file with embedded pictures, for phones and dark mode too.
 #include <fmt/core.h>
 
 #include "apps/compare/figures.h"
@@ -26,7 +25,7 @@ table { margin: 1.5rem 0; }
 th, td, td:first-child { text-align: left; vertical-align: top; white-space: normal; }
 )";
 
-// As a display shows it: floats exposed and tonemapped, 16 bits cut to 8.
+// Converts to display values: floats are exposed and tonemapped, 16 bits are reduced to 8.
 Image displayed(const Image& image, float exposure_ev)
 {
     if (image.type == PixelType::f32)
@@ -50,7 +49,7 @@ Result<std::string> figure(const std::string& id, const std::string& title, cons
                        escaped(caption));
 }
 
-// The colours of the map from 0 to 1, as a CSS gradient.
+// Returns the error map's colours from 0 to 1, as a CSS gradient.
 std::string scale_of_magma()
 {
     Image steps = make_image(17, 1, 1, PixelType::f32);
@@ -66,7 +65,7 @@ std::string scale_of_magma()
                        stops);
 }
 
-// Both pictures over each other; the script makes it of the page's own pictures.
+// Returns the overlay of both pictures; the script takes the pictures from the page.
 std::string wall_html()
 {
     return "<noscript><p>Slider, flicker and zoom need JavaScript; pictures and figures do not.</p></noscript>\n"

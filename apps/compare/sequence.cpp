@@ -1,5 +1,5 @@
-// Rows of pictures against rows of references: the error of each, and flicker, which no picture shows alone. Flicker is how much a picture
-// differs from the next one (mean FLIP), less what the reference differs from its own next one: moving things may change, not more.
+// Compares a picture sequence with a reference sequence: each picture's error, and flicker. Flicker is the mean FLIP between successive
+// pictures minus the same for the reference: moving things may change, but no more.
 #include <algorithm>
 #include <fmt/core.h>
 #include <optional>
@@ -21,7 +21,7 @@ namespace {
 struct Frames {
     int number = 0;
     Image reference, test;
-    std::string note; // on alpha, where only one of the two has it
+    std::string note; // on alpha, if only one picture has alpha
 };
 
 double mean_of(const Image& errors)
@@ -45,7 +45,7 @@ Status check_like(const std::string& name, const Image& image, const std::string
     return {};
 }
 
-// The numbers that both rows have, which must be the same, in a row without gaps.
+// Returns the frame numbers. Both sequences must have the same numbers, without gaps.
 Result<std::vector<int>> numbers_of(const CompareOptions& options)
 {
     const Result<std::vector<int>> reference = existing_numbers(options.reference), test = existing_numbers(options.test);
@@ -75,7 +75,7 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
         Result<Image> image = read_colours(name, options.limits, notes);
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
-            if (said.insert(warning).second) // once, for the first picture of the row
+            if (said.insert(warning).second) // once, for the first picture
                 report.warning(name + ": " + warning);
         *to = std::move(*image);
     }
@@ -103,6 +103,7 @@ int compare_sequences(const CompareOptions& options)
     std::optional<Frames> before;
     std::set<std::string> said;
     bool floats = false;
+    // Compare each frame with its reference and with the previous frame
     for (const int number : *numbers) {
         Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
@@ -114,7 +115,7 @@ int compare_sequences(const CompareOptions& options)
             return fail(usage_error("--metric", "flip-hdr needs float pictures"));
         const bool hdr = floats && !(options.metrics && options.metrics->flip);
         FlipOptions flip = options.flip;
-        if (hdr) { // all four differences are seen at the reference's exposures
+        if (hdr) { // all four differences use the reference's exposures
             const FlipExposures range = find_exposures(frames->reference, flip, jobs);
             flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
         }
@@ -136,6 +137,7 @@ int compare_sequences(const CompareOptions& options)
         rows.push_back(std::move(row));
         before = std::move(*frames);
     }
+    // Report the means and the flicker
     const double count = static_cast<double>(numbers->size());
     test_changes /= count - 1.0, reference_changes /= count - 1.0;
     const double flicker = test_changes - reference_changes;
@@ -143,6 +145,7 @@ int compare_sequences(const CompareOptions& options)
     report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", errors / count, worst, worst_number));
     report.figure("changes", fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", test_changes, reference_changes));
     report.figure("flicker", fmt::format("{:.6f}", flicker));
+    // Write JSON and CSV, trying both
     Status written;
     Json json;
     json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
@@ -159,6 +162,7 @@ int compare_sequences(const CompareOptions& options)
     }
     if (!written)
         return fail(written.error());
+    // Check the limits
     for (const auto& [limit, value, what] :
          {std::tuple{options.fail_flip, errors / count, "FLIP's mean"}, std::tuple{options.fail_flicker, flicker, "flicker"}})
         if (limit && value > *limit)

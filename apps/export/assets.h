@@ -1,4 +1,4 @@
-// techniques.glsl after the C preprocessor, put into the program when it is built.
+// techniques.glsl after the C preprocessor, embedded at build time.
 #pragma once
 #include "core/base/embedded.h"
 

@@ -1,4 +1,4 @@
-// `burnish export`: techniques for other engines.
+// `burnish export`: writes techniques for other engines.
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -25,7 +25,7 @@ Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl
   burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl)";
 
-// What the file says of itself.
+// Opening comment of the exported file.
 constexpr const char* kHeading = R"(// {0}: {1}
 // The light of an environment that an anisotropic specular lobe reflects, from burnish {2} (Apache License 2.0).
 //
@@ -38,7 +38,7 @@ constexpr const char* kHeading = R"(// {0}: {1}
 
 struct ExportArguments {
     std::string what = "glsl", technique = "major_axis", output;
-    int samples = 0; // 0: the technique's own
+    int samples = 0; // 0: the technique's default
     bool quiet = false;
     int verbosity = 0;
 };

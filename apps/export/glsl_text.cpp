@@ -22,7 +22,7 @@ struct Token {
     bool word = false;
 };
 
-// Blanks and comments are tokens too, so that all tokens together are the text.
+// Splits text into tokens. Blanks and comments are tokens too, so all tokens together give the text.
 std::vector<Token> tokens_of(const std::string& text)
 {
     std::vector<Token> tokens;
@@ -58,12 +58,12 @@ std::vector<Token> without_spaces(const std::string& text)
 struct Piece { // a declaration
     std::string comment, text, file;
     std::vector<std::string> defines;
-    bool fetches = false; // of the part that users may replace
+    bool fetches = false; // in the part that users may replace
 };
 
 struct FlatText {
     std::vector<Piece> pieces;
-    std::map<std::string, std::string> headings; // of files
+    std::map<std::string, std::string> headings; // by file
 };
 
 bool ends_with(const std::string& text, const std::string& end)
@@ -71,7 +71,7 @@ bool ends_with(const std::string& text, const std::string& end)
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// Names that a declaration brings into the outermost scope.
+// Returns the names that a declaration adds to the global scope.
 std::vector<std::string> defined_by(const std::string& text)
 {
     const std::vector<Token> tokens = without_spaces(text);
@@ -124,7 +124,7 @@ class Reader {
             comment_ += line + "\n";
     }
 
-    // Comments of lists, inside of what is made of them.
+    // True for comments of list files (*.def) inside the generated code.
     bool from_list(const std::string& line, std::size_t first) const
     {
         return ends_with(file_, ".def") && line.compare(first, 2, "//") == 0;
@@ -137,12 +137,12 @@ class Reader {
         file_ = marker.substr(begin + 1, end - begin - 1);
     }
 
-    // A comment that no declaration follows: where it is the first of its file, it is about all of it.
+    // Ends a comment without a declaration. The first such comment of a file is the file's heading.
     void end_comment()
     {
         if (comment_.empty() || !open_.empty())
             return;
-        if (file_.find("/lang/") == std::string::npos) // what those say is of burnish
+        if (file_.find("/lang/") == std::string::npos) // headings of shading/lang describe burnish
             out_.headings.emplace(file_, comment_);
         comment_.clear();
     }
@@ -172,7 +172,7 @@ class Reader {
     bool fetches_ = false;
 };
 
-// Words that may be names of the outermost scope: not members behind a point; of a struct, types, which stand before another word.
+// Returns words that may be global names: no members after a dot; in a struct only types, which precede another word.
 std::set<std::string> names_in(const std::string& text)
 {
     std::set<std::string> names;
@@ -186,7 +186,7 @@ std::set<std::string> names_in(const std::string& text)
     return names;
 }
 
-// Members of what functions call `variable`.
+// Returns the members read from `variable`.
 std::set<std::string> members_read(const std::string& text, const std::string& variable)
 {
     std::set<std::string> names;
@@ -197,7 +197,7 @@ std::set<std::string> members_read(const std::string& text, const std::string& v
     return names;
 }
 
-using Kept = std::vector<bool>; // of pieces
+using Kept = std::vector<bool>; // by piece
 
 Kept reached(const std::vector<Piece>& pieces, const std::vector<std::string>& roots)
 {
@@ -224,18 +224,18 @@ Kept reached(const std::vector<Piece>& pieces, const std::vector<std::string>& r
     return kept;
 }
 
-// The members of a struct that are read, one a line.
+// Returns the struct with the members in `read`, one a line.
 std::string trimmed_struct(const std::string& text, const std::set<std::string>& read, std::set<std::string>& lost)
 {
     const std::size_t open = text.find('{'), close = text.rfind('}');
     std::string out = text.substr(0, open + 1) + "\n";
-    std::string bare; // without comments, which lines that are cut apart would leave behind
+    std::string bare; // without comments, which would outlive the lines they describe
     for (const Token& t : tokens_of(text.substr(open + 1, close - open - 1)))
         bare += t.text.compare(0, 2, "//") == 0 ? "" : t.text;
     std::istringstream members(bare);
     for (std::string member; std::getline(members, member, ';');) {
         const std::vector<Token> tokens = without_spaces(member);
-        std::size_t type_end = 0; // `precise vec3` are two words
+        std::size_t type_end = 0; // `precise vec3` is two words
         while (type_end + 1 < tokens.size() && tokens[type_end + 1].word)
             ++type_end;
         std::string type, names, name;
@@ -260,7 +260,7 @@ std::string trimmed_struct(const std::string& text, const std::set<std::string>&
     return out + "};\n";
 }
 
-// A function without the statements that fill members which are lost.
+// Returns the function without statements that fill lost members.
 std::string trimmed_maker(const std::string& text, const std::string& variable, const std::set<std::string>& lost)
 {
     std::string out, statement;
@@ -284,7 +284,7 @@ std::string public_name(const std::string& name)
     return "burnish_" + (name.compare(0, 3, "bn_") == 0 ? name.substr(3) : name);
 }
 
-// Members of structs keep their names: there only what stands before another word is a type.
+// Renames global names. Members of structs keep their names: there only a word before another word is a type.
 std::string renamed(const std::string& text, const std::set<std::string>& names)
 {
     const std::vector<Token> tokens = tokens_of(text);
@@ -317,10 +317,12 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
 {
     FlatText text = Reader().read(flat);
     std::vector<Piece>& pieces = text.pieces;
+    // Add the sample grid
     pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid_count), "", {"kGridCount"}, false});
     if (!wish.grid.empty())
         pieces.insert(std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.fetches; }),
                       {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish.grid), "", {"kGrid"}, true});
+    // Trim structs to the members in use
     Kept kept = reached(pieces, wish.roots);
     for (const TrimmedStruct& wanted : wish.trimmed) {
         std::set<std::string> read, lost;
@@ -336,6 +338,7 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
     }
     kept = reached(pieces, wish.roots);
 
+    // Write the kept pieces with their comments, renamed
     std::set<std::string> names;
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (kept[i])

@@ -1,4 +1,4 @@
-// One technique as GLSL for engines: what it needs of all techniques' text (techniques.glsl, flattened when the program is built).
+// Extracts one technique as GLSL for other engines from the text of all techniques (techniques.glsl, flattened at build time).
 #pragma once
 #include <string>
 #include <vector>
@@ -7,20 +7,20 @@
 
 namespace burnish {
 
-struct TrimmedStruct {                 // a struct that keeps only the members that something reads
-    std::string name, variable, maker; // what functions call it; the function that fills it, whose statements for the others go too
+struct TrimmedStruct {                 // a struct reduced to the members in use
+    std::string name, variable, maker; // its name inside functions; the function that fills it, without statements for dropped members
 };
 
 struct GlslWish {
-    std::vector<std::string> roots; // functions that are to be there, with all that they call
+    std::vector<std::string> roots; // functions to keep, with their callees
     std::string heading;            // a comment
-    std::vector<GridSample> grid;   // of techniques that sample by a grid; may be empty
-    int grid_count = 0;             // of them, what a point takes
+    std::vector<GridSample> grid;   // for techniques with a sample grid; may be empty
+    int grid_count = 0;             // grid points used by one shading point
     std::vector<TrimmedStruct> trimmed;
 };
 
-// Declarations in their old order, with the comments before them and those that their files begin with. Every name of the outermost scope
-// begins with burnish_, so that none is the engine's own. `flat`: what a C preprocessor leaves, with line markers and comments.
+// Returns the declarations in their old order, with their comments and their files' opening comments. Prefixes every global name with
+// burnish_, so that names cannot collide with the engine's. `flat`: output of a C preprocessor, with line markers and comments.
 std::string glsl_of(const std::string& flat, const GlslWish& wish);
 
 } // namespace burnish

@@ -1,5 +1,5 @@
-// What `burnish export glsl` takes its files from: all techniques with a stage (shading/lang/stage.h) that knows no buffers, only fetches
-// that its user has. The C preprocessor flattens this when the program is built, apps/export keeps what one technique needs.
+// The source of `burnish export glsl`: all techniques, with a stage (shading/lang/stage.h) that has no buffers, only user-supplied
+// fetches. The C preprocessor flattens this file at build time, and apps/export keeps the parts of one technique.
 #define BN_FRAME_H
 #define BN_STAGE_GLSL
 #define BN_CUBE_FILTER_K_H
@@ -15,11 +15,10 @@
 #define the_material(m) materials[m]
 #define lobe_used(at) true
 
-// What a frame tells the technique, the same for every point.
-// specular, box, whole: of the environments that are fetched, size (texels along a face's side) and levels; scale: 1, or what fetched values
-// are to be multiplied by. samples, grid_count: how many. joins_round: 1 where round lobes are drawn by split_isotropic, to which others are
-// to go over as they become round. lobe: the model, lobe_traits: 1 for the usual one.
-// The others are options of `burnish render`.
+// Settings of a technique, common to all shading points. specular, box, whole: size (texels along a face's side) and level count of the
+// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. joins_round: 1 to blend anisotropic
+// lobes into split_isotropic as they become round. lobe: the model; lobe_traits: 1 for GGX, the default. The others are options of
+// `burnish render`.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
@@ -29,7 +28,7 @@ struct settings {
     int lobe, lobe_traits;
 };
 
-// The usual ones.
+// Returns the default settings.
 settings usual_settings(int specular_size, int specular_levels, int sample_count)
 {
     settings f;
@@ -54,9 +53,9 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
 }
 
 // [fetches
-// Yours: radiance of an environment towards `direction`, which need not be unit, at a level of detail that is no whole number.
-// cube 0: prefiltered by GGX lobes, level l of N for alpha = (l / (N - 1))^2, textureLod() of a cube map; 1: its box-filtered chain;
-// 2: the environment itself, level 0, with suns and lamps that the others leave out.
+// You provide this function: environment radiance towards `direction` (any length), at a fractional level of detail. cube 0: prefiltered
+// by GGX lobes, level l of N for alpha = (l / (N - 1))^2, as textureLod() on a cube map. cube 1: the box-filtered mip chain. cube 2: the
+// environment itself, level 0, with the suns and lamps that the other two leave out.
 vec4 radiance(int cube, vec3 direction, float lod);
 
 struct cube_desc {
@@ -159,10 +158,10 @@ real4 grid_of_four(settings f, int first, integer set)
 #define BN_TECHNIQUE_TEXTS
 #include "shading/models.def"
 
-// The point that a technique shades. n: the shading normal, v: to the eye, tangent: the grain, across n, all unit, in world space;
-// f0, f90: reflectance at normal and at grazing incidence; roughness: perceptual, alpha = roughness^2; anisotropy: in [-1, 1], widths
-// alpha (1 + anisotropy) along the grain; dfg: directional albedo of the lobe as f0 x + f90 y, of your table or by dfg_fit();
-// pixel: y * width + x, for random numbers.
+// Makes the point that a technique shades. n: shading normal; v: direction to the eye; tangent: the grain, perpendicular to n; all unit,
+// world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual, alpha = roughness^2. anisotropy: in
+// [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy) across. dfg: directional albedo of the lobe
+// as f0 x + f90 y, from your table or dfg_fit(). pixel: y * width + x, seed of random numbers.
 shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
 {
     real alpha = roughness * roughness;

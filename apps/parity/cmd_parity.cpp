@@ -1,4 +1,4 @@
-// `burnish parity`: the tile renderer and its twin over Vulkan, compared in bits, stage by stage.
+// `burnish parity`: compares the tile renderer with its Vulkan counterpart bit by bit, stage by stage.
 #include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
@@ -35,7 +35,7 @@ Examples:
 
 Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan; a row that fails otherwise: its code, at the end.)";
 
-// What all places share.
+// State shared by all places.
 struct Bench {
     const ParityOptions& options;
     std::shared_ptr<const Jobs> jobs;
@@ -44,7 +44,7 @@ struct Bench {
     Report& report;
 };
 
-// Errors of the pixels; empty where the pictures are equal, or hold what is no number.
+// Returns the FLIP error of each pixel. Empty if the pictures are equal or hold non-finite values.
 Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
 {
     if (reference.bytes == test.bytes || not_finite_pixels(reference, test) > 0)
@@ -89,7 +89,7 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     return row;
 }
 
-// Where a row stands among all, of which the others are drawn before or after it.
+// Names a row by its number and settings.
 std::string row_text(const ParityReport& out, const ParityRow& row)
 {
     return fmt::format("row {} ({} {}, {})", out.rows.size() + 1, row.scene, row.technique,
@@ -98,6 +98,7 @@ std::string row_text(const ParityReport& out, const ParityRow& row)
 
 Status compare_place(const Bench& bench, const ParityPlace& place, const ParitySet& set, ParityReport& out)
 {
+    // Load the scene and the tables
     RenderOptions base = set.frames.front();
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
@@ -117,10 +118,12 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
         BN_TRY(tables);
         parts.phong = std::move(*tables);
     }
+    // Make both renderers
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     for (const Result<Session>* made : {&tile, &vulkan})
         if (!*made)
             return made->error();
+    // Compare every frame
     for (const RenderOptions& options : set.frames) {
         const Activity activity(row_text(out, named_row(place, set, options)));
         Result<ParityRow> compared = compare(bench, named_row(place, set, options), options, scene->view, *tile, *vulkan);
@@ -172,7 +175,7 @@ int verdict(const ParityReport& parity, Report& report)
     return 0;
 }
 
-// Pipelines that hold what any of the frames asks for take a driver less time than one for each.
+// Returns options for pipelines that serve all frames: a driver compiles one such pipeline faster than one for each frame.
 VulkanOptions device_options(const ParityOptions& options)
 {
     VulkanOptions out = options.sets.front().frames.front().vulkan;
@@ -209,7 +212,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
     for (const ParityPlace& place : options.places)
         for (const ParitySet& set : options.sets)
-            if (const Status done = compare_place(bench, place, set, parity); !done) { // no row of it can be compared
+            if (const Status done = compare_place(bench, place, set, parity); !done) { // none of its rows can be compared
                 report.event("failed", done.error().line());
                 for (const RenderOptions& frame : set.frames)
                     parity.rows.push_back(failed_row(place, set, frame, done.error()));

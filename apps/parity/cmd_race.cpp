@@ -1,4 +1,4 @@
-// `burnish race`: the tile renderer against Vulkan's CPU devices at the same picture.
+// `burnish race`: times the tile renderer against Vulkan's CPU devices on one picture.
 #include <algorithm>
 #include <fmt/core.h>
 #include <memory>
@@ -51,7 +51,7 @@ struct Timed {
     Image picture;
 };
 
-// The frame before, whose memory is used again.
+// Renders and times a frame. `frame` is the previous frame; its memory is reused.
 Status draw_tile(Session& tile, const FrameDesc& desc, Frame& frame, Timed& into)
 {
     const double wall = wall_ms(), cpu = process_cpu_ms();
@@ -72,7 +72,7 @@ Status draw_device(Session& device, const FrameDesc& desc, Frame& frame, Timed& 
     return {};
 }
 
-// A B A B: whatever slows the machine slows both. The first round is not counted: pipelines are made in it.
+// Alternates A B A B: a slow phase of the machine slows both. Skips the first round, in which pipelines are compiled.
 Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int runs, const Jobs& jobs)
 {
     Timed a, b;
@@ -107,7 +107,7 @@ RaceRow failed_row(const FrameDesc& desc, const Error& error)
     return row;
 }
 
-// Every frame to be raced, with its scene.
+// All frames to race, by scene.
 struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
     std::vector<std::string> devices, shaders;
@@ -139,14 +139,14 @@ struct Opponent {
     std::string shader;
 };
 
-// Those that are there; the others get a note.
+// Opens the available devices. Adds a note for each missing one.
 std::vector<Opponent> open_devices(const RacePlan& plan, RaceReport& report, Error& last)
 {
     std::vector<Opponent> devices;
     for (const std::string& name : plan.devices)
         for (const std::string& shader : plan.shaders) {
             VulkanOptions options = plan.frames.front().vulkan;
-            options.device = name, options.centroid = true; // as cheap as the device can
+            options.device = name, options.centroid = true; // the device's cheapest mode
             options.pipeline = shader == "lean" ? VulkanPipeline::lean : VulkanPipeline::forward;
             const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
             if (!device) {
@@ -163,7 +163,7 @@ std::vector<Opponent> open_devices(const RacePlan& plan, RaceReport& report, Err
     return devices;
 }
 
-// What all scenes share.
+// State shared by all scenes.
 struct Race {
     const RacePlan& plan;
     const std::vector<Opponent>& devices;
@@ -171,7 +171,7 @@ struct Race {
     std::shared_ptr<const Jobs> jobs;
     Report& report;
     RaceReport& out;
-    Error first_error; // what a row failed of, 77 only where nothing worse; the others are raced nevertheless
+    Error first_error; // first error of a row; 77 gives way to other codes; other rows still run
 };
 
 void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const Result<RaceRow>& raced)
@@ -185,7 +185,7 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
     bench.out.rows.push_back(row);
 }
 
-// Frames first to last - 1 of the plan, which are of one scene.
+// Races frames first to last - 1 of the plan, all of one scene.
 void race_scene(Race& bench, std::size_t first, std::size_t last)
 {
     const std::vector<RenderOptions>& frames = bench.plan.frames;

@@ -13,7 +13,7 @@
 namespace burnish {
 namespace {
 
-// Every built-in scene; and closer, so that triangles cross the near plane and fill more than the picture.
+// Every built-in scene, also from close by: triangles then cross the near plane and cover more than the picture.
 struct SuiteEntry {
     const char *scene, *view;
     float eye[3], target[3];
@@ -64,7 +64,7 @@ Status choose_places(const ParityArguments& in, std::vector<ParityPlace>& places
     return in.models.empty() ? Status() : add_models(in.models, places);
 }
 
-// What another look may change: what is drawn, but for its size, its environment and where it is seen from.
+// True for options that another look may change: the content, not its size, environment or view.
 bool changes_look(const Option& option)
 {
     constexpr const char* kLooks[] = {"--technique",  "--msaa",  "--samples",   "--roughness",
@@ -73,7 +73,7 @@ bool changes_look(const Option& option)
            std::find(std::begin(kLooks), std::end(kLooks), option.name) != std::end(kLooks);
 }
 
-// "--tilt 20,-10 --horizon off", as if written on the command line.
+// Sets options from text such as "--tilt 20,-10 --horizon off", in command-line syntax.
 Status set_words(const std::string& words, OptionTable& table)
 {
     std::vector<std::string> parts = split(words, ' ');
@@ -106,7 +106,7 @@ Result<std::vector<RenderOptions>> frames_of(const ParityArguments& in, const Op
     return frames;
 }
 
-// The same frames with other words on top; `given`: what the command line gave.
+// Returns the same frames with additional options. `given`: the options on the command line.
 Result<std::vector<RenderOptions>> frames_of_look(const std::string& also, const ParityArguments& in, const OptionTable& given)
 {
     ParityArguments arguments = in;

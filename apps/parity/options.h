@@ -14,27 +14,27 @@ struct ParityArguments {
         render.size = {128, 72};
         render.plain.backend = "vulkan", render.plain.vulkan.prefer_cpu = true;
     }
-    RenderArguments render; // its scene, msaa and technique are not used
+    RenderArguments render; // without scene, msaa and technique
     std::vector<std::string> scenes, techniques = technique_names();
     std::vector<int> msaa = {1, 4, 8};
     std::vector<std::string> also;
     std::string suite, models, json, csv, junit, html;
 };
 
-struct ParityPlace {         // a scene, seen from somewhere
-    std::string scene, view; // view: a name; empty: the scene's own
+struct ParityPlace {         // a scene and a view
+    std::string scene, view; // view: a name; empty: the scene's own view
     std::optional<glm::dvec3> eye, target;
 };
 
-struct ParitySet {                     // one look of all places
-    std::string also;                  // what --also said of it; the first one: nothing
+struct ParitySet {                     // one option set for all places
+    std::string also;                  // text of --also; empty for the first set
     std::vector<RenderOptions> frames; // by technique, then by msaa
 };
 
 struct ParityOptions {
     std::vector<ParityPlace> places;
     std::vector<ParitySet> sets;
-    std::string json, csv, junit, html; // files; empty: none
+    std::string json, csv, junit, html; // files; empty: no file
 };
 
 OptionTable parity_option_table(ParityArguments& to);

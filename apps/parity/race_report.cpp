@@ -45,7 +45,7 @@ void compare_pictures(const Image& reference, const Image& test, const std::vect
     row.silhouettes = silhouettes.empty() ? 0.0 : count / static_cast<double>(silhouettes.size());
     if (count == 0.0 || row.silhouettes == 1.0)
         return;
-    Image same = test; // there, so that what FLIP filters around them is the same too
+    Image same = test; // on silhouettes: FLIP's filters then see no difference there
     for (std::size_t p = 0; p < silhouettes.size(); ++p)
         if (silhouettes[p])
             std::copy_n(reference.f32() + 3 * p, 3, same.f32() + 3 * p);
@@ -106,7 +106,7 @@ Json race_document(const RaceReport& report)
         r["shader"] = row.shader, r["scene"] = row.scene, r["technique"] = row.technique, r["samples"] = row.samples, r["msaa"] = row.msaa,
         r["device"] = row.device;
         r["error"] = row.error.empty() ? Json() : Json(row.error);
-        if (!row.error.empty()) { // no figures
+        if (!row.error.empty()) { // no measurements
             json["rows"].push_back(r);
             continue;
         }

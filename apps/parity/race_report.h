@@ -1,4 +1,4 @@
-// The outcome of `burnish race`: what a frame costs the tile renderer and Vulkan's CPU devices.
+// The outcome of `burnish race`: frame times for the tile renderer and for Vulkan CPU devices.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,15 +11,15 @@ namespace burnish {
 inline constexpr const char* kRaceShaders[] = {"own", "lean"};
 
 struct RaceRow {
-    std::string scene, technique, device; // device: as the driver calls it
-    std::string shader;                   // own: the kernels' text; lean: as an engine would write it
+    std::string scene, technique, device; // device: the driver's name
+    std::string shader;                   // own: the shared kernels; lean: hand-written, as in an engine
     int samples = 1, msaa = 1;
     double tile_ms = 0.0, device_ms = 0.0;         // medians of wall time
-    double tile_cpu_ms = 0.0, device_cpu_ms = 0.0; // medians of the process' CPU time
-    double flip_mean = 0.0;                        // of the device's picture against the tile renderer's, away from silhouettes
-    double flip_whole = 0.0;                       // with them
-    double silhouettes = 0.0;                      // their share of the pixels
-    std::string error;                             // not empty: nothing was timed, and why
+    double tile_cpu_ms = 0.0, device_cpu_ms = 0.0; // medians of the process's CPU time
+    double flip_mean = 0.0;                        // device's picture against the tile renderer's, without silhouettes
+    double flip_whole = 0.0;                       // with silhouettes
+    double silhouettes = 0.0;                      // share of the pixels on silhouettes
+    std::string error;                             // not empty: the reason why nothing was timed
     double ratio() const { return device_cpu_ms / tile_cpu_ms; }
 };
 
@@ -30,21 +30,21 @@ struct RaceReport {
     std::vector<std::string> notes; // about devices, one line each
 };
 
-inline constexpr double kMaxRaceFlip = 0.01;  // above, the pictures are not the same work
-inline constexpr double kMaxWholeFlip = 0.02; // with silhouettes, of which each has its own
+inline constexpr double kMaxRaceFlip = 0.01;  // limit for flip_mean: above it the renderers draw different pictures
+inline constexpr double kMaxWholeFlip = 0.02; // limit for flip_whole: renderers may shade silhouettes at other points
 bool same_picture(const RaceRow& row);
-double geomean_ratio(const RaceReport& report, const std::string& shader); // of the rows with the same picture; 0 where there is none
+double geomean_ratio(const RaceReport& report, const std::string& shader); // over rows with the same picture; 0 if there is none
 
-// Pixels whose samples see more than one draw, or one and the sky, 1 each; none with one sample a pixel. Where in such a pixel a fragment
-// is shaded is each renderer's own: at a centroid of the device's choice, in the middle, at the mean of what is covered. frame: with
-// triangle ids.
+// Returns 1 for pixels whose samples see several draws, or a draw and the background, else 0. All 0 with one sample a pixel. Renderers
+// shade such pixels at different points: a device's centroid, the pixel centre, or the mean of the covered samples. frame: with triangle
+// ids.
 std::vector<std::uint8_t> silhouettes_of(const Frame& frame, int msaa, const DrawTables& tables);
-// `test` against `reference`: the row's three figures.
+// Compares `test` with `reference` and sets flip_mean, flip_whole and silhouettes.
 void compare_pictures(const Image& reference, const Image& test, const std::vector<std::uint8_t>& silhouettes, const Jobs& jobs,
                       RaceRow& row);
 
 std::string race_table(const RaceReport& report);
 std::string race_json(const RaceReport& report);
-std::string race_csv(const RaceReport& report); // of the rows
+std::string race_csv(const RaceReport& report); // rows only
 
 } // namespace burnish

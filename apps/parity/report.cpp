@@ -25,7 +25,7 @@ struct Total {
     const ParityRow* worst = nullptr;
 };
 
-// By stage, over all rows, in the order of the stages.
+// Returns sums by stage over all rows, in stage order.
 std::vector<Total> totals(const ParityReport& report)
 {
     std::vector<Total> sums;
@@ -49,7 +49,7 @@ const char* name_of(const CauseShare& c)
     return kPixelCauseNames[static_cast<int>(c.cause)];
 }
 
-// Of all rows: pixels summed, FLIP averaged over the rows. Without the pixels that are equal, which FLIP shows beside others.
+// Returns pixel counts summed and FLIP averaged over all rows. Leaves out equal pixels, where FLIP spreads errors of neighbours.
 std::vector<CauseShare> total_causes(const ParityReport& report)
 {
     CauseShare sums[kPixelCauses];

@@ -8,16 +8,16 @@
 namespace burnish {
 
 struct ParityRow {
-    std::string scene, view, technique; // view: "" for the scene's own
-    std::string also;                   // options beside those of the command: see --also
+    std::string scene, view, technique; // view: "" for the scene's own view
+    std::string also;                   // additional options: see --also
     int msaa = 1;
     std::string sampler, pipeline;
     bool samples_emulated = false;
-    std::uint64_t pixel_hash = 0; // of the tile renderer's picture
+    std::uint64_t pixel_hash = 0; // the tile renderer's picture
     ParityCounts counts;
     double flip_mean = 0.0;
-    std::vector<CauseShare> causes;        // of the pixels that differ
-    Error error{ExitCode::ok, "", "", ""}; // other than ok: nothing was compared, and why
+    std::vector<CauseShare> causes;        // for differing pixels
+    Error error{ExitCode::ok, "", "", ""}; // other than ok: the reason why nothing was compared
     bool failed() const { return error.code != ExitCode::ok; }
 };
 
@@ -27,22 +27,22 @@ struct ParityReport {
     std::vector<ParityRow> rows;
 };
 
-// The promise of a row. Exact sampler, visibility first: no word differs in any stage but visibility, of which all rows together may have
-// one sample in a million. Otherwise: pictures that look the same.
+// Limits for a row. With an exact sampler and visibility first, every word is equal in all stages but visibility. Over all rows, one
+// visibility sample in a million may differ. Otherwise the pictures must look the same.
 inline constexpr double kMaxVisibilityShare = 1e-6, kMaxFlipMean = 0.002;
 bool bits_promised(const ParityRow& row);
-std::string fault_of(const ParityRow& row); // empty: as promised, visibility aside
-// Of all rows together: empty, or what is wrong.
+std::string fault_of(const ParityRow& row); // empty: within the limits, visibility aside
+// Returns the fault of visibility over all rows, or an empty string.
 std::string visibility_fault(const ParityReport& report);
 bool passed(const ParityReport& report);
-// 0 where all is as promised; otherwise 1 where any row differs, or what the first row that could not be compared ends with
-// (77 only where nothing worse does).
+// Returns 0 if all rows hold their limits, else 1 if any row differs. Without a difference, returns the code of the first row that could
+// not be compared, where 77 (unavailable) gives way to any other code.
 ExitCode outcome(const ParityReport& report);
 
 std::string describe(const ParityRow& row);          // one line
-std::string stage_table(const ParityReport& report); // sums over all rows, a line a stage
+std::string stage_table(const ParityReport& report); // sums over all rows, one line a stage
 std::string parity_json(const ParityReport& report);
-std::string parity_csv(const ParityReport& report); // of the rows, without their stages
+std::string parity_csv(const ParityReport& report); // rows without their stages
 std::string parity_junit(const ParityReport& report);
 std::string parity_html(const ParityReport& report);
 

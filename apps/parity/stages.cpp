@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-// Floats in order as integers in order.
+// Maps floats to integers with the same order.
 std::int64_t ordered(std::uint32_t bits)
 {
     const std::int64_t magnitude = bits & 0x7fffffffu;
@@ -51,13 +51,13 @@ std::uint32_t mask_at(const Frame& f, std::size_t sample)
     return f.stages.pairs[sample * kPairWords];
 }
 
-// Whether both have a pair that begins at this sample, of the same triangle and the same samples.
+// True if both frames have a pair that starts at this sample, with the same triangle and samples.
 bool same_pair(const Frame& a, const Frame& b, std::size_t sample)
 {
     return mask_at(a, sample) != 0 && mask_at(a, sample) == mask_at(b, sample) && a.triangle_ids[sample] == b.triangle_ids[sample];
 }
 
-// Whether the samples of a pixel show the same pairs: the same triangles, shared by samples in the same way.
+// True if both frames have the same pairs in a pixel: the same triangles on the same samples.
 bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
 {
     for (std::size_t s = pixel * msaa; s < (pixel + 1) * msaa; ++s)
@@ -93,7 +93,7 @@ void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t 
     }
 }
 
-// Of a vector, against its largest component in either.
+// True if two vectors differ by more than kRounding times the largest component of either.
 bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
 {
     double largest = 0.0, difference = 0.0;
@@ -107,7 +107,7 @@ bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
     return difference > kRounding * largest;
 }
 
-// Components of the vectors that a pair's words are (shading/lang/recorded.h).
+// Vector lengths inside a pair's words (shading/lang/recorded.h).
 constexpr int kInterpolantVectors[] = {
 #define BN_POINT(type, words, name, asked) words,
 #define BN_INTERPOLATED(type, words, name, asked, first) words,
@@ -154,11 +154,14 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     StageCounter clip("clip positions", 0), visibility(kVisibilityStage, width), depth("depth", width), interpolants("interpolants", width),
         material("material inputs", width), shaded("shaded colour", width), resolved("resolved colour", width), layers("layers", width);
     const bool have_layers = !tile.layers.empty() && !other.layers.empty();
+    // Clip positions
     for (std::size_t i = 0; i < std::min(tile.stages.vertices.size(), other.stages.vertices.size()); ++i)
         clip.add(tile.stages.vertices[i], other.stages.vertices[i], 0);
     ParityCounts out;
     out.samples = tile.triangle_ids.size();
+    // Each pixel, stage by stage
     for (std::size_t p = 0; p < pixels; ++p) {
+        // Visibility and depth, by sample
         std::uint64_t differ = 0;
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
             const bool same = tile.triangle_ids[s] == other.triangle_ids[s];
@@ -173,6 +176,7 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             differ = 1;
         }
         out.visibility_differ += differ;
+        // Pairs of one triangle and the same samples
         for (std::size_t s = p * n; s < (p + 1) * n; ++s) {
             if (!same_pair(tile, other, s))
                 continue;
@@ -183,11 +187,13 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
             }
             shaded.add(a + kPairWords - 3, b + kPairWords - 3, 3, p);
         }
+        // Whole pixels
         if (same)
             resolved.add(color_words(tile, p), color_words(other, p), 3, p);
         if (same && have_layers)
             layers.add(layer_words(tile, p), layer_words(other, p), kLayerWords, p);
     }
+    // Collect the stages in order
     for (const StageCounter* c : {&clip, &visibility, &depth, &interpolants, &material, &shaded, &resolved})
         out.stages.push_back(c->stage());
     if (have_layers)

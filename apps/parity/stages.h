@@ -1,4 +1,4 @@
-// How two renderers' frames differ, stage by stage: what `burnish parity` counts.
+// Compares two renderers' frames stage by stage, for `burnish parity`.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,26 +12,26 @@ struct ParityStage {
     std::string name;
     std::uint64_t values = 0, words_differ = 0;
     std::uint64_t max_ulp = 0;      // largest distance of two words as ordered floats
-    int worst_x = -1, worst_y = -1; // pixel of it; -1: not of a pixel (clip positions)
+    int worst_x = -1, worst_y = -1; // pixel with max_ulp; -1: not in a pixel (clip positions)
     bool equal() const { return words_differ == 0; }
 };
 
 struct ParityCounts {
-    std::uint64_t samples = 0, visibility_differ = 0;        // a sample differs where its triangle does
-    std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // of the resolved picture; of them, pixels that show several triangles
+    std::uint64_t samples = 0, visibility_differ = 0;        // a sample differs if its triangle differs
+    std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // in the resolved picture; those with several triangles in the pixel
     std::vector<ParityStage>
         stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour, layers
 };
 
 inline constexpr const char* kVisibilityStage = "visibility";
 
-// Both frames with FrameDesc::stages, of one description; clip positions only where both have them. What follows visibility is compared
-// where visibility agrees: depths by sample, interpolants to shaded colour by pairs of the same triangle and the same samples, resolved
-// colour and layers, where both have them, in pixels whose pairs are all the same.
+// Compares frames with FrameDesc::stages, of one description. Clip positions are compared if both frames have them. Later stages are
+// compared where visibility agrees. Depths are compared by sample. Interpolants to shaded colour are compared by pairs with the same
+// triangle and samples. Resolved colour, and layers if both frames have them, are compared in pixels with equal pairs.
 ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa);
 
-// Why a pixel differs: the first stage that differs by more than kRounding of a vector's largest component, in any of the pixel's
-// (pixel, triangle) pairs; what differs by less in all of them is rounded otherwise.
+// The first stage with a difference above kRounding times the largest vector component, in any (pixel, triangle) pair of the pixel.
+// `rounding` if no pair has such a difference.
 enum class PixelCause : std::uint8_t { none, visibility, interpolants, material, shaded, resolved, rounding };
 inline constexpr int kPixelCauses = 7;
 inline constexpr const char* kPixelCauseNames[kPixelCauses] = {"equal",         "visibility",      "interpolants", "material inputs",
@@ -42,15 +42,14 @@ std::vector<PixelCause> pixel_causes(const Frame& tile, const Frame& other, int 
 struct CauseShare {
     PixelCause cause = PixelCause::none;
     std::uint64_t pixels = 0, edge_pixels = 0; // edge: several triangles in the pixel
-    double flip = 0.0;                         // what these pixels add to the picture's mean FLIP
+    double flip = 0.0;                         // contribution of these pixels to the picture's mean FLIP
 };
-// By cause, without those that no pixel has. flip: error of each pixel, or null where it is 0 everywhere. The sum of all `flip` is the
-// mean.
+// Returns the shares by cause, without empty causes. flip: error of each pixel; null: 0 everywhere. All `flip` shares add up to the mean.
 std::vector<CauseShare> share_causes(const std::vector<PixelCause>& causes, const Frame& tile, int msaa, const float* flip);
 
-// The first stage that differs; null where none does.
+// Returns the first stage that differs, or null.
 const ParityStage* first_difference(const ParityCounts& counts);
 
-std::uint64_t ulp_distance(std::uint32_t a, std::uint32_t b); // of floats by their bits; -0 and +0 are one apart
+std::uint64_t ulp_distance(std::uint32_t a, std::uint32_t b); // floats given by their bits; -0 and +0 are one apart
 
 } // namespace burnish

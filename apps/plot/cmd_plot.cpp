@@ -1,4 +1,4 @@
-// `burnish plot`: figures of lobes and of where techniques sample them.
+// `burnish plot`: draws lobes and the samples that techniques take.
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -47,7 +47,7 @@ struct PlotArguments {
     std::string what = "axis", output;
     LobePlot lobe;
     glm::vec2 eye_deg{50.0f, 30.0f};
-    FrameDesc frame; // of which --brdf and --tilt count
+    FrameDesc frame; // provides --brdf and --tilt
     bool quiet = false;
     int verbosity = 0;
 };

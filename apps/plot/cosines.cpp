@@ -1,4 +1,4 @@
-// The page of figures of transformed cosines: `burnish plot ltc`.
+// `burnish plot ltc`: the figures of linearly transformed cosines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,9 +21,9 @@ using ltc::with_unit_axis;
 using ltc::operator*;
 
 constexpr int kColumns = 5;
-constexpr double kRow = kSide + 66.0; // px, from a row of panels to the next
-constexpr std::size_t kCounted = 16;  // lobes of which broken fits are counted
-constexpr double kBroken = 0.1;       // L1 above the nearest fit that a fit counts as broken from
+constexpr double kRow = kSide + 66.0; // px, from one row of panels to the next
+constexpr std::size_t kCounted = 16;  // lobes tested for broken fits
+constexpr double kBroken = 0.1;       // a fit is broken if its L1 exceeds the nearest fit's by this
 
 double of_direction(const Place& p, const std::function<double(const ltc::Vec&)>& value)
 {
@@ -31,7 +31,7 @@ double of_direction(const Place& p, const std::function<double(const ltc::Vec&)>
     return z2 > 0.0 ? value({p.x, p.y, std::sqrt(z2)}) : 0.0;
 }
 
-// Of a cosine's points from where the matrix takes them: what alignment makes small, equation 12.
+// Returns the mean squared distance between a cosine's points and their images under the matrix. Alignment minimizes this, equation 12.
 double squared_way(const Matrix& m)
 {
     static const ltc::Rule rule(16);
@@ -63,7 +63,7 @@ class Sheet {
         density(row, column, title, [&](const ltc::Vec& l) { return ltc::transformed_cosine(n, l); });
     }
 
-    // Points of the plain cosine, and lines to where the matrix takes them; of the last row.
+    // Draws points of the plain cosine, with lines to their images under the matrix. For the last row.
     void carried(int column, const char* how, const Matrix& m)
     {
         const ltc::Rule shown(11);
@@ -91,7 +91,7 @@ std::string titled(const char* name, double l1)
     return fmt::format("{}, L1 {:.3f}", name, l1);
 }
 
-std::string marked(const char* name, double l1) // where one cosine cannot follow
+std::string marked(const char* name, double l1) // marks lobes that one cosine cannot follow
 {
     return titled(name, l1) + (l1 > ltc::kFarOff ? ": a lune" : "");
 }
@@ -102,7 +102,7 @@ Matrix turned_about_z(double angle)
     return {c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0};
 }
 
-// As the document does it: the best of many turns, each with and without a flip; two flips are a turn.
+// Aligns as the paper does: the best of many rotations, each with and without a flip. Two flips are a rotation.
 Matrix aligned_by_searching(const Matrix& m)
 {
     constexpr int kTurns = 360;
@@ -125,15 +125,14 @@ Matrix middle_of(const Matrix& a, const Matrix& b)
     return with_unit_axis(m);
 }
 
-// Where fits begin: an ellipse about the mirror direction, a narrow lobe that does not overlap with the one that is fitted, the plain
-// cosine.
+// Start of a fit: an ellipse about the mirror direction, a narrow lobe that does not overlap the fitted lobe, or the plain cosine.
 struct Start {
     const char* name;
     Matrix m;
 };
 std::array<Start, 3> starts_of(const ltc::Place& place)
 {
-    const ltc::Grid about; // whose frame is the mirror direction's
+    const ltc::Grid about; // its frames are about the mirror direction
     const auto ellipse = [&](const ltc::Place& p) {
         return with_unit_axis(about.frame(p) * Matrix{p.alpha, 0.0, 0.0, 0.0, p.alpha * p.lambda, 0.0, 0.0, 0.0, 1.0});
     };
@@ -142,7 +141,7 @@ std::array<Start, 3> starts_of(const ltc::Place& place)
         {{"an ellipse", ellipse(place)}, {"apart", ellipse(apart)}, {"the plain cosine", {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}}}};
 }
 
-// By the third power and the sliced distance from the start; ours from its own, whatever the start.
+// Fits in the L3 norm and the sliced distance from `start`, and as burnish does from its own start.
 std::array<ltc::NodeFit, 3> fits_from(const ltc::LobePoints& points, const ltc::Place& place, const Matrix& start)
 {
     ltc::NodeFit cubed = fit_lobe(points, start, 0, ltc::Norm::l3);
@@ -184,15 +183,17 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
 {
     const double a = plot.roughness * plot.roughness, eta = std::abs(plot.anisotropy);
     const auto folded = [](double degrees) { return std::abs(std::remainder(degrees, 180.0)) * kDegree; };
-    // The quadrant and the order of widths that tables have: lobes are mirrored into it.
+    // Mirrors the lobe into the tables' quadrant and orders the widths as tables do.
     const ltc::Place place = {plot.theta_deg * kDegree, folded(plot.anisotropy < 0.0 ? 90.0 - plot.phi_deg : plot.phi_deg), a * (1.0 + eta),
                               std::max((1.0 - eta) / (1.0 + eta), 0.02)};
+    // Fit the lobe: from the table, by one cosine and by two
     const ltc::Rule rule(15), white(18);
     const ltc::LobePoints points(normalised_lobe(place, white), rule);
     const Matrix table = lookup(of, place).m;
     const ltc::NodeFit best = fit_lobe(points, natural_matrix(place), 0);
     const ltc::PairFit pair = fit_pair(points, best.m);
 
+    // First row: the lobe and its approximations
     Sheet sheet(6, fmt::format("Transformed cosines of a GGX lobe of alpha {:g} and {:g}", place.alpha, place.alpha * place.lambda));
     const auto lobe = [&](const ltc::Vec& l) { return density(points.lobe, l).reflected; };
     const Matrix n[2] = {inverse(pair.m[0]), inverse(pair.m[1])};
@@ -205,6 +206,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     const Matrix of_table = inverse(table);
     sheet.density(0, 4, "table and GGX apart", [&](const ltc::Vec& l) { return std::abs(lobe(l) - transformed_cosine(of_table, l)); });
 
+    // Rows 2 to 4: fits from three starts
     const std::array<Start, 3> starts = starts_of(place);
     for (int s = 0; s < 3; ++s) {
         const Start& start = starts[static_cast<std::size_t>(s)];
@@ -214,9 +216,10 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
             sheet.cosine(1 + s, 1 + static_cast<int>(f), titled(kFits[f], fits[f].l1), fits[f].m);
     }
 
+    // Row 5: averages of two matrices, rotated and aligned
     const Matrix turned = best.m * turned_about_z(2.0);
     ltc::Place beside = place;
-    beside.theta = place.theta > 0.25 ? place.theta - 0.22 : place.theta + 0.22; // a node further
+    beside.theta = place.theta > 0.25 ? place.theta - 0.22 : place.theta + 0.22; // the next node
     const Matrix other = fit_lobe(ltc::LobePoints(normalised_lobe(beside, white), rule), natural_matrix(beside), 0).m;
     ltc::Place between = place;
     between.theta = 0.5 * (place.theta + beside.theta);
@@ -229,6 +232,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     mixed(2, "with a neighbour, turned", there, middle_of(other, turned));
     mixed(3, "the same, aligned", there, middle_of(in_natural_gauge(other, beside), in_natural_gauge(turned, place)));
     sheet.density(4, 4, "GGX between the two", [&](const ltc::Vec& l) { return density(there.lobe, l).reflected; });
+    // Last row: the points of the cosine under each matrix
     sheet.carried(0, "turned", turned);
     sheet.carried(1, "aligned in closed form", in_natural_gauge(turned, place));
     sheet.carried(2, "aligned by searching", aligned_by_searching(turned));

@@ -10,11 +10,11 @@
 namespace burnish {
 namespace {
 
-constexpr int kBinRows = 8, kBinColumns = 16; // of histograms, in cosine and azimuth
-constexpr double kLeastExpected = 20.0;       // normals a bin; bins with fewer are one
-constexpr int kDirections = 24;               // rows of directions that areas are looked at from
-constexpr double kTiltDeg = 25.0;             // of measure_skew()
-constexpr int kEnergySide = 96;               // of its samples, squared
+constexpr int kBinRows = 8, kBinColumns = 16; // histograms in cosine and azimuth
+constexpr double kLeastExpected = 20.0;       // normals a bin; bins below are merged
+constexpr int kDirections = 24;               // rows of directions for measuring areas
+constexpr double kTiltDeg = 25.0;             // for measure_skew()
+constexpr int kEnergySide = 96;               // samples along each side of the sample grid in measure_skew()
 
 const EllipsoidFns& ellipsoid_fns()
 {
@@ -37,7 +37,7 @@ PlotVec sum(const PlotVec& a, const PlotVec& b)
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-// Calls of every cell of the upper hemisphere: its direction and solid angle.
+// Calls `call` with the direction and solid angle of each cell on the upper hemisphere.
 template <class Call> void each_normal(const Call& call)
 {
     const double part = 2.0 * kPi / (static_cast<double>(kEllipsoidRows) * kEllipsoidColumns);
@@ -69,7 +69,7 @@ class Random { // splitmix64
     std::uint64_t state_ = 1;
 };
 
-struct Axes { // two directions across a third, unit
+struct Axes { // two unit directions perpendicular to a third
     PlotVec a, b;
 };
 Axes across(const PlotVec& w)
@@ -78,7 +78,7 @@ Axes across(const PlotVec& w)
     return {a, cross(w, a)};
 }
 
-// A point of the disk across w, by its radius.
+// Returns a random point on the disk with this radius perpendicular to w.
 PlotVec disk_point(Random& random, const PlotVec& w, double radius)
 {
     const double r = radius * std::sqrt(random.next()), phi = 2.0 * kPi * random.next();
@@ -91,7 +91,7 @@ bool is_seen(const PlotVec& m, const PlotVec& eye)
     return m.z >= 0.0 && dot(m, eye) >= 0.0;
 }
 
-// A try of each version; false where it is rejected. The ellipsoid: |A p| = 1, with normals A^T A p.
+// Draw one normal by each version; return false for a rejection. The ellipsoid is |A p| = 1, with normals A^T A p.
 bool from_sphere(const EllipsoidShape& s, const PlotVec& eye, Random& random, PlotVec& m)
 {
     const PlotVec start = disk_point(random, eye, 1.0 / std::min({s.alpha_x, s.alpha_y, 1.0}));
@@ -99,7 +99,7 @@ bool from_sphere(const EllipsoidShape& s, const PlotVec& eye, Random& random, Pl
     const double a = dot(w, w), b = dot(p, w), c = dot(p, p) - 1.0, under = b * b - a * c;
     if (under < 0.0)
         return false;
-    const double t = (-b + std::sqrt(under)) / a; // the side that the eye sees
+    const double t = (-b + std::sqrt(under)) / a; // the side facing the eye
     m = unit(ellipsoid_fns().transposed(s, sum(p, scaled(w, t))));
     return is_seen(m, eye);
 }
@@ -142,6 +142,7 @@ SamplerFigures measure_sampler(int version, const EllipsoidShape& shape, const P
         found[bin_of(m)] += 1.0;
         ++kept;
     }
+    // Compare the histogram with the density, bins with few normals merged
     SamplerFigures figures;
     figures.kept = kEllipsoidSamples / tried;
     double rest_found = 0.0, rest_expected = 0.0;
@@ -161,7 +162,7 @@ SamplerFigures measure_sampler(int version, const EllipsoidShape& shape, const P
     }
     add(rest_found, rest_expected);
     --figures.freedom;
-    // areas in units of the part of the ellipsoid with normals above the horizon, as the surface's normal sees it: pi |A n| / |det A|
+    // Areas in units of the projected area of the ellipsoid part with normals above the horizon: pi |A n| / |det A|.
     const PlotVec an = ellipsoid_fns().map(shape, {0, 0, 1}), ao = ellipsoid_fns().map(shape, eye);
     const double smallest = std::min({shape.alpha_x, shape.alpha_y, 1.0}), det = shape.alpha_x * shape.alpha_y;
     const double seen = ellipsoid_fns().visible_area(shape, eye) * std::sqrt(dot(an, an)) / det;
@@ -179,6 +180,7 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
     Bins expected{};
     PlotVec mean = {0, 0, 0};
     int cell = 0;
+    // Integrate the density over the upper hemisphere
     each_normal([&](const PlotVec& m, double part) {
         const double d = ellipsoid_fns().d(shape, m) * part;
         f.projected += d * m.z;
@@ -190,7 +192,8 @@ EllipsoidFigures measure(const EllipsoidShape& shape, const PlotVec& eye)
     });
     f.mean = unit(mean);
     f.mean_by_shape = unit(ellipsoid_fns().transposed(shape, ellipsoid_fns().map(shape, {0, 0, 1})));
-    const PlotVec wall = {-mean.x, -mean.y, 0.0}; // with it the mean of all normals is the surface's
+    // Compare visible areas over directions, without and with the wall
+    const PlotVec wall = {-mean.x, -mean.y, 0.0}; // with this wall, the mean of all normals is the surface normal
     f.wall = std::sqrt(dot(wall, wall));
     f.least_visible = f.least_with_wall = 1e30;
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -236,7 +239,7 @@ std::vector<EnergyRow> measure_skew()
                 row.skew += ellipsoid_fns().sample(shape, light, x, y).weight;
                 if (turned.z <= 0.0)
                     continue;
-                // What leaves the surface is measured by the surface's own cosines, which the turned frame's weights do not know.
+                // Energy leaving the surface uses the surface's own cosines; the weights are in the rotated frame.
                 const NormalSample s = ellipsoid_fns().upright(shape, turned, x, y);
                 const PlotVec out = sum(sum(scaled(t, s.wi.x), scaled(b, s.wi.y)), scaled(peak, s.wi.z));
                 if (out.z > 0.0 && s.wi.z > 0.0)

@@ -24,7 +24,7 @@ p { max-width: 80ch; }
 @media (prefers-color-scheme: dark) { body { color: #ececec; background: #161616; } th, td { border-color: #343434; } }
 )";
 
-// What the page says before its tables; braces as fmt has them.
+// Text before the tables; braces are doubled for fmt.
 constexpr const char* kNormals = R"(<h2>Normals</h2>
 <p>D times cosine integrates to 1. The mean normal of a tilted lobe is A<sup>T</sup>A n, not n. Where less of the microsurface is visible than
 the surface itself covers (below 1), G1 is clamped; a vertical wall that makes the mean normal n (its area, over the surface's) brings the

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSampleSide = 16, kCells = 50; // samples and cells along each side
 
-// A square of colours over [0,1]^2, x to the right and y up.
+// Draws a colour table over [0,1]^2, x to the right and y up.
 template <class Colour> void draw_table(Drawing& out, const char* title, double left, const Colour& colour)
 {
     const double cell = kSide / kCells;
@@ -30,7 +30,7 @@ Paint paint_of(double r, double g, double b)
     return {code(r), code(g), code(b)};
 }
 
-// What a white dielectric of that lobe, with the diffuse part of Ashikhmin and Shirley, does not give back of what it gets.
+// Returns the energy share lost by a white dielectric with this lobe and the diffuse term of Ashikhmin and Shirley.
 double energy_lost(double nu, double nv, double theta, double azimuth, double f0)
 {
     const double sine = std::sin(theta), n_dot_v = std::max(std::cos(theta), 1e-4);

@@ -12,11 +12,11 @@
 namespace burnish {
 namespace {
 
-constexpr int kGrid = 200;                          // places along a side among which the peak is looked for
-constexpr double kShares[] = {0.9, 0.5, 0.1, 0.01}; // of the peak, of contours
-constexpr int kCutPoints = 1440;                    // of half a turn
+constexpr int kGrid = 200;                          // grid positions along a side in the search for the peak
+constexpr double kShares[] = {0.9, 0.5, 0.1, 0.01}; // contour levels, as shares of the peak
+constexpr int kCutPoints = 1440;                    // over half a circle
 
-// A direction above the horizon by what it is seen along the normal; below: none.
+// Lifts a point of the disk to a direction above the horizon. Returns false outside the disk.
 bool risen(const Place& p, PlotVec& w)
 {
     const double z2 = 1.0 - p.x * p.x - p.y * p.y;
@@ -29,7 +29,7 @@ Place seen_along_normal(const PlotVec& w)
     return w.z >= 0.0 ? Place{w.x, w.y} : Place{std::nan(""), std::nan("")};
 }
 
-// Where the density is greatest: the best of a grid and of what is likely, and from there uphill in ever smaller steps.
+// Finds the maximum of the density: the best of a grid and of `likely`, refined uphill with ever smaller steps.
 Place peak_of(const Density& density, const std::vector<PlotVec>& likely)
 {
     Place best;
@@ -57,7 +57,7 @@ Place peak_of(const Density& density, const std::vector<PlotVec>& likely)
     return best;
 }
 
-// A polar cut: the values of directions from -90 to 90 degrees about `up`, towards `side`, as distances from the middle.
+// Draws a polar cut: values in directions from -90 to 90 degrees about `up`, towards `side`, as distances from the centre.
 void draw_cut(Drawing& out, const Panel& panel, const std::function<double(const PlotVec&)>& value, const PlotVec& up, const PlotVec& side,
               const std::string& family)
 {
@@ -95,6 +95,7 @@ Drawing plot_lobe(const LobePlot& plot)
     const PlotVec o = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
     const PlotVec normal = {0, 0, 1}, mirror = plot_fns().mirrored(normal, o), common = plot_fns().peak_normal(lobe);
     const auto value = [&](const PlotVec& w) { return plot_fns().value(lobe, o, w); };
+    // Find the peak over all reflected directions
     const Density reflected = [&](const Place& p) {
         PlotVec w;
         return risen(p, w) ? value(w) : 0.0;
@@ -107,6 +108,7 @@ Drawing plot_lobe(const LobePlot& plot)
 
     Drawing out(4.0 * kSide + 5.0 * kGap, kTop + kSide + kBelow, "chart",
                 fmt::format("Lobe {} of alpha_lin {:g} and eta {:g}", lobe_model(plot.model).name, plot.roughness, plot.anisotropy));
+    // Draw the visible half vectors
     const Panel halves{"half vectors that the eye sees", kGap, 1.0};
     const Density half = [&](const Place& p) {
         PlotVec h;
@@ -118,6 +120,7 @@ Drawing plot_lobe(const LobePlot& plot)
     if (lobe_traits_of(plot.model) & kLies_surface)
         draw_dot(out, halves, seen_along_normal(common), 3.5, "c2");
 
+    // Draw the reflected directions with contours
     const Panel directions{"reflected directions", 2.0 * kGap + kSide, 1.0};
     draw_density(out, directions, Edge::horizon, reflected);
     out.open("c1");
@@ -128,6 +131,7 @@ Drawing plot_lobe(const LobePlot& plot)
     draw_dot(out, directions, seen_along_normal(mirror), 3.5, "c3");
     draw_dot(out, directions, peak_place, 3.5, "c4");
 
+    // Draw the cuts through the peak
     const Panel upright{"cut through normal and peak, normal up", 3.0 * kGap + 2.0 * kSide, 1.05 * most};
     draw_frame(out, upright, Edge::units);
     draw_ray(out, upright, 0.0, "c0");
@@ -138,6 +142,7 @@ Drawing plot_lobe(const LobePlot& plot)
     draw_ray(out, across, 0.0, "c4");
     draw_cut(out, across, value, peak, cross(normal, towards), "c1");
 
+    // Write the caption and the key
     out.text(kGap, kTop + kSide + 44.0, "note",
              fmt::format(
                  "{}, alpha_lin {:g}, eta {:g}, tilt {:g},{:g}; seen from {:g} degrees off the normal, {:g} about it; peak {:.5g} at {}, "

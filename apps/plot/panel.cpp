@@ -7,9 +7,9 @@
 namespace burnish {
 namespace {
 
-constexpr int kCells = 150; // of a density, along a side
+constexpr int kCells = 150; // density cells along a side
 constexpr double kShades = 96.0;
-constexpr int kContourCells = 150; // of the grid that contours are found on
+constexpr int kContourCells = 150; // along a side of the contour grid
 constexpr int kCirclePoints = 180;
 
 Place grid_place(const Panel& panel, double column, double row, int cells)
@@ -60,10 +60,10 @@ void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& de
         const double reach = edge == Edge::horizon ? std::sqrt(1.0 - y * y) : panel.reach;
         const auto [least, unused] = panel.at({-reach, y});
         const double greatest = panel.at({reach, y}).first;
-        const auto shade_of = [&](int column) { // in steps that the eye does not tell apart
+        const auto shade_of = [&](int column) { // in steps too small to see
             return std::round(kShades * std::sqrt(std::max(values[static_cast<std::size_t>(row * kCells + column)], 0.0) / most)) / kShades;
         };
-        for (int begin = 0, end; begin < kCells; begin = end) { // cells of one shade are one rectangle
+        for (int begin = 0, end; begin < kCells; begin = end) { // a run of cells with one shade is one rectangle
             const double shade = shade_of(begin);
             for (end = begin + 1; end < kCells && shade_of(end) == shade;)
                 ++end;
@@ -75,7 +75,7 @@ void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& de
     }
 }
 
-// Marching squares, a stroke a cell; a cell that two strokes cross is split by the value of its middle.
+// Marching squares, one stroke a cell. A cell with two strokes is split by the value at its centre.
 void draw_contour(Drawing& out, const Panel& panel, const Density& density, double level, const std::string& css_class)
 {
     constexpr int kWide = kContourCells + 1;
@@ -99,7 +99,7 @@ void draw_contour(Drawing& out, const Panel& panel, const Density& density, doub
             }
             if (crossings.size() == 4) {
                 const double middle = value(column, row) + value(column + 1, row) + value(column, row + 1) + value(column + 1, row + 1);
-                if ((middle > 0.0) == (value(column, row) > 0.0)) // the first corner's side is one piece: edges 0, 1 and 2, 3 are met
+                if ((middle > 0.0) == (value(column, row) > 0.0)) // the first corner's side is connected: joins edges 0, 1 and 2, 3
                     out.line({crossings[0], crossings[1]}, css_class), out.line({crossings[2], crossings[3]}, css_class);
                 else
                     out.line({crossings[0], crossings[3]}, css_class), out.line({crossings[1], crossings[2]}, css_class);

@@ -1,4 +1,4 @@
-// Vectors of plots as kernels take them, for files that are compiled in double precision (bn_oracle_objects).
+// Converts plot vectors to kernel vectors, in files compiled in double precision (bn_oracle_objects).
 #pragma once
 #include "apps/plot/shapes.h"
 #include "shading/lang/lang.h"

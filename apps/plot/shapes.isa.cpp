@@ -40,7 +40,7 @@ double lobe(double alpha_x, double alpha_y, const PlotVec& o, const PlotVec& i)
     return ggx_aniso_eval(ggx_aniso_params_of(alpha_x, alpha_y), of(o), of(i)) * i.z;
 }
 
-struct Placed { // what lines of models.def make parameters of (shading/surface/placed_lobe.t.h)
+struct Placed { // lobe parameters made by lines of models.def (shading/surface/placed_lobe.t.h)
     double alpha_u, alpha_v;
     real3 u, v, n;
 };
@@ -54,7 +54,7 @@ Placed placed(const LobeInPlace& l)
     return a;
 }
 
-// In the axes that the model lies along: a thread has its x across the grain.
+// Converts to the model's axes: a thread has its x across the grain.
 real3 along(const LobeInPlace& l, const PlotVec& w)
 {
     return lobe_traits_of(l.model) & kLies_thread ? vec3_of(w.y, w.x, w.z) : of(w);

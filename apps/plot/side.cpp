@@ -1,5 +1,5 @@
-// On which side of the horizon a technique looks for a lobe's light: Cocco, Zanni, Chermain 2024, figure 20, where a bent normal turns the
-// environment upside down.
+// Tests on which side of the horizon a technique fetches a lobe's light: Cocco, Zanni, Chermain 2024, figure 20. A bent normal can flip
+// the environment upside down.
 #include <cmath>
 #include <fmt/core.h>
 #include <vector>
@@ -12,15 +12,15 @@
 namespace burnish {
 namespace {
 
-constexpr int kMapCells = 100, kShareCells = 60; // along a side, of a sphere that is shown and of one that is counted
-constexpr int kMeanSamples = 8;                  // of a lobe, squared
-constexpr int kSteps = 20;                       // of eta from -0.95 to 0.95
+constexpr int kMapCells = 100, kShareCells = 60; // cells along a side: for the drawn sphere, for the statistics
+constexpr int kMeanSamples = 8;                  // along a side of the lobe's sample grid
+constexpr int kSteps = 20;                       // for eta from -0.95 to 0.95
 constexpr double kMostEta = 0.95;
 
 enum Looker { lobe_itself, bent_normal, major_axis, lookers };
 constexpr const char* kNames[lookers] = {"the lobe's mean", "bent_normal", "major_axis, mean of samples"};
 
-// Where each of them looks, in world space, from a point of a unit sphere that is seen along -z.
+// Fetch directions in world space, from a point on the unit sphere seen along -z.
 struct Looks {
     PlotVec along[lookers];
     bool wrong(int looker) const { return (along[looker].y > 0.0) != (along[lobe_itself].y > 0.0); }
@@ -56,7 +56,7 @@ Looks looks_at(const LobePlot& plot, double eta, const PlotVec& n)
     return looks;
 }
 
-// Calls of every cell of a square around the sphere whose middle shows it; cells lie beside its equator, never on it.
+// Calls `call` for every cell of a square whose centre shows the sphere. Cells lie beside the equator, never on it.
 template <class Call> void each_cell(int cells, const Call& call)
 {
     for (int row = 0; row < cells; ++row)
@@ -67,7 +67,7 @@ template <class Call> void each_cell(int cells, const Call& call)
         }
 }
 
-struct Shares { // of the sphere's points as they are seen, [0,1]
+struct Shares { // over the sphere's visible points, [0,1]
     double of[lookers];
 };
 
@@ -86,7 +86,7 @@ Shares shares_of(const LobePlot& plot, double eta)
     return shares;
 }
 
-// Light where it looks up, dark where it looks down, and strong where that is the wrong side.
+// Light for directions up, dark for directions down, saturated for the wrong side.
 Paint paint_of(bool up, bool wrong)
 {
     if (wrong)

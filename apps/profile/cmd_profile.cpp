@@ -1,4 +1,4 @@
-// `burnish profile`: where the time of a frame goes.
+// `burnish profile`: shows how a frame's time is spent.
 #include <chrono>
 #include <fmt/core.h>
 #include <memory>
@@ -19,7 +19,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kFrames = 10; // profiled, where --frames says nothing
+constexpr int kFrames = 10; // profiled frames without --frames
 
 constexpr const char* kFooter =
     R"(The frame is drawn 2 x --frames times (10), with and without the clocks in turn, after two frames that warm up. Times of a stage
@@ -62,7 +62,7 @@ void add(FrameProfile& to, const FrameProfile& more)
     }
 }
 
-// Frames with and without a profile, in turn: the one tells what the other costs, and both show the same picture. The last one.
+// Alternates frames with and without a profile, to measure the profile's cost; all show the same picture. Returns the last frame.
 Result<Frame> measure(Renderer& renderer, FrameDesc desc, const std::string& scene, ProfileFigures& figures)
 {
     std::vector<double> plain_ms, profiled_ms;
@@ -104,6 +104,7 @@ Status write_files(const RenderOptions& options, const ProfileArguments& argumen
 
 int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 {
+    // Check the options, and refuse those of other subcommands
     Result<RenderOptions> checked = check_render_options(arguments.render, given);
     if (!checked)
         return fail(checked.error());
@@ -121,6 +122,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     for (const std::string& warning : options.warnings)
         report.warning(warning);
 
+    // Load the scene and the environment, and make the session
     const auto jobs = std::make_shared<const Jobs>(options.threads);
     const Result<SeenScene> seen = load_seen_scene(options.scene, options, report);
     if (!seen)
@@ -149,6 +151,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(session.error());
     report.release();
 
+    // Measure the frames
     FrameDesc desc = options.frame;
     desc.view = seen->view;
     desc.parts = options.resolve != Resolve::linear, desc.triangle_ids = !desc.background;
@@ -162,6 +165,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     const Result<Frame> last = measure(session->renderer(), session->drawn(desc), options.scene, figures);
     if (!last)
         return fail(last.error());
+    // Write the pictures and the report
     const std::uint64_t begin = Trace::now_ns();
     const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids, last->through);
     for (const std::string& path : options.outputs) {
@@ -171,7 +175,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         report.wrote(path);
     }
     figures.write_ms = static_cast<double>(Trace::now_ns() - begin) * 1e-6;
-    if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output is for one thing
+    if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output holds one thing only
         fmt::print("{}", printable_lines(profile_table(options, figures)));
     if (Status done = write_files(options, arguments, figures); !done)
         return fail(done.error());

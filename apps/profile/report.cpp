@@ -12,15 +12,15 @@
 namespace burnish {
 namespace {
 
-struct Span { // a line of the table, a box of the picture
+struct Span { // a table line, or a box of the flame graph
     std::string name;
     int phase = 0;
-    double ms = 0.0; // of a frame, summed over the threads
+    double ms = 0.0; // a frame, summed over the threads
     LaneUse lanes;
     std::vector<Span> parts;
 };
 
-constexpr std::size_t kMostLines = 12; // of materials in the table
+constexpr std::size_t kMostLines = 12; // material lines in the table
 constexpr const char* kPhases[] = {"before tiles", "tiles"};
 constexpr int phase_of(FrameStage stage)
 {
@@ -49,8 +49,8 @@ std::vector<Span> stages_of(const ProfileFigures& f)
 }
 
 struct Balance {
-    double busy_ms = 0.0, all_ms = 0.0;     // of the threads, a frame
-    double mean_ms = 0.0, slowest_ms = 0.0; // of a tile
+    double busy_ms = 0.0, all_ms = 0.0;     // the threads' time, a frame
+    double mean_ms = 0.0, slowest_ms = 0.0; // tile times
     std::size_t slowest = 0;
 };
 
@@ -169,7 +169,7 @@ std::string profile_json(const RenderOptions& options, const ProfileFigures& f)
 namespace {
 
 constexpr double kWidth = 1200.0, kRow = 34.0, kTop = 40.0;
-constexpr double kDigit = 7.2; // about the width of a letter
+constexpr double kDigit = 7.2; // approximate letter width
 constexpr const char* kStyle = R"(svg.flame { background: #fff; font: 12px system-ui, "DejaVu Sans", sans-serif; }
 svg.flame text { fill: #1c1c1c; }
 svg.flame text.head { font-weight: 600; font-size: 14px; }
@@ -184,7 +184,7 @@ struct Flame {
     Drawing& out;
     double ms_to_px;
 
-    // One box; its words only where there is room, and all of them when pointed at.
+    // Draws one box, with its text if there is room. A tooltip has the full text.
     void box(double from_ms, double ms, int row, const std::string& css_class, const std::string& name, double all_ms)
     {
         const double x = from_ms * ms_to_px, width = ms * ms_to_px;

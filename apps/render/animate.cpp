@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-// What --animate takes.
+// Names the options that --animate takes, without dashes.
 std::vector<std::string> names_of_paths(const OptionTable& table)
 {
     std::vector<std::string> names;
@@ -33,7 +33,7 @@ Result<std::vector<double>> numbers_of(const std::string& option, const std::str
     return numbers;
 }
 
-// "NAME=FROM:TO" each; commas within a value stay.
+// Splits at the commas between entries NAME=FROM:TO. Keeps commas within a value.
 std::vector<std::string> entries_of(const std::string& text)
 {
     std::vector<std::string> entries;
@@ -114,7 +114,7 @@ std::vector<View> turntable_views(const DrawTables& tables, const FrameDesc& fra
         distance = std::max(distance, glm::dot(centre - views.back().eye, views.back().forward));
     }
     for (View& view : views) {
-        const float znear = view.znear; // of an eye that is nearer
+        const float znear = view.znear; // the nearer eye's
         view = make_view(centre - view.forward * distance, centre, fov_y_rad, frame.width, frame.height);
         view.znear = znear;
     }

@@ -1,4 +1,4 @@
-// Pictures in a row: options that go from one value to another, step by step.
+// Picture sequences: options that run from one value to another, step by step, and turntable views.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace burnish {
 
-// An option whose numbers go from one value to another, along a straight line or by equal factors.
+// An option whose numbers run from one value to another, linearly or geometrically.
 struct OptionPath {
     std::string option; // "--roughness"
     std::vector<double> from, to;
-    bool whole = false;     // whole numbers only: the nearest
-    bool geometric = false; // by factors: no number is 0 or changes its sign
+    bool whole = false;     // rounds to the nearest whole number
+    bool geometric = false; // interpolates by equal factors; no number is 0 or changes sign
 };
 
-// `text`: NAME=FROM:TO, several by commas; a value of more numbers has commas of its own: "eye=0,0,3:1,0,3,fov=40:20". Each name is that of
-// a picture option that takes numbers, without its dashes; both ends are tried on `table`, whose rows keep the last value tried.
+// Reads `text`: one or more NAME=FROM:TO, with commas between. A vector value has commas too, as in "eye=0,0,3:1,0,3,fov=40:20".
+// NAME is a numeric picture option without dashes. Both ends are tried on `table`, whose rows keep the last value tried.
 Result<std::vector<OptionPath>> parse_option_paths(const std::string& option, const std::string& text, OptionTable& table);
 
-// The value at t in [0,1], as one would write it.
+// Returns the value at t in [0,1], as a command line would hold the value.
 std::string value_at(const OptionPath& path, double t);
 
-// Once around the scene, `count` views: from `first_deg` (azimuth, elevation) on, at one distance from which each of them has the scene in
-// the picture.
+// Returns `count` views on a circle around the scene, starting at `first_deg` (azimuth, elevation). All views keep one distance, large
+// enough for each view to show the whole scene.
 std::vector<View> turntable_views(const DrawTables& tables, const FrameDesc& frame, const glm::vec2& first_deg, float fov_y_rad, int count);
 
 } // namespace burnish

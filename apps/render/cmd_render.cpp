@@ -1,4 +1,4 @@
-// `burnish render`: a scene under an environment to pictures and figures.
+// `burnish render`: renders a scene under an environment to pictures and statistics.
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -63,7 +63,7 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
                               figures.frame.triangles_drawn, figures.frame.triangles, figures.frame.background_pixels));
 }
 
-// Tries every output even where one fails; the first failure decides.
+// Tries every output even after one fails. Returns the first failure.
 Status write_outputs(const RenderOptions& options, const Rendered& rendered, Report& report)
 {
     Status first;
@@ -115,6 +115,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return run_row(arguments, given);
     if (given.given("--steps"))
         return fail(usage_error("--steps", "needs --animate"));
+    // Check the options and the paths
     Result<RenderOptions> checked = check_render_options(arguments, given);
     if (!checked)
         return fail(checked.error());
@@ -128,6 +129,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     report.promise_stdout({options.stats_file});
     for (const std::string& warning : options.warnings)
         report.warning(warning);
+    // Load the scene, bake the environment and make the renderer
     RenderFigures figures;
     std::optional<Error> lost_checkpoint;
     Result<Session> session = prepare(options, figures, lost_checkpoint, report);
@@ -135,6 +137,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return fail(session.error());
     if (Status paths = check_paths(options, session->scene().files); !paths) // textures and buffers are known now
         return fail(paths.error());
+    // Choose the view and report the setup
     const Result<ChosenView> view = choose_view(options, session->scene(), session->tables());
     if (!view)
         return fail(view.error());
@@ -148,6 +151,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     desc.view = view->view;
     if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
+    // Render the frames and write the outputs
     report.release();
     Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
     if (!rendered)
@@ -156,7 +160,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     rendered->figures.warnings = report.warnings();
     if (rendered->figures.frame.sampling.stopped) {
         report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const int code = finish(options, *rendered, report);
     return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first

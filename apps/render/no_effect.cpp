@@ -1,4 +1,4 @@
-// Options without effect under the others.
+// Warnings about options that have no effect with the others.
 #include <algorithm>
 #include <fmt/core.h>
 #include <string_view>

@@ -1,4 +1,4 @@
-// The rows of `burnish render`: names, values and help texts.
+// The option rows of `burnish render`: names, values and help texts.
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
 #include "apps/render/options.h"

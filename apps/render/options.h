@@ -1,4 +1,4 @@
-// The options of `burnish render`: as they are given, then checked and resolved.
+// The options of `burnish render`: as given on the command line, then checked and resolved.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -24,41 +24,41 @@ namespace burnish {
 struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
-    std::vector<AreaLight> lights;      // besides those of the scene
-    std::vector<std::string> as_tables; // of as_mc's lobes, or folders of them; empty: frames make their own
-    std::string ltc_table;              // of area lights; empty: the program's own
-    Dress dress;                        // what all materials take
+    std::vector<AreaLight> lights;      // in addition to the scene's lights
+    std::vector<std::string> as_tables; // LUT files or folders for as_mc; empty: frames compute their own
+    std::string ltc_table;              // for area lights; empty: the built-in table
+    Dress dress;                        // overrides for all materials
     std::vector<std::string> outputs;
     std::vector<std::string> aov;      // layers of .exr outputs
-    Shown show = Shown::light;         // in 8-bit outputs
-    std::string risks;                 // picture of what the atlas says of the technique; "-": its words only; empty: none
-    bool shadow_ratio = false;         // area lights throw shadows, by samples
+    Shown show = Shown::light;         // false colour of 8-bit outputs
+    std::string risks;                 // picture of the atlas's risks for the technique; "-": text only; empty: none
+    bool shadow_ratio = false;         // area lights cast shadows, by ray-traced samples
     int shadow_samples = 64;           // a pixel
-    Resolve resolve = Resolve::linear; // of 8-bit outputs
+    Resolve resolve = Resolve::linear; // for 8-bit outputs
     std::string stats_file;            // empty: none; "-": standard output
     std::string trace_file;            // empty: none
 
     std::string env = "builtin:studio";
-    bool env_given = false; // else the scene's own light is taken where it has one
+    bool env_given = false; // otherwise the scene's own light, if any
     EnvironmentOptions environment;
 
-    std::string camera;            // index or name, empty: the scene's first camera, else framed automatically
+    std::string camera;            // index or name; empty: the scene's first camera, else automatic framing
     std::optional<glm::dvec3> eye; // world space, metres
     std::optional<glm::dvec3> target;
-    std::optional<float> fov_y_deg;     // none: the camera's, else 45
-    std::optional<glm::vec2> orbit_deg; // azimuth, elevation: the whole scene from there
-    float zoom = 1.0f;                  // things are so many times larger
+    std::optional<float> fov_y_deg;     // none: the camera's angle, else 45
+    std::optional<glm::vec2> orbit_deg; // azimuth, elevation; frames the whole scene from there
+    float zoom = 1.0f;                  // magnification
 
-    FrameDesc frame; // its view is filled in once the scene is known
+    FrameDesc frame; // its view is set once the scene is known
     std::string backend = "tile";
-    ReferenceOptions reference; // of --backend reference
+    ReferenceOptions reference; // for --backend reference
     std::string variance_file;  // empty: none
-    VulkanOptions vulkan;       // of --backend vulkan
+    VulkanOptions vulkan;       // for --backend vulkan
     Isa isa = Isa::scalar;
-    int threads = 0; // 0: all cores the process may use
+    int threads = 0; // 0: all cores open to the process
     int frames = 1;
-    int turntable = 0; // pictures once around the scene; 0: none
-    int fps = 30;      // of moving pictures
+    int turntable = 0; // pictures around the scene; 0: no turntable
+    int fps = 30;      // for animations
     Tonemap tonemap = Tonemap::pbr_neutral;
     float exposure_ev = 0.0f;
 
@@ -68,35 +68,35 @@ struct RenderOptions {
     int verbosity = 0;
 };
 
-// Where the command line puts values: most where they stay, some where they wait for what else is given.
+// Targets of the command line's values. Most values are final here; some wait for other options.
 struct RenderArguments {
     RenderOptions plain;
     PictureSize size = {1280, 720};
-    std::optional<std::int64_t> samples; // none: the technique's or the reference's own number
-    std::string animate;                 // as --animate takes it
-    int steps = 60;                      // of it
+    std::optional<std::int64_t> samples; // none: the default of the technique or the reference
+    std::string animate;                 // in the syntax of --animate
+    int steps = 60;                      // for --animate
 };
 
-// All options of `burnish render`, which other subcommands take theirs from; `to` must outlive the table.
+// Returns all options of `burnish render`. Other subcommands take rows from this table. `to` must outlive the table.
 OptionTable render_option_table(RenderArguments& to);
 
-std::string reference_mode_name(const RenderOptions& options); // as --reference-mode takes it
+std::string reference_mode_name(const RenderOptions& options); // in the syntax of --reference-mode
 
-// Everything that can be known to be wrong before a file is opened. `given`: the table that `arguments` were set by; options that it does
-// not have were not given.
+// Reports every error that can be found before a file is opened. `given` is the table that filled `arguments`; an option absent from the
+// table counts as not given.
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given);
 
-// The parts of it that belong to one backend.
+// Check the options that belong to one backend.
 Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
 Status check_vulkan_options(RenderOptions& out);
 
-// Options that change a picture and can be swept or go from one value to another: numbers and, with `names`, names too.
+// True for options that change a picture and can be swept or animated: numbers and, with `names`, names too.
 bool changes_pictures(const Option& option, bool names);
 
-// Those for which a scene has to be read again.
+// True for options that need the scene to be read again.
 bool changes_scene(const Option& option);
 
-// Options that were given and change nothing under the others: one warning each, which names both.
+// Adds one warning for each given option that has no effect, and names the option that causes this.
 void warn_of_no_effect(const OptionTable& given, RenderOptions& out);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// The parameters of techniques, as their lines in shading/models.def have them: as options and in reports.
+// Technique parameters, from their lines in shading/models.def: as options and in reports.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,6 +11,6 @@ namespace burnish {
 
 std::vector<Option> parameter_options(FrameDesc& to);
 Json parameters_json(const FrameDesc& desc);        // {"axis_k": 1.0, ...}
-std::string parameters_text(const FrameDesc& desc); // for keys: every digit
+std::string parameters_text(const FrameDesc& desc); // for hash keys: all digits
 
 } // namespace burnish

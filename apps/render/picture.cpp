@@ -48,13 +48,13 @@ void report_environment(const Environment& environment, double ms, Report& repor
     report_key_lights(environment, report);
 }
 
-// Behind what is drawn without a background there is nothing.
+// Without a background, coverage becomes the alpha channel.
 bool draws_alpha(const RenderOptions& options)
 {
     return !options.frame.background;
 }
 
-// The reference has no samples of its own to resolve.
+// The reference keeps no samples for --resolve.
 bool resolves_parts(const RenderOptions& options)
 {
     return options.resolve != Resolve::linear && options.backend != "reference";
@@ -132,6 +132,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     parts.jobs = std::make_shared<const Jobs>(options.threads);
     figures.threads = parts.jobs->threads();
     BN_TRY(read_tables(options, parts, report));
+    // Load the scene, and check it against the options
     const Stopwatch load;
     {
         const TraceSpan span("load scene");
@@ -142,7 +143,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.load_ms = load.ms();
     report_scene(*parts.scene, report);
-    if (options.backend != "reference") // which bakes nothing before it looks
+    if (options.backend != "reference") // the reference bakes nothing, so it checks later
         BN_TRY(check_frame(parts.scene->scene, options.frame));
     if (const Result<ChosenView> view = choose_view(options, parts.scene->scene, parts.scene->tables); !view)
         return view.error();
@@ -151,6 +152,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     if (options.backend != "reference")
         warn_of_opaque_glass(parts.scene->scene, {options.frame.technique}, report);
 
+    // Open and bake the environment
     const Stopwatch bake;
     {
         const TraceSpan span("environment");
@@ -167,6 +169,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     for (const std::string& warning : parts.environment->warnings)
         report.warning(warning);
 
+    // Make the renderer
     const Stopwatch make;
     const TraceSpan span("prepare renderer");
     Result<Session> session = Session::make(std::move(parts), session_options(options, lost_checkpoint));
@@ -180,6 +183,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
 {
     Rendered out;
     Frame last;
+    // Ask for the frame's extra outputs
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = resolves_parts(options);
     ask_for_layers(options.aov, desc);
@@ -188,6 +192,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     const bool shadows = options.shadow_ratio && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
     desc.layers = desc.layers || shadows || options.show != Shown::light;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
+    // Render the frames, and compare their hashes
     for (int i = 0; i < options.frames; ++i) {
         const TraceSpan span("frame");
         Result<Frame> frame = session.render(desc, std::move(last));
@@ -202,6 +207,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         last = std::move(*frame);
         progress.step();
     }
+    // Add shadows, false colours and risks
     if (shadows) {
         BN_TRY(add_shadows(options, desc, session, last));
         figures.hash = pixel_hash(last.color);
@@ -214,6 +220,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         BN_TRY(risks);
         out.risks = std::move(*risks);
     }
+    // Move the results out
     out.color = std::move(last.color), out.variance = std::move(last.variance);
     figures.nan_pixels = count_not_finite(out.color);
     if (draws_alpha(options))

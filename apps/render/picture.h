@@ -1,4 +1,4 @@
-// How a picture is rendered: its scene and environment made ready, its frames drawn.
+// Renders one picture: loads the scene and the environment, makes the renderer and draws the frames.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,38 +14,38 @@
 namespace burnish {
 
 struct Rendered {
-    Image color; // RGBA of pictures without a background
+    Image color; // RGBA for pictures without a background
     Image variance;
-    std::vector<PixelPart> parts; // with another --resolve than linear
-    NamedChannels layered;        // with --aov: `color` and its layers
-    Image shown;                  // with --show: its false colours
+    std::vector<PixelPart> parts; // if --resolve is not linear
+    NamedChannels layered;        // with --aov: `color` and the layers
+    Image shown;                  // with --show: the false colours
     std::optional<RiskMap> risks; // with --risks
     RenderFigures figures;
 };
 
-// By the extension of `path`.
+// Writes the format named by the extension of `path`.
 Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options);
 
-// `inputs`: files that must not be written over.
+// Refuses output paths that collide with each other or with `inputs`, the files read.
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs);
 
-// `lost_checkpoint`: why the last one could not be written.
+// Stores into `lost_checkpoint` the error of a checkpoint that could not be written.
 SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint);
 
-// What the options' environment is for a scene, and baked for the options' renderer: the reference does not need the levels.
+// Name the scene's environment under these options, and open it, baked as far as the renderer needs. The reference needs no mip levels.
 std::string light_name(const RenderOptions& options, const SceneData& scene);
 Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const SceneData& scene, const Jobs& jobs);
 
-// --ltc-table and --as-table.
+// Reads the files of --ltc-table and --as-table.
 Status read_tables(const RenderOptions& options, SessionParts& parts, Report& report);
 
-// Loads and bakes, with a line of the report each, and makes the renderer.
+// Loads the scene, bakes the environment and makes the renderer. Reports one line for each.
 Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, std::optional<Error>& lost_checkpoint, Report& report);
 
-// All frames show the same picture: a renderer that does not repeat itself is caught here.
+// Renders --frames frames of one picture. Fails with ExitCode::differ if the pixels of two frames differ.
 Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Session& session, RenderFigures figures);
 
-// A row of pictures, --animate or --turntable. Returns the exit code.
+// Renders the pictures of --animate or --turntable. Returns the exit code.
 int run_row(RenderArguments& arguments, OptionTable& given);
 
 } // namespace burnish

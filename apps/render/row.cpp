@@ -1,4 +1,4 @@
-// A row of pictures: options that change from one to the next, or a way around the scene.
+// Picture sequences: options that change from one picture to the next, or a turntable.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -23,14 +23,14 @@ bool is_one_of(const std::string& text, const std::vector<std::string>& of)
     return std::find(of.begin(), of.end(), text) != of.end();
 }
 
-// Options of one picture of a row.
+// Options for one picture in a sequence.
 struct Step {
     RenderOptions options;
-    std::string values; // "roughness 0.1, tilt 0,0": of what changes
-    Json json;          // the same by option
+    std::string values; // the changing values, such as "roughness 0.1, tilt 0,0"
+    Json json;          // the same values, by option
 };
 
-// A row of pictures: --animate or --turntable.
+// A picture sequence: --animate or --turntable.
 class Row {
   public:
     static Result<Row> make(RenderArguments& arguments, OptionTable& given)
@@ -65,14 +65,14 @@ class Row {
             row.lights_change_ = row.lights_change_ || option.group == "Environment";
             row.scene_changes_ = row.scene_changes_ || changes_scene(option);
         }
-        for (int i = 0; i < row.count_; ++i) // what is wrong in the middle is said at the beginning
+        for (int i = 0; i < row.count_; ++i) // checks every step first: a bad value in the middle ends the run at once
             if (const Result<Step> step = row.step(i); !step)
                 return step.error();
         return row;
     }
 
     int count() const { return count_; }
-    const std::vector<std::string>& movies() const { return movies_; } // files of all pictures
+    const std::vector<std::string>& movies() const { return movies_; } // files that hold all pictures
     bool lights_change() const { return lights_change_; }
     bool scene_changes() const { return scene_changes_; }
 
@@ -107,7 +107,7 @@ class Row {
     bool lights_change_ = false, scene_changes_ = false;
 };
 
-// No picture lies where something is read from, or another one is written.
+// Refuses a picture path that is also an input or another output.
 Status check_row_paths(Row& row, const std::vector<std::string>& inputs)
 {
     for (int i = 0; i < row.count(); ++i)
@@ -135,7 +135,7 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
     return view->view;
 }
 
-// Of the step before, with what changes made anew.
+// Returns the previous step's parts with the changed parts made anew.
 Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
 {
     if (lights) {
@@ -155,6 +155,7 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
 
 int run_row(RenderArguments& arguments, OptionTable& given)
 {
+    // Check every step, then load the first
     Result<Row> row = Row::make(arguments, given);
     if (!row)
         return fail(row.error());
@@ -172,6 +173,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     for (const std::vector<std::string>& read : {session->scene().files, session->parts().environment->files})
         if (Status paths = check_row_paths(*row, read); !paths)
             return fail(paths.error());
+    // Choose the turntable's views, which keep one distance
     std::vector<View> turntable;
     if (first.turntable)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kUsualOrbitDeg),
@@ -181,8 +183,10 @@ int run_row(RenderArguments& arguments, OptionTable& given)
     RenderFigures last = figures;
     std::vector<double> times;
     MovingPicture movie(first.fps);
+    // Render each step
     for (int i = 0; i < row->count(); ++i) {
         const Step step = std::move(*row->step(i));
+        // Make the session's changed parts anew
         if (i > 0 && (row->lights_change() || row->scene_changes())) {
             Result<SessionParts> parts = parts_of_step(step.options, session->parts(), row->lights_change(), row->scene_changes());
             if (!parts)
@@ -201,6 +205,7 @@ int run_row(RenderArguments& arguments, OptionTable& given)
         if (!rendered)
             return fail(rendered.error());
         last = rendered->figures;
+        // Record the step and write its files
         times.push_back(last.frame.ms);
         Json json = step.json;
         json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
@@ -221,12 +226,14 @@ int run_row(RenderArguments& arguments, OptionTable& given)
             return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
                               fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
     }
+    // Write the files that hold all pictures
     for (const std::string& path : row->movies()) {
         const std::vector<std::uint8_t> bytes = movie.bytes();
         if (const Status written = write_file(path, std::string(bytes.begin(), bytes.end())); !written)
             return fail(written.error());
         report.wrote(path);
     }
+    // Write the statistics with one entry a step
     if (first.stats_file.empty())
         return 0;
     last.frame_ms = std::move(times);

@@ -9,7 +9,7 @@ namespace burnish {
 
 Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
 {
-    FrameDesc plain = desc; // what is needed of a frame is its colour
+    FrameDesc plain = desc; // only the colour is needed
     plain.layers = plain.parts = plain.triangle_ids = false;
     Image light[2];
     for (const bool open : {false, true}) {
@@ -31,7 +31,7 @@ Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session&
     Result<Frame> unlit = session.render(without);
     BN_TRY(unlit);
     const TraceSpan span("shadows");
-    // layers are as the world stands, and so is this view
+    // Layers are in world space, and so is this view.
     lit.color = with_shadows(lit.color, unlit->color, shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs));
     return {};
 }

@@ -1,12 +1,13 @@
-// --shadows ratio: shadows of area lights on a picture that a technique drew without anything in their way.
+// --shadows ratio: adds ray-traced shadows of area lights to a picture drawn without occlusion.
 #pragma once
 #include "apps/render/options.h"
 #include "raster/session/session.h"
 
 namespace burnish {
 
-// lit: drawn by the session as `desc` says, with its layers. By two more frames of the reference, which see area lights alone with and
-// without what is in their way, and one of the session without those. Errors as Session::render().
+// `lit` is the session's frame for `desc`, with layers. Renders three more frames: two by the reference, area lights alone with and
+// without
+// occluders, and one by the session without area lights. Fails as Session::render() does.
 Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit);
 
 } // namespace burnish

@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 
-// Of levels 0, 1, ...; those beyond have the last one.
+// Colours of mip levels 0, 1, ...; higher levels take the last colour.
 constexpr float kLevelColours[][3] = {{0.05f, 0.10f, 0.45f}, {0.10f, 0.45f, 0.85f}, {0.10f, 0.70f, 0.60f}, {0.25f, 0.75f, 0.20f},
                                       {0.80f, 0.85f, 0.15f}, {1.00f, 0.65f, 0.10f}, {0.95f, 0.30f, 0.10f}, {0.75f, 0.05f, 0.25f},
                                       {0.60f, 0.10f, 0.60f}, {0.85f, 0.50f, 0.90f}, {1.00f, 0.90f, 1.00f}};

@@ -1,4 +1,4 @@
-// --show: what a surface is, in false colour, in place of the light that it reflects.
+// --show: surface properties in false colour, in place of the reflected light.
 #pragma once
 #include <string>
 
@@ -9,12 +9,11 @@ namespace burnish {
 
 enum class Shown { light, lod, tensor, normal };
 
-// u8 RGB, as the frame's layers have it at each pixel's centre; black where nothing is seen.
-//   lod     the level that the normal map, else the first texture, is read at: a colour a level, mixed between two; gray without a texture
-//   tensor  the lobe as it lies in the picture: red and green are roots of its widths alpha to the right and upwards, blue how its axis
-//   lies
-//           between them (128: along one, above: up to the right)
-//   normal  the lobe's normal, world space: half of x, y and z above a half
+// Returns u8 RGB of the layers at pixel centres; black where no surface is seen.
+//   lod     mip level of the normal map, else of the first texture: one colour a level, interpolated; gray without a texture
+//   tensor  projected lobe: red and green are square roots of alpha to the right and upwards, blue is the correlation of both
+//           (128: axis along one of them, above 128: axis points up and right)
+//   normal  the lobe's normal in world space, mapped from [-1,1] to [0,1]
 Image false_colour(Shown what, const Frame& frame, const View& view);
 
 } // namespace burnish

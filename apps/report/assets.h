@@ -1,4 +1,4 @@
-// Files of this folder as text, put into the program when it is built.
+// Files of this folder, embedded as text at build time.
 #pragma once
 #include "core/base/embedded.h"
 

@@ -74,7 +74,7 @@ std::vector<double> linear_ticks(const Axis& axis, std::size_t most)
                 continue;
             std::vector<double> ticks;
             for (double i = std::ceil(axis.low / step); i * step <= axis.high; ++i)
-                ticks.push_back(i * step + 0.0); // -0 is 0
+                ticks.push_back(i * step + 0.0); // turns -0 into 0
             return ticks;
         }
 }

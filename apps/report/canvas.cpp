@@ -15,7 +15,7 @@ struct Glyph {
     std::vector<Points> strokes;
 };
 
-// stroke_font.jhf says how it is written.
+// Reads the stroke font; stroke_font.jhf documents its format.
 std::vector<Glyph> read_glyphs()
 {
     std::vector<Glyph> glyphs;
@@ -50,10 +50,10 @@ const Glyph& glyph_of(char c)
 }
 
 constexpr double kUnit = 0.72 / 21.0;            // em: capitals are 21 units high
-constexpr double kNarrow = 0.88;                 // the letters are wider than those of usual fonts
+constexpr double kNarrow = 0.88;                 // factor on letter width: the font is wider than usual fonts
 constexpr double kBaseline = 9.0;                // units
 constexpr double kPen = 0.085, kBoldPen = 0.135; // em
-constexpr int kFine = 4;                         // sub-pixels along a side of a filled area's pixel
+constexpr int kFine = 4;                         // sub-pixels along a pixel's side, for filled areas
 
 double distance_to(double x, double y, const std::pair<double, double>& a, const std::pair<double, double>& b)
 {
@@ -96,7 +96,7 @@ Canvas::Box Canvas::box_of(const Points& points, double margin) const
             bounded(std::ceil(y1 + margin), height_)};
 }
 
-// cover: of the box's pixels, row by row, [0,1]. Colours mix as browsers mix them, in sRGB.
+// cover: coverage of the box's pixels, row by row, [0,1]. Blends in sRGB, as browsers do.
 void Canvas::blend(const Box& box, const std::vector<float>& cover, const Paint& paint, double opacity)
 {
     std::size_t k = 0;

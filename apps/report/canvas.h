@@ -1,4 +1,4 @@
-// A picture that charts are drawn on: strokes, areas and text with smooth edges. Places are pixels from the top left corner, y down.
+// A raster canvas for charts: antialiased strokes, areas and text. Positions are pixels from the top left corner, y down.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace burnish {
 
-// How wide a text is and how it is set. Letters are strokes (apps/report/stroke_font.jhf); what is not ASCII is drawn as '?'.
+// Size and setting of a text. Letters are strokes (apps/report/stroke_font.jhf); non-ASCII characters are drawn as '?'.
 struct TextStyle {
-    double size = 13.0;    // px of the em
-    double anchor = 0.0;   // 0 starts at the place, 0.5 is centred on it, 1 ends there
-    double turn_deg = 0.0; // clockwise, about the place
+    double size = 13.0;    // em size, px
+    double anchor = 0.0;   // 0: starts at the position, 0.5: centred, 1: ends there
+    double turn_deg = 0.0; // clockwise, about the position
     bool bold = false, slanted = false;
-    double halo = 0.0; // px of paper around the letters, so that what they cross does not run through them
+    double halo = 0.0; // px of paper around the letters, to separate them from lines behind
 };
 
 class Canvas {
@@ -22,8 +22,8 @@ class Canvas {
     Canvas(int width, int height, const Paint& paper);
     void stroke(const Points& line, double width, const Paint& paint, double opacity = 1.0); // round ends and corners
     void dash(const Points& line, double width, double on, double off, const Paint& paint, double opacity = 1.0);
-    void fill(const Points& outline, const Paint& paint);                                               // closed, even-odd
-    void text(double x, double y, const std::string& text, const TextStyle& style, const Paint& paint); // y: of the baseline
+    void fill(const Points& outline, const Paint& paint);                                               // closed outline, even-odd rule
+    void text(double x, double y, const std::string& text, const TextStyle& style, const Paint& paint); // y: baseline
     Image image() const;                                                                                // u8 sRGB
 
   private:

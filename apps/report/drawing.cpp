@@ -56,7 +56,7 @@ void Drawing::mark(int shape, double x, double y, double radius, const std::stri
 
 Points shape_outline(int shape, double x, double y, double radius)
 {
-    // `inner`: part of the radius where every other corner lies; 0: there are none.
+    // `inner`: radius of every other corner, relative to the outer radius; 0: no such corners.
     struct Shape {
         int corners;
         double turn, inner;
@@ -67,13 +67,13 @@ Points shape_outline(int shape, double x, double y, double radius)
         {3, 0.0, 0.0},       // triangle
         {4, 0.0, 0.0},       // diamond
         {3, kPi, 0.0},       // triangle, point down
-        {4, 0.0, 0.35},      // star of four
+        {4, 0.0, 0.35},      // four-pointed star
         {6, 0.0, 0.0},       // hexagon
-        {5, 0.0, 0.42},      // star of five
+        {5, 0.0, 0.42},      // five-pointed star
         {3, -kPi / 2, 0.0},  // triangle, point to the left
-        {4, kPi / 4.0, 0.4}, // a cross on its side
+        {4, kPi / 4.0, 0.4}, // diagonal cross
         {3, kPi / 2, 0.0},   // triangle, point to the right
-        {6, 0.0, 0.5},       // star of six
+        {6, 0.0, 0.5},       // six-pointed star
     };
     const Shape& s = kOutlines[shape % kShapes];
     const int steps = s.inner > 0.0 ? 2 * s.corners : s.corners;

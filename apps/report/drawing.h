@@ -1,5 +1,6 @@
-// A chart as a list of what is drawn, from back to front: SVG text (svg.h) and pixels (png.h) are both made of it. Places are px from the
-// top left corner, y down. Looks go by classes, which apps/report/looks.h gives colours and widths; a group's classes hold for all in it.
+// A chart as a display list, from back to front; SVG (svg.h) and pixels (png.h) are made from the same list. Positions are px from the
+// top left corner, y down. Classes select looks, with colours and widths in apps/report/looks.h. A group's classes hold for all items
+// inside.
 #pragma once
 #include <array>
 #include <optional>
@@ -16,18 +17,18 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 struct DrawnItem {
     enum class Kind { group, end, text, line, outline, disc, rectangle };
     Kind kind = Kind::group;
-    std::string classes;         // its own, with blanks between
-    Points points;               // of text: where its line begins; of a disc: the centre; of a rectangle: two opposite corners
-    double radius = 0.0;         // of a disc
-    double turn_deg = 0.0;       // of text: clockwise, about its place
-    std::string text{};          // of a group: what viewers show when it is pointed at
-    std::optional<Paint> fill{}; // instead of the classes' one
-    Attributes attributes{};     // of a group: for programs, not drawn
+    std::string classes;         // the item's own, with blanks between
+    Points points;               // text: start of its line; disc: its centre; rectangle: two opposite corners
+    double radius = 0.0;         // disc
+    double turn_deg = 0.0;       // text: clockwise, about its position
+    std::string text{};          // group: the tooltip in viewers
+    std::optional<Paint> fill{}; // overrides the fill of the classes
+    Attributes attributes{};     // group: data for scripts, not drawn
 };
 
 class Drawing {
   public:
-    Drawing() = default; // nothing at all
+    Drawing() = default; // an empty chart
     Drawing(double width_px, double height_px, std::string css_class, std::string what)
         : width(width_px), height(height_px), classes(std::move(css_class)), name(std::move(what))
     {
@@ -38,7 +39,7 @@ class Drawing {
     void line(const Points& points, const std::string& css_class);
     void disc(double x, double y, double radius, const std::string& css_class);
     void rectangle(double x, double y, double width, double height, const std::string& css_class, std::optional<Paint> fill = {});
-    // One of a few outlines about a centre, which techniques differ by beside their colours.
+    // Draws one of a few outlines about a centre. Techniques differ by outline as well as by colour.
     void mark(int shape, double x, double y, double radius, const std::string& css_class);
 
     bool empty() const { return width == 0.0; }
@@ -49,7 +50,7 @@ class Drawing {
 };
 
 inline constexpr int kShapes = 12;
-Points shape_outline(int shape, double x, double y, double radius); // closed: the first place is not repeated
+Points shape_outline(int shape, double x, double y, double radius); // closed: the first point is not repeated
 
 bool has_class(const std::string& classes, const std::string& wanted);
 

@@ -13,19 +13,19 @@ namespace burnish {
 namespace {
 
 constexpr const char* kComparedWith = "bent_normal";
-constexpr double kLetter = 8.0; // px of the widest names' letters
+constexpr double kLetter = 8.0; // px of a letter in the widest names
 
-// FLIP's own colours, errors from 0 to `most`.
+// Maps errors from 0 to `most` to FLIP's own colours.
 Paint sequential(double value, double most)
 {
     Image one = make_image(1, 1, 1, PixelType::f32);
-    one.f32()[0] = static_cast<float>(0.95 * std::clamp(value / most, 0.0, 1.0)); // the last tints are too pale on paper
+    one.f32()[0] = static_cast<float>(0.95 * std::clamp(value / most, 0.0, 1.0)); // the last colours are too pale on paper
     const Image mapped = magma_map(one);
     const auto channel = [&mapped](std::size_t i) { return static_cast<double>(mapped.bytes[i]); };
     return {channel(0), channel(1), channel(2)};
 }
 
-// Blue: less error than the baseline, orange: more; both are told apart by people who do not see red and green.
+// Maps less error than the baseline to blue, more to orange. Red-green colour blindness does not hide the difference.
 Paint diverging(double value, double most)
 {
     constexpr std::array<int, 3> kLess = {0, 90, 160}, kNone = {245, 245, 245}, kMore = {190, 80, 0};
@@ -40,7 +40,7 @@ const char* ink_on(const Paint& c)
     return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2] > 140.0 ? "on-pale" : "on-dark";
 }
 
-// The row that stands for a technique in a cell.
+// Returns the row that represents a technique in a cell.
 const ChartRow* row_of(const RowList& rows, const std::string& technique, const Cell& cell)
 {
     std::vector<int> samples;
@@ -78,7 +78,7 @@ std::vector<std::optional<float>> values_of(const RowList& rows, std::optional<f
     return values;
 }
 
-// One scale for all techniques, so that maps can be compared.
+// Returns one scale for all techniques, so that their maps can be compared.
 double largest(const RowList& rows, bool difference)
 {
     double most = 1e-6;

@@ -1,4 +1,4 @@
-// Text and bytes inside HTML and SVG.
+// Escapes text and bytes for HTML and SVG.
 #pragma once
 #include <string>
 

@@ -74,7 +74,7 @@ void Json::update(const Json& object)
 
 struct CsvWriter {
     std::vector<std::string> names;
-    std::vector<std::vector<std::string>> lines; // by name
+    std::vector<std::vector<std::string>> lines; // columns, by name
 
     static std::string cell(std::string text)
     {
@@ -126,7 +126,7 @@ std::string Json::csv() const
 
 std::string Json::dump(int indent) const
 {
-    // Escaped beyond ASCII: names come from files, and the text may go to a terminal.
+    // Escapes non-ASCII characters: names come from files, and the text may go to a terminal.
     return std::visit(JsonWriter(), value_).dump(indent, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 

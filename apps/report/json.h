@@ -1,4 +1,4 @@
-// JSON to be written: values in the order in which they were put in. One source file knows the JSON library.
+// JSON for output: members keep insertion order. Only json.cpp includes the JSON library.
 #pragma once
 #include <concepts>
 #include <cstddef>
@@ -40,23 +40,22 @@ class Json {
     static Json array(std::initializer_list<Json> items = {});
     static Json object();
 
-    Json& operator[](const std::string& key); // of an object, which null becomes; added where it is not there
-    void push_back(Json item);                // of an array
-    void update(const Json& object);          // with the other's members
+    Json& operator[](const std::string& key); // of an object, or null, which becomes one; adds a missing key
+    void push_back(Json item);                // to an array
+    void update(const Json& object);          // adds or replaces the members of `object`
 
-    // Lines indented by so many spaces a level; -1: all on one line. What is not UTF-8 in a text is replaced: file names are bytes to the
-    // operating system.
+    // Returns text with `indent` spaces a level; -1: one line. Replaces invalid UTF-8: file names are bytes to the operating system.
     std::string dump(int indent) const;
 
-    // Of an array of objects: a line of names, then one an object, by commas (RFC 4180). Members of objects in them are named a.b; arrays
-    // and what is null are left out.
+    // Returns CSV for an array of objects: a header line, then one line an object, with commas (RFC 4180). Nested members are named
+    // a.b; arrays and null are left out.
     std::string csv() const;
 
   private:
     friend struct JsonWriter;
     friend struct CsvWriter;
     struct Items {
-        std::vector<std::string> keys; // of an object
+        std::vector<std::string> keys; // for objects
         std::vector<Json> values;
         bool array = false;
     };

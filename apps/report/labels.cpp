@@ -50,7 +50,7 @@ PlacedLabel LabelPlacer::place(const std::string& text, const std::vector<std::p
             const Offset& o = kOffsets[k];
             const double at_x = x + o.dx, at_y = y + o.dy, left = o.end ? at_x - width : at_x;
             const Box box{left, at_y - kHeight + 3.0, left + width, at_y + 3.0};
-            // Between equals: near the curve's end, and near the point.
+            // Breaks ties in favour of the curve's end and of a short distance to the point.
             const double sum = cost(box) + 60.0 * static_cast<double>(i) + 15.0 * static_cast<double>(k);
             if (sum < least)
                 least = sum, best = {at_x, at_y, o.end}, taken = box;

@@ -1,4 +1,4 @@
-// Names beside curves: each goes where it covers the least.
+// Places names beside curves, each where it covers the least.
 #pragma once
 #include <string>
 #include <utility>
@@ -8,15 +8,15 @@ namespace burnish {
 
 struct PlacedLabel {
     double x = 0.0, y = 0.0; // baseline
-    bool end = false;        // the text ends at x instead of beginning there
+    bool end = false;        // the text ends at x instead of starting there
 };
 
 class LabelPlacer {
   public:
-    // The area that names may cover, px.
+    // The area open to names, px.
     LabelPlacer(double left, double top, double right, double bottom) : area_{left, top, right, bottom} {}
     void add_mark(double x, double y);
-    // Beside one of a curve's points, the last ones first.
+    // Places the text beside one of a curve's points; prefers points near the end.
     PlacedLabel place(const std::string& text, const std::vector<std::pair<double, double>>& points);
 
   private:

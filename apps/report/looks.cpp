@@ -8,11 +8,11 @@
 namespace burnish {
 namespace {
 
-// A colour a family of techniques, told apart by people who do not see red and green, and dark or light enough for its paper; relatives
-// within a family have letters behind it.
+// One colour for each family of techniques, safe for red-green colour blindness, with enough contrast on light and dark paper. A letter
+// marks relatives within a family.
 struct Tint {
     const char* name;
-    unsigned light, dark; // 0xRRGGBB, on paper that is light or dark
+    unsigned light, dark; // 0xRRGGBB, on light and on dark paper
 };
 constexpr Tint kTints[] = {
     {"paper", 0xffffff, 0x161616}, {"ink", 0x1c1c1c, 0xececec}, {"soft", 0x5f5f5f, 0xa8a8a8}, {"grid", 0xe3e3e3, 0x343434},
@@ -26,14 +26,14 @@ constexpr LineLook kLines[] = {
     {"level", nullptr, 1.3, 0.75, 5.0, 4.0}, {"curve", nullptr, 1.3, 0.75, 0.0, 0.0},
 };
 
-// What classes change of text; several may come together.
+// Changes of text by class; several classes may apply.
 struct TextChange {
     const char* css_class;
-    const char* tint;  // null: left as it is
-    double size, halo; // 0: left as they are
+    const char* tint;  // null: unchanged
+    double size, halo; // 0: unchanged
     bool bold, slanted;
 };
-constexpr const char* kFamily = "c"; // of the group, else ink
+constexpr const char* kFamily = "c"; // tint of the group's family, else the ink
 constexpr TextChange kTexts[] = {
     {"tick", "soft", 12.0, 0.0, false, false},
     {"note", "soft", 0.0, 0.0, false, true},
@@ -41,7 +41,7 @@ constexpr TextChange kTexts[] = {
     {"value", nullptr, 12.0, 0.0, false, false},
 };
 
-// Values in coloured cells, whatever the paper is.
+// Text colours inside coloured cells, independent of the paper.
 struct CellInk {
     const char* css_class;
     unsigned rgb;
@@ -68,14 +68,14 @@ Paint tint(const std::string& name)
     for (const Tint& t : kTints)
         if (t.name == name)
             return paint_of(t.light);
-    BN_CHECK(false); // every name is a tint of the table
+    BN_CHECK(false); // every name is in the table
     return {};
 }
 
 Paint family(const std::string& classes)
 {
     Paint paint = tint("ink");
-    for (const Tint& t : kTints) // the last one, as in style sheets
+    for (const Tint& t : kTints) // the last match wins, as in style sheets
         if (t.name[0] == 'c' && has_class(classes, t.name))
             paint = paint_of(t.light);
     return paint;

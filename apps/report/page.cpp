@@ -90,7 +90,7 @@ std::string charts_html(const RowList& rows)
 std::string heats_html(const RowList& rows)
 {
     std::string maps, differences;
-    if (rows.empty() || !rows.front()->cell.others.empty()) // over more than the two
+    if (rows.empty() || !rows.front()->cell.others.empty()) // other options are swept too
         return "";
     for (const std::string& technique : techniques_of(rows)) {
         if (const Drawing map = plot_heat(rows, technique, false); !map.empty())
@@ -136,7 +136,7 @@ std::string table_html(const RowList& rows)
     return out + "</table></div></details>\n";
 }
 
-// What of an error may be the reference's.
+// Describes the part of an error that may be the reference's noise.
 std::string noise_html(const ReferenceNoise& noise)
 {
     if (!std::isfinite(noise.flip))
@@ -184,7 +184,7 @@ Status add_row(const ChartRow& row, Json& rows)
     return {};
 }
 
-// What the script needs.
+// Returns the data for the page's script.
 Result<std::string> data_json(const ChartReport& report, const std::vector<PairRows>& pairs)
 {
     Json json = {{"subject", "Technique"},

@@ -1,4 +1,4 @@
-// The report for people: charts as SVG and PNG files, and one page that needs nothing else and no network.
+// The report for people: charts as SVG and PNG files, and one self-contained page without network access.
 #pragma once
 #include <string>
 #include <vector>

@@ -16,7 +16,7 @@ struct Tap {
     float weight = 0.0f;
 };
 
-// By output pixel: the input pixels that it covers and how much of each; the weights sum to 1.
+// Returns, for each output pixel, the input pixels it covers with their weights, which sum to 1.
 std::vector<std::vector<Tap>> taps(int from, int to)
 {
     std::vector<std::vector<Tap>> out(static_cast<std::size_t>(to));

@@ -1,4 +1,4 @@
-// Pictures of a report, small enough for a page.
+// Report pictures, reduced to page size.
 #pragma once
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace burnish {
 
-// At most `width` pixels wide, each the mean of those that it covers; a float picture of any channels.
+// Shrinks a float picture with any channels to at most `width` pixels wide. Each pixel is the mean of the pixels it covers.
 Image shrink(const Image& image, int width);
 
-// How wide the pictures of a report of so many rows are: the page stays below some ten megabytes.
+// Returns the picture width for a report with this many rows. The page stays below about ten megabytes.
 int picture_width(std::size_t rows);
 
 Result<std::string> data_uri(const std::string& jpeg_file);

@@ -11,10 +11,10 @@
 namespace burnish {
 namespace {
 
-constexpr double kRadius = 5.0, kHitRadius = 11.0; // of marks and of what answers to pointers, px
+constexpr double kRadius = 5.0, kHitRadius = 11.0; // px: marks, pointer targets
 
 struct Point {
-    double x = 0.0, y = 0.0, x_p95 = 0.0; // values; x_p95: above 0: a whisker from x
+    double x = 0.0, y = 0.0, x_p95 = 0.0; // axis values; x_p95: end of a whisker from x; 0: no whisker
     const ChartRow* row = nullptr;
 };
 
@@ -27,17 +27,17 @@ struct Curve {
 struct Plot {
     std::string name, x_title, y_title;
     std::vector<Curve> curves;
-    bool front = false;    // draw the Pareto front; marks beside it are hollow
-    bool doubling = false; // x counts in powers of two
-    bool linear = false;   // x is no logarithm
+    bool front = false;    // draws the Pareto front; marks off the front are hollow
+    bool doubling = false; // x axis in powers of two
+    bool linear = false;   // linear x axis
 };
 
-struct PlotArea { // where a plot's axes lie
+struct PlotArea { // axes of a plot
     double width, height, left, right, top, bottom;
     Axis x, y;
 };
 
-// Logarithms want positive values: an exact technique is drawn at the lower edge.
+// Clamps to a positive value for a logarithmic axis: an exact technique lies at the lower edge.
 double positive(double value, double least)
 {
     return std::max(value, least);
@@ -64,7 +64,7 @@ PlotArea frame_of(Plot& plot, Layout layout)
     for (Curve& curve : plot.curves)
         for (Point& p : curve.points)
             p.y = positive(p.y, least_y / 2.0);
-    // Curves over samples all end at the right edge, where their names need room; elsewhere names find it within.
+    // Curves over samples end at the right edge and need room for names there. In other plots names fit inside.
     const double names = wide ? 0.0 : 20.0 * static_cast<double>((plot.curves.size() + 1) / 2) + 8.0;
     PlotArea f{wide ? 650.0 : 380.0,
                wide ? 430.0 : 330.0 + names,
@@ -177,7 +177,7 @@ Drawing draw(Plot plot, Layout layout)
         else if (line.size() > 1)
             out.line(line, "curve " + mark_class(curve.technique));
     }
-    // Marks over names over lines: a name's halo hides no mark.
+    // Draws marks over names over lines: the halo of a name must not hide a mark.
     if (layout == Layout::wide)
         draw_names_beside(out, plot, f);
     else
@@ -216,7 +216,7 @@ Mark mark_of(const std::string& technique)
     Mark mark;
     for (const TechniqueInfo& known : techniques()) {
         const std::string name = known.name;
-        std::size_t family = 0; // the first technique that this name begins with
+        std::size_t family = 0; // first technique whose name is a prefix of this name
         while (family < families.size() && name.rfind(families[family], 0) != 0)
             ++family;
         if (family == families.size())
@@ -226,7 +226,7 @@ Mark mark_of(const std::string& technique)
             return mark;
         ++mark.shape;
     }
-    mark.family = static_cast<int>(families.size()), mark.relative = 0; // auto, which chooses among them
+    mark.family = static_cast<int>(families.size()), mark.relative = 0; // auto, which chooses one of them
     return mark;
 }
 
@@ -268,7 +268,7 @@ std::optional<double> swept(const ChartRow& row, const std::string& option)
     return std::nullopt;
 }
 
-// All but `option` is as in the first row.
+// True if the row differs from the first row in `option` alone.
 bool only_differs_by(const ChartRow& row, const ChartRow& first, const std::string& option)
 {
     if (row.cell.roughness != first.cell.roughness || row.cell.anisotropy != first.cell.anisotropy)

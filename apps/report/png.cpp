@@ -83,7 +83,7 @@ Image paint(const Drawing& drawing)
 {
     Canvas canvas(static_cast<int>(std::lround(drawing.width * kPngScale)), static_cast<int>(std::lround(drawing.height * kPngScale)),
                   tint("paper"));
-    std::vector<std::string> classes = {drawing.classes}; // of the open groups, each with those around it
+    std::vector<std::string> classes = {drawing.classes}; // of the open groups, each with its parents' classes
     for (const DrawnItem& item : drawing.items) {
         const std::string own = classes.back() + " " + item.classes;
         paint_item(canvas, item, own);

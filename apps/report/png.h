@@ -1,4 +1,4 @@
-// Drawings as pixels, for people whose programs show no SVG or none with style sheets.
+// Renders drawings to pixels, for programs without SVG or without style sheets.
 #pragma once
 #include <string>
 
@@ -8,10 +8,10 @@
 
 namespace burnish {
 
-// On white paper, kPngScale pixels for each of the drawing's.
+// Paints on white paper, with kPngScale pixels a drawing unit.
 inline constexpr int kPngScale = 2;
 Image paint(const Drawing& drawing);
 
-Result<std::string> png_of(const Drawing& drawing); // the bytes of the file
+Result<std::string> png_of(const Drawing& drawing); // the bytes of a PNG file
 
 } // namespace burnish

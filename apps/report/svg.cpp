@@ -13,7 +13,7 @@ std::string px(double value)
     return fmt::format("{:g}", std::round(value * 100.0) / 100.0);
 }
 
-// "<element a="..." b="..."": the caller ends it. An attribute that says nothing is left out.
+// Returns "<element a="..." b="..."" without the closing bracket. Leaves out empty attributes.
 std::string start(const std::string& element, const Attributes& attributes)
 {
     std::string out = "<" + element;

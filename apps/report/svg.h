@@ -6,7 +6,7 @@
 
 namespace burnish {
 
-// `style`: CSS that goes into it, for files of their own; numbers have two digits behind the point.
+// Returns SVG text with two decimals. `style`: CSS inside the SVG, for separate files.
 std::string svg_of(const Drawing& drawing, const std::string& style = "");
 
 } // namespace burnish

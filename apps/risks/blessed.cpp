@@ -28,7 +28,7 @@ std::optional<double> figure_of(const std::string& cell, double none)
     return read.ec == std::errc() && read.ptr == cell.data() + cell.size() && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// "| id | onset | worst | flicker | double | cure | kind |"; nothing where it is no such row.
+// Reads "| id | onset | worst | flicker | double | cure | kind |". None for other lines.
 std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line)
 {
     std::vector<std::string> cells = split(line, '|');
@@ -65,7 +65,7 @@ Result<BlessedTable> parse_table(const std::string& text, const std::string& fil
         } else if (line.rfind("| ", 0) == 0 && line.rfind("| entry ", 0) != 0 && line.rfind("| ---", 0) != 0) {
             const auto row = row_in(line);
             if (table.version != 0 && table.version != kTableVersion)
-                continue; // whose figures mean something else
+                continue; // figures of another version have another meaning
             if (!row || walk.empty())
                 return Error{ExitCode::bad_input, file, "", fmt::format("'{}' is no row of blessed figures", line)};
             table.walks[walk][row->first] = row->second;

@@ -1,4 +1,4 @@
-// The blessed table: what each entry measured when someone last looked and agreed. A page in Markdown, which people and the program read.
+// The blessed table: each entry's agreed measurements. A Markdown page, read by people and by the program.
 #pragma once
 #include <map>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace burnish {
 
-inline constexpr int kTableVersion = 3; // of what the figures mean: raise it when steps, pictures or measures change
+inline constexpr int kTableVersion = 3; // version of the figures' meaning: raise it when steps, pictures or measures change
 
 struct BlessedRow {
     double onset = 2.0, worst = 0.0, flicker = 0.0, cure_worst = 0.0; // as in MeasuredEntry (apps/lab/atlas/measure.h)
@@ -18,10 +18,10 @@ struct BlessedRow {
 
 struct BlessedTable {
     int version = kTableVersion;
-    std::map<std::string, std::map<std::string, BlessedRow>> walks; // by name of the walk, then by id
+    std::map<std::string, std::map<std::string, BlessedRow>> walks; // by walk name, then by id
 };
 
 Result<BlessedTable> parse_table(const std::string& text, const std::string& file);
-// One row of a table that is known to be good; nothing where it is not there.
+// Returns one row of a valid table, or none if the row is missing.
 std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id);
 } // namespace burnish

@@ -12,9 +12,9 @@
 namespace burnish {
 namespace {
 
-constexpr bool straight = false, geometric = true; // words of atlas.def
+constexpr bool straight = false, geometric = true; // kinds of atlas.def
 
-// By blanks, of which values have none.
+// Splits at blanks. Values contain no blanks.
 std::vector<std::string> words_of(const std::string& text)
 {
     std::vector<std::string> words = split(text, ' ');
@@ -29,7 +29,7 @@ bool is_amount(const std::string& word)
     return word.rfind(kAmount, 0) == 0;
 }
 
-// An entry's path but for the amount's, which is no option.
+// Returns the entry's path without its amount, which is no option.
 std::string path_of_options(const AtlasEntry& entry)
 {
     std::string text;
@@ -39,7 +39,7 @@ std::string path_of_options(const AtlasEntry& entry)
     return text;
 }
 
-Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& table) // both ends are tried on it
+Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& table) // tries both ends on `table`
 {
     const std::string text = path_of_options(entry);
     if (text.empty())
@@ -51,7 +51,7 @@ Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& t
     return paths;
 }
 
-// What a role has besides the entry's words.
+// Returns a role's options beyond the entry's own.
 std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std::uint64_t samples)
 {
     if (role != AtlasRole::truth)
@@ -64,7 +64,7 @@ std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std:
     return words;
 }
 
-// Of options that scenes are read by, and of those that environments are.
+// Makes the keys: the values of options that a scene is read by, and of environment options.
 void set_keys(const OptionTable& table, const std::vector<std::string>& words, AtlasSetting& out)
 {
     for (const Option& option : table.options()) {
@@ -78,7 +78,7 @@ void set_keys(const OptionTable& table, const std::vector<std::string>& words, A
             out.scene_key += words[i + 1] + " ";
 }
 
-// "0.01"; nothing where neither path nor words have any.
+// Returns the amount as text, such as "0.01". Empty if neither the path nor the options have an amount.
 std::string amount_at(const AtlasEntry& entry, const std::vector<std::string>& own, double s)
 {
     for (const std::string& word : own)
@@ -93,7 +93,7 @@ std::string amount_at(const AtlasEntry& entry, const std::vector<std::string>& o
     return "";
 }
 
-// Of all words the scene: the last one that begins with "builtin:", with its amount; none of the others, nor amounts.
+// Keeps the last scene word (it begins with "builtin:") and appends the amount. Removes the other scenes and amount words.
 void settle_scene(std::vector<std::string>& words, const std::string& amount)
 {
     const auto is_scene = [&](std::size_t i) { return words[i].rfind("builtin:", 0) == 0 && (i == 0 || words[i - 1].rfind("--", 0) != 0); };
@@ -173,7 +173,7 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
         const std::string value = value_at(path, s);
         out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
         if (std::find(own.begin(), own.end(), path.option) != own.end())
-            continue; // it stays as the role has it
+            continue; // the role fixes this option
         if (const Status set = command_.options.set(path.option, value); !set)
             return wrong(set.error());
     }
@@ -212,7 +212,7 @@ std::vector<std::string> to_be_covered()
     for (const AreaWayInfo& way : area_ways())
         all.push_back(fmt::format("area light {}", way.name));
     for (const ModelInfo& model : models())
-        if (model.lobe >= 0 && !(model.lobe_traits & kPunctualOnly)) // the others meet no light that a lobe is seen by
+        if (model.lobe >= 0 && !(model.lobe_traits & kPunctualOnly)) // such models see no light through which a lobe shows
             all.push_back(fmt::format("model {}", model.name));
     return all;
 }

@@ -1,4 +1,4 @@
-// What the atlas shows: a way to draw, and a path along which it breaks.
+// Entries of the atlas: a rendering method, and a parameter path along which the method breaks.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,46 +10,46 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, render, doubles, shown }; // as apps/risks/atlas.def has them
+enum class AtlasTruth { reference, full, render, doubles, shown }; // see apps/risks/atlas.def
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
-    const char* words; // of `burnish render`
+    const char* words; // options of `burnish render`
     bool geometric;
-    const char* path; // as --animate takes it; "amount" is what follows a trial's name: builtin:NAME=AMOUNT
+    const char* path; // in the syntax of --animate; "amount" follows a trial's name: builtin:NAME=AMOUNT
     AtlasTruth truth;
-    const char* truth_words; // that the truth has besides
+    const char* truth_words; // further options of the ground truth
     double threshold;
-    const char* cure;      // words that help; empty: none is known
-    std::string with = {}; // words that what breaks and its cure have besides: a change that is tried
+    const char* cure;      // options that help; empty: no cure is known
+    std::string with = {}; // further options of the tested picture and its cure: a change under trial
 };
 const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
 const AtlasEntry* find_entry(const std::string& id);
 std::vector<std::string> entry_ids();
 
-// How the atlas is walked. Figures of one walk say nothing of the other's.
+// A sampling pattern for the atlas's paths. Figures from two walks cannot be compared.
 struct AtlasWalk {
     const char* name;
-    int steps, side;       // of a path; pixels of a picture
-    std::uint64_t samples; // a pixel of the reference
-    int cure_every = 1;    // steps from one look at the cure to the next; the last is looked at
+    int steps, side;       // steps on a path; picture side, pixels
+    std::uint64_t samples; // reference samples a pixel
+    int cure_every = 1;    // steps between two checks of the cure; the last step is always checked
 };
 inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};
 
-// One picture of an entry: options, and what tells scenes and environments apart.
+// One picture of an entry: its options, and keys for its scene and environment.
 struct AtlasSetting {
     RenderOptions options;
-    std::string values; // "anisotropy 0.5": what the path gives
+    std::string values; // the values on the path, such as "anisotropy 0.5"
     std::string scene_key, environment_key;
-    bool displayed = false; // compared as 8-bit pictures are shown
-    bool in_double = false; // by the tile renderer: raster/tile/double_renderer.h
+    bool displayed = false; // compared as 8-bit display pictures
+    bool in_double = false; // by the tile renderer in doubles: raster/tile/double_renderer.h
 };
 
 enum class AtlasRole { test, cure, truth };
-// At s in [0,1], `side` pixels wide and high. Of the truth `samples` a pixel; 0: as the entry's truth needs.
+// Returns the picture at s in [0,1], `side` pixels wide and high. `samples` a pixel of the ground truth; 0: the entry's usual number.
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
 
-// The same, one after another: the table of options takes longer to make than to be read by.
+// Reads many settings with one option table: making the table takes longer than reading a setting.
 class SettingReader {
   public:
     SettingReader();
@@ -58,12 +58,13 @@ class SettingReader {
 
   private:
     RenderArguments arguments_;
-    Command command_; // refers to them
+    Command command_; // refers to arguments_
 };
 
-// What of models.def an entry is about, by what its options say: "technique bent_normal", "area light ltc", "model ward", "mip filter
-// lean".
+// Returns the subjects of models.def that an entry covers, from its options: "technique bent_normal", "area light ltc", "model ward",
+// "mip
+// filter lean".
 Result<std::vector<std::string>> covered_by(const AtlasEntry& entry);
-std::vector<std::string> to_be_covered(); // all that there is
+std::vector<std::string> to_be_covered(); // every subject
 
 } // namespace burnish

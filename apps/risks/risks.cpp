@@ -45,24 +45,25 @@ constexpr Rule kRules[] = {
 
 static_assert(std::size(kRules) <= 32, "a pixel's rules are the bits of a word");
 
-// Errors of entries are means over pictures; single pixels are far off before.
-constexpr float kEarly = 0.4f; // of the onset's measure
+// An entry's error is a mean over a picture; single pixels fail earlier.
+constexpr float kEarly = 0.4f; // fraction of the measure at the onset
 constexpr std::size_t kChanges = 0
 #define BN_RISK_CHANGE(id, what) +1
 #include "apps/risks/risks.def"
     ;
 using Changes = std::array<float, kChanges>;
-constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f}; // by Change: of the logarithm of what a pixel shows
-constexpr float kBlack = 0.1f;                                      // of the picture's median luminance: what is told apart from black
+// Least visible differences, by Change, in the logarithm of a pixel's luminance.
+constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f};
+constexpr float kBlack = 0.1f; // relative to the picture's median luminance: pixels are compared on top of this
 
-constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of a picture, about; one of a square of 16 x 16 at least
-constexpr float kUsualNdotV = 0.7f;             // of an entry's, where it is not along the path
+constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of the small picture, about; largest step between them
+constexpr float kUsualNdotV = 0.7f;             // for entries whose path does not move the eye
 constexpr std::uint8_t kUnmarkedGrey = 48;
-struct Active { // a rule that a picture may break
+struct Active { // a rule that this picture may break
     std::size_t rule;
-    float least; // of its measure
+    float least; // limit of the rule's measure
     std::string beyond;
-    std::array<bool, 2> told; // of round lobes' technique, of brushed ones'
+    std::array<bool, 2> told; // applies to round lobes, to anisotropic lobes
 };
 
 bool names(const char* beginnings, const std::string& technique)
@@ -73,7 +74,7 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
-// Says where an entry's path breaks, in words that hold for any scene: a trial's own eye is an angle.
+// Describes the onset of an entry for any scene. The eye of a trial scene becomes an angle.
 std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 {
     if (setting.options.eye && setting.values.starts_with("eye "))
@@ -92,7 +93,7 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
                                           names(rule.readers, technique_of(desc, true).name)};
         if (!told[0] && !told[1])
             continue;
-        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly is of its onsets
+        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets
         if (!row)
             continue;
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
@@ -121,7 +122,7 @@ bool shaded(const PixelLayers& at)
     return at.normal[0] != 0.0f || at.normal[1] != 0.0f || at.normal[2] != 0.0f;
 }
 
-// alpha_lin of lobes that a pixel's is made of: along the grain, in its place, bent.
+// Return alpha_lin of the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
 float narrow_of(const RiskInputs& i)
 {
     return std::sqrt(std::max(i.across, 0.3f * i.along));
@@ -135,7 +136,7 @@ float bent_of(const RiskInputs& i)
     return round_of(i) * std::clamp(1.2f - i.eta(), 0.0f, 1.0f);
 }
 
-// Looks at pixels of one picture.
+// Examines the pixels of one picture.
 class Looker {
   public:
     Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
@@ -148,7 +149,7 @@ class Looker {
                               0.5f * light.angular_radius});
         black_ = std::max(1e-20f, kBlack * median());
     }
-    // Bits by place in `active`; the one that is furthest beyond.
+    // Returns the broken rules as bits by index in `active`. `furthest` receives the rule with the largest excess.
     std::uint32_t look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const;
 
   private:
@@ -160,7 +161,7 @@ class Looker {
     float median() const;
     glm::vec3 to_eye(int x, int y) const;
     Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const;
-    float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirrored about h, any length
+    float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirror direction about h, which has any length
     {
         const glm::vec3 d = h * (2.0f * glm::dot(h, v) / glm::dot(h, h)) - v;
         return sky_.luminance(turned_ ? turn_ * d : d, alpha_lin);
@@ -200,7 +201,7 @@ glm::vec3 Looker::to_eye(int x, int y) const
     return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
 }
 
-// Luminance of the key lights' highlights without masking, by GGX of two widths and of one.
+// Returns the luminance of the key lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
 glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const
 {
     glm::vec2 sum(0.0f);
@@ -211,7 +212,7 @@ glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::
             continue;
         const glm::vec3 h = v + lamp.direction;
         const float hn = glm::dot(h, n), hu = glm::dot(h, u), hw = glm::dot(h, w);
-        const auto ggx = [&](float a, float b) { // of slopes, widened by the lamp's own size
+        const auto ggx = [&](float a, float b) { // density of slopes; the light's size widens the lobe
             const float s = std::max(a, lamp.radius), t = std::max(b, lamp.radius), x = hu / (hn * s), y = hw / (hn * t),
                         k = 1.0f + x * x + y * y;
             return 1.0f / (3.14159265f * s * t * k * k);
@@ -222,7 +223,7 @@ glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::
     return sum;
 }
 
-// How far apart two pictures of the lobe are, as logarithms of what is seen of them; of Changes whose bits are not asked for any number.
+// Returns log-luminance differences between approximations of the lobe. Entries not set in `asked` may hold any number.
 Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const
 {
     const auto wanted = [&](Change change) { return (asked >> static_cast<unsigned>(change) & 1u) != 0; };
@@ -230,7 +231,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness[0];
     const float away = 1.0f - i.n_dot_v, away2 = away * away, fresnel = f0 + (1.0f - f0) * away2 * away2 * away;
     const float other = luminance * (1.0f - at.metalness[0]) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
-    // Of GGX's slopes along one axis, (1 + t^2)^-1.5, the middles of fifths.
+    // Slopes of GGX along one axis, density (1 + t^2)^-1.5: medians of five equal parts.
     constexpr float kPlaces[] = {-1.3333f, -0.4364f, 0.0f, 0.4364f, 1.3333f};
     const float narrow = narrow_of(i), round = round_of(i);
     float sum = 0.0f, least = 1e30f, most = 0.0f;
@@ -239,6 +240,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
         least = std::min(least, value), most = std::max(most, value);
         return value;
     };
+    // Gather along the grain, and across if needed
     float middle = 0.0f;
     for (const float t : kPlaces) {
         const float value = tap(n + u * (t * i.along));
@@ -249,9 +251,10 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     if (wanted(Change::around) || wanted(Change::noise))
         for (const float t : {-1.0f, 1.0f})
             tap(n + w * (t * std::max(i.across, 0.01f)));
+    // Evaluate the round and the bent approximation
     const float f = fresnel, one = wanted(Change::round) ? f * seen(n, v, round) : 0.0f, stretch = std::min(measure_bend(i), 0.999f);
     const float bent = wanted(Change::bent) ? f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, bent_of(i)) : 0.0f;
-    const glm::vec2 key = f * key_lights(n, u, w, i, v); // of the lobe as it is, and round
+    const glm::vec2 key = f * key_lights(n, u, w, i, v); // anisotropic, round
     const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
     const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
     return {apart(mean, one + other + key.y), apart(mean, bent + other + key.x),
@@ -266,6 +269,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     const glm::vec3 v = to_eye(x, y);
     RiskInputs i = at_pixel(inputs_, at);
     i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
+    // Find the rules beyond their limits
     std::array<float, std::size(kRules)> beyond{};
     std::uint32_t asked = 0;
     for (std::size_t a = 0; a < active.size(); ++a) {
@@ -275,6 +279,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     }
     if (asked == 0)
         return 0;
+    // Keep those with a visible change
     const Changes change = changes(at, i, v, asked);
     std::uint32_t bits = 0;
     float far = 0.0f;
@@ -289,7 +294,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     return bits;
 }
 
-// Hues apart, as often as there are rules.
+// Returns well separated hues for any number of rules.
 std::array<std::uint8_t, 3> colour_of(std::size_t rule)
 {
     const float hue = std::fmod(0.61803f * static_cast<float>(rule), 1.0f) * 6.0f;
@@ -337,6 +342,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     const auto begin = std::chrono::steady_clock::now();
     const Result<std::vector<Active>> active = active_rules(desc);
     BN_TRY(active);
+    // Draw a small picture with layers
     const double pixels = static_cast<double>(desc.width) * desc.height;
     const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLookedAt) + 0.5), 1, kMostStep);
     FrameDesc probe = desc;
@@ -346,6 +352,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     const Result<Frame> frame = session.render(probe);
     BN_TRY(frame);
     const Looker looker(session, probe, inputs_of_frame(desc, *session.parts().environment), *frame);
+    // Mark its pixels, in parallel over rows
     RiskMap map;
     map.width = probe.width, map.height = probe.height;
     map.marks.assign(frame->layers.size(), 0);
@@ -367,6 +374,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
                 c.of[a] += bits >> a & 1u;
         }
     });
+    // Sum the counts and list the findings
     Counts all;
     for (const Counts& c : counts) {
         all.shaded += c.shaded, all.any += c.any;

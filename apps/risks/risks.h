@@ -1,4 +1,4 @@
-// Where a picture's inputs lie beyond what the atlas found its technique to hold: `burnish render --risks`.
+// Finds pixels with inputs beyond the validated range of a technique, by the atlas: `burnish render --risks`.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,46 +9,46 @@
 
 namespace burnish {
 
-// What a technique is given at a pixel, or at the onset of an entry of the atlas.
+// Inputs of a technique at a pixel, or at the onset of an atlas entry.
 struct RiskInputs {
-    float along = 0.0f, across = 0.0f;     // widths of the lobe, alpha (1 +- eta)
+    float along = 0.0f, across = 0.0f;     // lobe widths, alpha (1 +- eta)
     float n_dot_v = 1.0f;                  // [0,1]
     float tilt = 0.0f;                     // radians
-    float samples = 1.0f;                  // of the technique
+    float samples = 1.0f;                  // the technique's
     float axis_k = 1.0f, axis_beta = 0.0f; // FrameDesc::major_axis_k, major_axis_beta
-    float texel = 0.0f;                    // angle of one of the environment, radians
+    float texel = 0.0f;                    // angle of one environment texel, radians
     float separable = 0.0f, fit = 0.0f;    // 1 with --masking separable, --dfg fit
     float alpha() const { return 0.5f * (along + across); }
     float eta() const { return along > 0.0f ? (along - across) / (along + across) : 0.0f; }
     float least_across() const { return across > 1e-3f ? across : 1e-3f; }
 };
 
-// What is the same in all of a picture.
+// Returns the inputs common to a whole picture.
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment);
-// Of an entry's failing picture at s; of a picture of its options.
+// Return the inputs for an entry's failing picture at s, and for a picture with these options.
 RiskInputs inputs_of_entry(const AtlasEntry& entry, double s);
 RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {
-    std::string technique, entry, says; // of risks.def
-    std::string beyond;                 // "anisotropy 0.158", "an eye 11 degrees above the surface": where the path breaks
-    double share = 0.0;                 // of the shaded pixels, [0,1]; a pixel may be marked by several
+    std::string technique, entry, says; // from risks.def
+    std::string beyond;                 // onset on the path: "anisotropy 0.158", "an eye 11 degrees above the surface"
+    double share = 0.0;                 // over the shaded pixels, [0,1]; a pixel may have several findings
 };
 
 struct RiskMap {
-    std::vector<RiskFinding> findings; // the most first; those of no pixel are left out
-    int width = 0, height = 0;         // of marks: a picture of at most 3600 pixels or so of the same view
-    std::vector<std::uint8_t> marks;   // [pixel] 0: not shaded; 1: nothing known; 2 + place in risks.def of what it is furthest beyond
-    double share = 0.0;                // of the shaded pixels that anything marks
+    std::vector<RiskFinding> findings; // the most frequent first; findings without pixels are left out
+    int width = 0, height = 0;         // a small picture of the same view: about 3600 pixels, or one in 16 x 16
+    std::vector<std::uint8_t> marks;   // [pixel] 0: not shaded; 1: no finding; 2 + index in risks.def of the largest excess
+    double share = 0.0;                // share of the shaded pixels with a finding
     double ms = 0.0;
 };
 
-// Draws a small picture of what desc shows, with one sample and layers, and looks at that: what desc draws is not touched.
+// Draws a small picture of desc's view, with one sample and layers, and marks its pixels. Does not touch desc's own picture.
 Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc);
 
-// 8-bit RGB: black where nothing is shaded, grey where nothing is known, a colour an entry.
+// Returns 8-bit RGB: black without a surface, grey without a finding, one colour an entry.
 Image risk_picture(const RiskMap& map, int width, int height);
-// "7.1 % of shaded pixels: bent_normal beyond anisotropy 0.158 (upside down; bent_normal_bends_too_far)", a line a finding.
+// Formats "7.1 % of shaded pixels: bent_normal beyond anisotropy 0.158 (upside down; bent_normal_bends_too_far)", one line a finding.
 std::string risk_lines(const RiskMap& map);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// `burnish atlas`: where each method breaks, measured, shown, and held to what was blessed.
+// `burnish atlas`: measures and shows where each method breaks, and compares with the blessed figures.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -51,7 +51,7 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
 {
     if (options.table.empty())
         return parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
-    std::error_code ignored; // reading says what is wrong
+    std::error_code ignored; // read_file() reports the reason
     if (options.bless && fs::status(options.table, ignored).type() == fs::file_type::not_found)
         return BlessedTable();
     const Result<std::vector<std::uint8_t>> bytes = read_file(options.table, kMaxTableBytes);
@@ -59,7 +59,7 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
     return parse_table(std::string(bytes->begin(), bytes->end()), options.table);
 }
 
-// What a walk of an entry left in DIR.
+// Files of an earlier walk of an entry in DIR.
 struct KeptFiles {
     std::string key, json, strip;
 };
@@ -177,6 +177,7 @@ int Atlas::run()
         report_.warning(
             fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
     report_.release();
+    // Measure and judge every entry
     for (const AtlasEntry& entry : entries_) {
         const Activity activity(fmt::format("entry {} of {}: {}", results_.size() + 1, entries_.size(), entry.id));
         Result<WalkedEntry> walked = measure(entry);
@@ -189,6 +190,7 @@ int Atlas::run()
         judge_entry(entry, std::move(walked->measured));
         tell(results_.back());
     }
+    // Write the pages, and bless if asked
     if (const Status written = write(); !written)
         return fail(written.error());
     if (options_.bless) {
@@ -196,6 +198,7 @@ int Atlas::run()
         if (!blessed)
             return fail(blessed.error());
     }
+    // Find the first entry that fails
     const AtlasResult* red = nullptr;
     for (const AtlasResult& r : results_) {
         if (options_.bless && r.judged.verdict != Verdict::uncured)

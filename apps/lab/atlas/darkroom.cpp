@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostKept = 8;     // scenes, environments or sessions: a path may have one a step
+constexpr std::size_t kMostKept = 8;     // scenes, environments or sessions: a path may need one for each step
 constexpr std::size_t kMostTruths = 256; // pictures
 
 Result<Frame> finite(const AtlasSetting& setting, Result<Frame> frame)
@@ -36,13 +36,13 @@ template <class Kept> void make_room(Kept& kept, std::size_t most = kMostKept)
         kept.clear();
 }
 
-// Of --as-table; empty: none.
+// Returns the file of --as-table; empty: none.
 std::string as_table_of(const RenderOptions& options)
 {
     return options.as_tables.empty() ? "" : options.as_tables.back();
 }
 
-// What tells apart what sessions are made of.
+// Returns a key of all inputs to a session.
 std::string parts_key(const AtlasSetting& setting)
 {
     const RenderOptions& o = setting.options;

@@ -1,4 +1,4 @@
-// Draws the pictures of the atlas, and keeps what several of them are drawn of.
+// Renders the atlas's pictures and caches their shared inputs.
 #pragma once
 #include <atomic>
 #include <map>
@@ -13,15 +13,15 @@
 namespace burnish {
 
 struct Picture {
-    Image color;               // linear, or as it is displayed: 8 bits
-    std::vector<bool> covered; // pixels that show a part of the scene; empty of references
+    Image color;               // linear, or 8-bit as displayed
+    std::vector<bool> covered; // pixels that show the scene; empty for references
 };
-// As the setting says; the frame has triangle ids, of tile renderers.
+// Makes the picture in the setting's format. Frames of the tile renderer have triangle ids.
 Picture picture_of(const AtlasSetting& setting, Frame frame);
 
 struct Truth {
     Picture picture;
-    double noise = 0.0; // mean HDR-FLIP that its own noise makes; 0 of the tile renderer's pictures
+    double noise = 0.0; // estimated mean HDR-FLIP caused by its own noise; 0 for the tile renderer
 };
 
 class Darkroom {
@@ -30,15 +30,15 @@ class Darkroom {
         std::shared_ptr<const Jobs> jobs;
         Isa isa;
         ReferenceHome home;
-        const std::atomic<bool>* stop; // of references
+        const std::atomic<bool>* stop; // ends references early
     };
     Darkroom(Machine machine, Report& report) : machine_(std::move(machine)), report_(report) {}
 
-    // By the tile renderer, with triangle ids, and parts where pictures are compared as displayed.
+    // Renders by the tile renderer, with triangle ids, and with parts if pictures are compared as displayed.
     Result<Frame> draw(const AtlasSetting& setting);
-    // The same in double: raster/tile/double_renderer.h. Nothing where the program has no such lanes.
+    // Renders in double precision: raster/tile/double_renderer.h. Returns none if the program has no such lanes.
     Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);
-    // Of what the reference makes of it, or the tile renderer. Null where the machine's `stop` came first.
+    // Returns the ground truth, by the reference or the tile renderer. Null if the machine's `stop` ended the reference.
     Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);
 
     const Jobs& jobs() const { return *machine_.jobs; }
@@ -52,7 +52,7 @@ class Darkroom {
 
     Machine machine_;
     Report& report_;
-    // By what makes them; the last few.
+    // Caches by the key of their inputs; only the most recent entries are kept.
     std::map<std::string, std::shared_ptr<const SceneData>> scenes_;
     std::map<std::string, std::shared_ptr<const Environment>> environments_;
     std::map<std::string, SessionParts> parts_;

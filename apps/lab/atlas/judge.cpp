@@ -7,8 +7,8 @@
 namespace burnish {
 namespace {
 
-constexpr double kNear = 0.05;   // of worst: nearer than this share it is held
-constexpr double kUnsure = 0.05; // so near to kGone what is left says nothing of the kind, for references are noisy
+constexpr double kNear = 0.05;   // relative to worst: a smaller change counts as held
+constexpr double kUnsure = 0.05; // distance from kGone within which `remedy` is undecided: references are noisy
 constexpr const char* kNothing = "-";
 
 constexpr const char* kHead = R"(# Where methods break

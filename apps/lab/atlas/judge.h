@@ -1,4 +1,4 @@
-// What an entry measures against the figures that were blessed, and the page that holds these.
+// Judges an entry's measurements against the blessed figures, and writes the page of blessed figures.
 #pragma once
 #include <string>
 
@@ -7,14 +7,14 @@
 
 namespace burnish {
 
-std::string table_text(const BlessedTable& table); // rows in the order of the entries; those of none are left out
+std::string table_text(const BlessedTable& table); // rows in entry order; rows without an entry are dropped
 
 enum class Verdict { unknown, held, better, worse, uncured }; // unknown: not in the table
 struct Judged {
     Verdict verdict = Verdict::held;
-    std::string why; // one line, of what is not held
+    std::string why; // one line, the reason for a verdict other than `held`
 };
-// `row`: null where the table has none.
+// `row`: null if the table has no row for the entry.
 Judged judge(const AtlasEntry& entry, const MeasuredEntry& measured, const BlessedRow* row);
 const char* verdict_name(Verdict verdict);
 

@@ -13,10 +13,10 @@
 namespace burnish {
 namespace {
 
-constexpr int kMoreSamples = 64, kMostSamples = 65536; // of the verdict: so many times as many, of techniques and lights
-constexpr int kVerdictSide = 32;                       // pixels of its pictures, where textures are not what it is about
+constexpr int kMoreSamples = 64, kMostSamples = 65536; // for find_kind(): factor and limit for technique and light samples
+constexpr int kVerdictSide = 32;                       // pixels of pictures in find_kind(), unless textures matter
 
-// What either shows of the scene; of references nothing is known.
+// Returns the pixels that show the scene in either picture. Coverage of references is unknown.
 std::vector<bool> either_covers(const Picture& truth, const Picture& now)
 {
     std::vector<bool> covered = now.covered;
@@ -25,7 +25,7 @@ std::vector<bool> either_covers(const Picture& truth, const Picture& now)
     return covered;
 }
 
-// The mean over what is covered.
+// Returns the mean over covered pixels.
 double mean_of(const Image& map, const std::vector<bool>& covered)
 {
     double sum = 0.0, count = 0.0;
@@ -56,9 +56,9 @@ class Walker {
   private:
     Status step(int i);
     Status find_kind();
-    // Mean HDR-FLIP over what is covered, of displayed pictures LDR-FLIP, and the map of it.
+    // Returns mean HDR-FLIP (LDR-FLIP for displayed pictures) over covered pixels, and its map.
     double difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map);
-    // more: the truth has more samples, too, where it is the tile renderer's.
+    // more: raises the truth's samples too, if the tile renderer makes it.
     Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more = false);
     Result<double> error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more = false);
     void show(AtlasRow row, int column, const Image& shown);
@@ -68,11 +68,11 @@ class Walker {
     const AtlasWalk& walk_;
     Darkroom& room_;
     WalkedEntry out_;
-    std::optional<Picture> before_; // of what breaks
+    std::optional<Picture> before_; // the tested picture
     std::shared_ptr<const Truth> truth_before_;
 };
 
-// At the exposures of a truth, so that all figures of a step are seen alike.
+// Uses the exposures of one truth, so that all figures of a step are comparable.
 double Walker::difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map)
 {
     FlipOptions flip;
@@ -102,6 +102,7 @@ Status Walker::step(int i)
 {
     AtlasStep s;
     s.s = place(i);
+    // Render the truth
     const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
     BN_TRY(of_truth);
     const Result<std::shared_ptr<const Truth>> truth = room_.truth(*of_truth);
@@ -114,6 +115,7 @@ Status Walker::step(int i)
         return p.color.type == PixelType::u8 ? p.color : tonemap_to_srgb8(p.color, o.tonemap, o.exposure_ev);
     };
     show(AtlasRow::truth, i, shown((*truth)->picture, of_truth->options));
+    // Render the tested picture and its cure, and compare both with the truth
     for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
         if (role == AtlasRole::cure && (!entry_.cure[0] || (walk_.steps - 1 - i) % walk_.cure_every != 0))
             continue;
@@ -132,7 +134,7 @@ Status Walker::step(int i)
             s.cure_error = error;
         show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now, setting->options));
         show(test ? AtlasRow::error : AtlasRow::cure_error, i, magma_map(map));
-        if (test && before_) // it changed by so much more than the truth did
+        if (test && before_) // change beyond the truth's own change
             s.change = difference(**truth, *before_, now, covered, unused) -
                        difference(**truth, truth_before_->picture, (*truth)->picture, covered, unused);
         if (test)
@@ -143,7 +145,7 @@ Status Walker::step(int i)
     return {};
 }
 
-// What a picture of the path is off by against the truth of another entry.
+// Returns the error of a picture on the path against another entry's truth.
 Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more)
 {
     Result<Frame> frame = room_.draw(test);
@@ -176,6 +178,7 @@ Status Walker::find_kind()
             m.remedy = share;
         return share < kGone;
     };
+    // Draw the worst step in double precision
     bool precision = false;
     const auto worst =
         std::max_element(m.steps.begin(), m.steps.end(), [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
@@ -195,6 +198,7 @@ Status Walker::find_kind()
         m.kind = "precision";
         return {};
     }
+    // Take more samples
     const int side = entry_.truth == AtlasTruth::full ? walk_.side : std::min(walk_.side, kVerdictSide);
     const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
     BN_TRY(few);
@@ -207,6 +211,7 @@ Status Walker::find_kind()
     m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
     if (m.kind == "sampling" || entry_.truth != AtlasTruth::full)
         return {};
+    // Compare with a truth that filters textures alike
     AtlasEntry filtered = entry_;
     filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);

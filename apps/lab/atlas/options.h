@@ -10,10 +10,10 @@
 namespace burnish {
 
 struct AtlasOptions {
-    std::vector<std::string> ids; // empty: all
-    std::string folder, json;     // empty: none
-    std::string table;            // blessed figures; empty: the program's own
-    std::string with;             // as in AtlasEntry
+    std::vector<std::string> ids; // empty: all entries
+    std::string folder, json;     // empty: no output
+    std::string table;            // blessed figures; empty: the built-in table
+    std::string with;             // see AtlasEntry
     bool list = false, quick = false, bless = false, use_cache = true, quiet = false;
     int threads = 0, verbosity = 0;
     Isa isa = Isa::scalar;

@@ -28,7 +28,7 @@ std::string double_text(const MeasuredEntry& m)
     return m.in_double ? fmt::format("{:.4f}", *m.in_double) : "not drawn";
 }
 
-// Error over the path: of what breaks, of the cure, and the threshold.
+// Draws three lines over the path: the tested method's error, the cure's error, and the threshold.
 Drawing plot_path(const AtlasResult& r)
 {
     constexpr double kWidth = 380.0, kHeight = 230.0, kLeft = 56.0, kRight = 368.0, kTop = 10.0, kBottom = 178.0;

@@ -7,7 +7,7 @@
 
 namespace burnish {
 
-// Beside it lie the strips of pictures, and nothing else is needed.
+// Returns the page. The strips of pictures lie beside the page; no other file is needed.
 std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk);
 
 } // namespace burnish

@@ -9,7 +9,7 @@ namespace burnish {
 namespace {
 
 constexpr const char* kTrial = "trial:";
-constexpr int kRule = 12; // of a quarter of the usual directions, for time
+constexpr int kRule = 12; // a quarter of the default directions, to save time
 
 Result<ltc::BakeOptions> options_of(const std::string& path)
 {
@@ -36,14 +36,14 @@ bool is_trial_table(const std::string& path)
 
 Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string& path, const Jobs& jobs)
 {
-    static std::map<std::string, std::shared_ptr<const ltc::ShadingTables>> made; // by the thread that walks
+    static std::map<std::string, std::shared_ptr<const ltc::ShadingTables>> made; // used by the walking thread alone
     if (const auto found = made.find(path); found != made.end())
         return found->second;
     const Result<ltc::BakeOptions> options = options_of(path);
     BN_TRY(options);
     const Result<std::optional<ltc::Baked>> baked = ltc::bake_table(*options, jobs);
     BN_TRY(baked);
-    Result<ltc::ShadingTables> tables = ltc::with_table((*baked)->table, path); // without `stop` it is not stopped
+    Result<ltc::ShadingTables> tables = ltc::with_table((*baked)->table, path); // without `stop` the bake always completes
     BN_TRY(tables);
     return made[path] = std::make_shared<const ltc::ShadingTables>(std::move(*tables));
 }

@@ -1,4 +1,4 @@
-// Tables that are made otherwise than the program's own, for entries to break on: --ltc-table trial:NAME, --as-table trial:NAME.
+// Tables baked with other methods than the built-in ones, for entries to fail on: --ltc-table trial:NAME, --as-table trial:NAME.
 #pragma once
 #include <memory>
 #include <string>
@@ -11,12 +11,12 @@
 namespace burnish {
 
 bool is_trial_table(const std::string& path);
-// As `burnish bake ltc --steps 0` makes them: trial:unaligned with --no-align --interpolate matrix, trial:unsymmetric with --no-symmetry as
-// well, trial:inverse with --interpolate inverse, but fitted by fewer directions. Made once. Errors: no such name.
+// Makes a table as `burnish bake ltc --steps 0` does, but with fewer directions in the fit. trial:unaligned has --no-align --interpolate
+// matrix, trial:unsymmetric also --no-symmetry, trial:inverse has --interpolate inverse. Each is made once. Fails for other names.
 Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string& path, const Jobs& jobs);
 
-// As `burnish bake half-vectors --size 256x256` makes them, but by exponents that are not rounded, for the lobe of alpha_lin and eta, each
-// in [0,1]: trial:floats in .exr, trial:eight-bits in .png. Errors: no such name.
+// Makes a table as `burnish bake half-vectors --size 256x256` does, but with unrounded exponents, for the lobe with alpha_lin and eta in
+// [0,1]. trial:floats is like .exr, trial:eight-bits like .png. Fails for other names.
 Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double alpha_lin, double eta);
 
 } // namespace burnish

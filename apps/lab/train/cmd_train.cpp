@@ -1,4 +1,4 @@
-// `burnish train`: nets that make mipmaps, from nothing.
+// `burnish train`: trains nets that make mipmaps.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -37,7 +37,7 @@ Examples:
   burnish train mip --brdf beckmann --layout paper --size 2x64/2x128 --steps 4000 -o paper.mipnet
   burnish train mip --evaluate ggx_aniso.mipnet --maps textures --json figures.json)";
 
-// What weights tell of a path, as a word of the command that made them: its last name, and nothing of the machine.
+// Returns a path's last component, for the command recorded in weight files. Keeps the machine's folders out.
 std::string told_name(const std::string& path)
 {
     const std::filesystem::path given(path);
@@ -129,7 +129,7 @@ Status check_arguments(TrainArguments& a, const OptionTable& given)
     return check_text_path("--checkpoint", a.train.checkpoint, {});
 }
 
-// What training is given by files.
+// Reads the training inputs that are given as files.
 Status read_given(TrainArguments& a)
 {
     mipnet::TrainOptions& t = a.train;
@@ -169,6 +169,7 @@ int run_training(TrainArguments& a, Report& report)
     const Jobs jobs(a.threads);
     a.train.stop = &watch_stop_signals();
     report.release();
+    // Report the mean loss twenty times
     const double begin_ms = wall_ms();
     const int told = std::max(1, a.train.steps / 20);
     double sum = 0.0;
@@ -186,13 +187,14 @@ int run_training(TrainArguments& a, Report& report)
                                          1e-3 * (wall_ms() - begin_ms)));
         sum = 0.0, summed = 0;
     };
+    // Train, and write the weights
     const Result<std::optional<mipnet::Weights>> trained = mipnet::train(a.train, jobs);
     progress.reset();
     if (!trained)
         return fail(trained.error());
     if (!*trained) {
         report.event("stopped", fmt::format("the same command goes on from {}; no weights were written", a.train.checkpoint));
-        return 128 + stop_signal(); // as a shell reports a process that a signal ended
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     if (const Status written = mipnet::write_weights(a.output, **trained); !written)
         return fail(written.error());
