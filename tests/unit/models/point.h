@@ -1,4 +1,4 @@
-// Models of the double oracle at single points, for tests of known values.
+// Evaluates models of the double oracle at single points, for tests of known values.
 #pragma once
 #include <gtest/gtest.h>
 
