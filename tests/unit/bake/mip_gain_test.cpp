@@ -97,7 +97,8 @@ TEST(mip_gain, is_of_light_from_everywhere)
     }
 }
 
-// A matte surface under equal light from all sides of the eye. The gain in frames equals the light's ratio, since the level is darker.
+// A matte surface under equal light from all sides of the eye. The gain in frames is the ratio of mean cosines. Gains for
+// judged levels are lower.
 TEST(mip_gain, of_frames_does_not_know_the_eye)
 {
     const float slope = 0.6f, z = 0.8f;

@@ -20,7 +20,7 @@ struct Extent {
     double largest, common;
 };
 
-// Errors of one kind of result: in ulp, and as multiples of ulp and sway together.
+// Errors of one kind of result: in ulp, and in multiples of ulp plus sway.
 class Errors {
   public:
     void add(double value, double truth, double last_place, double moved);
