@@ -37,7 +37,7 @@ def compile_shader(root, text, folder):
     source = Path(folder) / "kernel.comp"
     source.write_text(text)
     binary = Path(folder) / "kernel.spv"
-    # -w: `precise` on what needs none is only a warning, and it comes in hundreds.
+    # -w: unneeded `precise` qualifiers cause hundreds of warnings.
     command = ["glslc", "-w", "-O0", "--target-env=vulkan1.3", f"-I{root}", f"-I{folder}", str(source), "-o", str(binary)]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:

@@ -5,7 +5,7 @@ import stages
 from stages import glslc_check
 
 INTEGER_FUNCTIONS = {"FindILsb"}  # exact by nature
-DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # the rasterizer's, as what it interpolates at pixel centres
+DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # set by the rasterizer, like interpolation at pixel centres
 
 
 def main():
@@ -15,7 +15,7 @@ def main():
     glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS | DEVICE_FUNCTIONS
     for name, file in stages.lines(root):
         stages.validate(folder, name)
-        if file.startswith("lean/"):  # not the kernels' text, nor its bits
+        if file.startswith("lean/"):  # separate text with other bits
             continue
         faults, looked_at = glslc_check.faults_in(stages.assembly(folder, name))
         operations += looked_at
