@@ -15,7 +15,7 @@ import time
 
 TIERS = ("quick", "check", "nightly")
 BUDGETS = {"quick": 15.0, "check": 15.0}  # CPU seconds
-CASE_BUDGET = 2.0  # of a test of the program from outside
+CASE_BUDGET = 2.0  # for a test of the program from outside
 SKIPPED = 77
 
 

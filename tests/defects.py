@@ -20,7 +20,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
-# program: (folder of its tests, the files of it that read the formulas, other files, suites that are run)
+# program: (test folder, its files that read the formulas, other files, suites to run)
 PROGRAMS = {
     "unit_techniques": ("tests/unit/techniques", ("frame_test.cpp", "kernels.isa.cpp"), ("tests/unit/lanes/kernels.cpp",), "frame.*"),
     "unit_raster": ("tests/unit/raster", ("bump_test.cpp", "relief_test.cpp", "fixture.cpp"), (), "bump.*:relief.*"),
@@ -30,7 +30,7 @@ SURFACE, MAPS = "shading/surface/surface.k.h", "core/scene/surface_maps.cpp"
 TURNED_LAST = """surface_frame bumped = axes;
     bumped.b = k_cross(x.surface_axes.n, axes.t);
     x.lobe = lobe_in_frame(m, shape, bumped);"""
-# name: (file, text, in its place, program, the test that fails)
+# name: (file, text, replacement, program, the test that fails)
 DEFECTS = {
     "b_flipped": (SURFACE, "vec3_of(a, n.y * part,", "vec3_of(a, -(n.y * part),", "unit_techniques", "frame.of_a_quaternion_turns_about_x_as_y_says"),
     "c_flipped": (SURFACE, "-(n.x * part)", "n.x * part", "unit_techniques", "frame.of_a_quaternion_turns_about_y_against_x"),

@@ -20,7 +20,7 @@ def load(*place):
 
 against, mix = load("against.py"), load("instructions", "mix.py")
 
-# Stands for bench_frame: gives the times of TIMES, one workload a call, with a picture's hash.
+# Replaces bench_frame: returns the times of TIMES, one workload a call, with an image hash.
 PROGRAM = """#!{python}
 import json, sys
 times = {times}

@@ -14,7 +14,7 @@ from chart_cases import needs_embree
 from chart_page_cases import healthy
 from harness import Skipped, case, check, scratch
 
-FAST = "albedo_by_a_fit" # of two pictures of the tile renderer a step: no reference
+FAST = "albedo_by_a_fit" # two images of the tile renderer a step, no reference
 
 
 @case("atlas.lists_what_breaks", tier="quick")
@@ -56,7 +56,7 @@ def held(bench):
     check(FAST in page and f"url('{FAST}-quick.png')" in page and "not blessed" in page, "the page lacks the entry")
     table = (bench.folder / "t.md").read_text()
     bench.run(*words, "--table", "t.md").expect(0)
-    # what is worse is named, what is better asks for a bless
+    # a worse figure is named, a better figure asks for a bless
     row = next(line for line in table.splitlines() if line.startswith(f"| {FAST} "))
     cells = [cell.strip() for cell in row.split("|")]
     for worst, code, says in ((0.5 * entry["worst"], 1, "is off by"), (2 * entry["worst"], 0, "bless it")):
@@ -64,11 +64,11 @@ def held(bench):
         scratch(bench, "other.md", table.replace(row, " | ".join(changed).strip()))
         done = bench.run(*words, "--table", "other.md").expect(code)
         check(says in done.err and FAST in done.err, done.describe())
-    # a table of another version is said, not compared
+    # a table of another version is reported, not compared
     scratch(bench, "other.md", table.replace("Version 3", "Version 9"))
     done = bench.run(*words, "--table", "other.md").expect(0)
     check("version 9" in done.err and "nothing is compared" in done.err, done.describe())
-    # a change that breaks it
+    # a change that removes the failure
     done = bench.run(*words, "--table", "t.md", "--with", "--dfg table").expect(0)
     check("worst 0.0000" in done.out and "bless it" in done.err, done.describe())
 
@@ -77,7 +77,7 @@ def held(bench):
 def goes_on(bench):
     """What is finished is kept in DIR, and a run that was stopped ends with the figures of one that was not."""
     needs_embree(bench)
-    ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in their order
+    ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in table order
     words = ("atlas", *ids, "--quick", "--no-cache")
     code, err = stopped(bench, words, "a", signal.SIGINT)
     check(code == 130 and b"stopped" in err and not (bench.folder / "a/index.html").exists(), f"{code} {err}")
@@ -133,7 +133,7 @@ def page(bench):
         check(browser.value(says(0)).startswith("s = 1.000: roughness 1;"), browser.value(says(0)))
         place = "getComputedStyle(document.querySelectorAll('.panes')[{}].querySelector('.pane')).backgroundPosition".format
         before = browser.value(place(0))
-        browser.press("ArrowLeft", number=37)  # of the first entry, without a focus
+        browser.press("ArrowLeft", number=37)  # on the first entry, without focus
         check(browser.value(says(0)).startswith("s = 0.833:") and browser.value(place(0)) != before, "an arrow key does not go along the path")
         browser.press("n", number=78, text="n")
         check(browser.value("document.activeElement === document.querySelectorAll('.path')[1]"), "N does not go to the next entry")
@@ -165,7 +165,7 @@ def quick(bench):
     check(len(done.out.splitlines()) == len(re.findall(r"^  \w", bench.run("atlas", "--list").out, re.M)), done.describe())
 
 
-# Constants of techniques: words that set one wrong, entries that have to see it, and beginnings of those that may; none: no other may.
+# Wrong constants of techniques: options, entries that must see the defect, and prefixes of entries that may; empty: no other may.
 DEFECTS = {
     "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse"}, ()),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
@@ -187,9 +187,9 @@ for defect, what in DEFECTS.items():
     add_defect(defect, *what)
 
 
-# Words that each entry has to turn red by, said of what breaks and of its cure and not of the truth. Where no option sets wrong the very thing
-# that an entry looks at, they are another picture: that an entry compares what it draws, no more. These are the words of --env-rotation, --roughness,
-# --frame-map, --normal-y, --height-scale, --anisotropy, --zoom and --fov.
+# Options that must turn each entry red. They change the failing picture and its cure, and not the reference. Some options cannot hit the
+# subject of an entry: --env-rotation, --roughness, --frame-map, --normal-y, --height-scale, --anisotropy, --zoom and --fov. They draw
+# another picture, which checks that the entry compares its drawing.
 SEEDED = {
     "--samples 3": "axis_loses_to_the_bent_normal axis_too_long axis_overlaps_too_much axis_at_grazing_angles adaptive_counts_step half_vectors_in_bands threads_for_a_lobe",
     "--samples 8": "mc_fireflies ward_cheap_by_few_samples beckmann_by_few_samples phong_by_few_samples round_by_few_samples "

@@ -40,8 +40,8 @@ class Browser:
         os.close(command_out)
         os.close(answers_in)
         self.number, self.buffer, self.session = 0, b"", None
-        self.faults = []    # what the page's console complained about
-        self.requests = []  # addresses that the page asked for
+        self.faults = []    # errors on the page's console
+        self.requests = []  # addresses requested by the page
         target = self.send("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -102,7 +102,7 @@ class Browser:
     def open(self, path):
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self.until("document.readyState === 'complete' && location.protocol === 'file:'")
-        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # before its first frame a page gets no input
+        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # a page gets no input before its first frame
 
     def value(self, expression):
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)

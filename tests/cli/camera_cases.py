@@ -8,7 +8,7 @@ import struct
 import gltf_files
 from harness import case, check, scratch
 
-# Axis, sign and colour of a face; colours are exact in floats.
+# Axis, sign and colour of a face. Floats hold the colours exactly.
 FACES = {"right": (0, 1, (1, 0, 0)), "left": (0, -1, (0, 1, 1)), "top": (1, 1, (0, 1, 0)), "bottom": (1, -1, (1, 0, 1)),
          "front": (2, 1, (0, 0, 1)), "back": (2, -1, (1, 1, 0))}
 TINY = ("--size", "96x96", "--msaa", "1", "--env-size", "16", "--env-samples", "1", "--no-background", "-o", "a.pfm")
@@ -49,7 +49,7 @@ def seen(bench, *words):
     found = {}
     for i, pixel in enumerate(struct.iter_unpack("<3f", rows)):
         if name := names.get(tuple(map(round, pixel))):
-            found.setdefault(name, []).append((i % width, height - 1 - i // width))  # lines go upwards
+            found.setdefault(name, []).append((i % width, height - 1 - i // width))  # rows go upwards
     return found
 
 
@@ -106,7 +106,7 @@ def verbose(bench):
         bench.run("compare", "b.pfm", "a.pfm", "--fail-fraction", "0.002").expect(0)
 
 
-# What is given, and the one warning.
+# Options, and their single warning.
 NO_EFFECT = (
     (("--technique", "split_isotropic", "--anisotropy", "0.5"), "--anisotropy has no effect with --technique split_isotropic"),
     (("--technique", "major_axis", "--seed", "3"), "--seed has no effect with --technique major_axis"),

@@ -15,7 +15,7 @@ from harness import Skipped, case, check, scratch
 
 TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
 FEW = (*TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4")
-TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts have it
+TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts render the reference
 FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "nan_pixels", "pareto"}
 
 
@@ -84,7 +84,7 @@ def rows(bench):
         if name.endswith(".svg"):
             xml.dom.minidom.parse(str(bench.folder / "r" / name))
             check(name.replace(".svg", ".png") in names, f"{name} has no picture beside it")
-    # Two things that render says too: the same errors come of the same pictures.
+    # Compares with render: equal images give equal errors.
     bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
     bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)
@@ -125,7 +125,7 @@ def sweeps_any_option(bench):
     for name in ("axis-k-flip-1.svg", "env-rotation-flip-1.png"):
         check((bench.folder / "r" / name).exists(), f"no {name}")
     check(not (bench.folder / "r/tilt-flip-1.svg").exists(), "a chart over vectors")
-    # A row is the picture that render makes of the same options.
+    # A row's image equals an image by render with equal options.
     same = ("builtin:plate", *TINY[:8], "--env-rotation", "90", "--tilt", "15,0")
     bench.run("render", *same, "--technique", "major_axis", "--samples", "4", "--axis-k", "2.5", "-o", "t.exr", "-q").expect(0)
     bench.run("render", *same, *TRUTH, "-o", "ref.exr", "-q").expect(0)
@@ -239,17 +239,17 @@ def again(bench):
     first = (bench.folder / "r/report.json").read_text()
     bench.run(*words).expect(0)
     check((bench.folder / "r/report.json").read_text() == first, "times were measured again")
-    # Another view is another row; rows of before stay.
+    # Another view gives another row; earlier rows stay.
     bench.run("chart", *FEW, "--no-background", "-o", "r").expect(0)
     check(errors_of(rows_of(bench, "r")) != errors_of(json.loads(first)["rows"]), "rows of another picture were taken")
     kept = json.loads((bench.folder / "r/rows.json").read_text())["rows"]
     check(len(kept) == 6, f"{len(kept)} rows kept")
-    # Pictures that were removed come back, with the times of before.
+    # Removed images return, with the earlier times.
     for name in os.listdir(bench.folder / "r/pictures"):
         (bench.folder / "r/pictures" / name).unlink()
     bench.run(*words).expect(0)
     check((bench.folder / "r/report.json").read_text() == first, "removed pictures changed the rows")
-    # A file that holds something else is told, and replaced.
+    # A file with other contents is reported and replaced.
     scratch(bench, "r/rows.json", "a letter")
     done = bench.run(*words).expect(0)
     check("warning" in done.err and "rows.json" in done.err, done.describe())
@@ -348,7 +348,7 @@ def stopped_reference(bench):
     check(len(parts) == 1, f"{parts}")
     first = reference_samples(bench.run("chart", *words(64, "r"), env=env).expect(0))
     check(first[1] > 0, f"{first}: nothing was kept")
-    # Another folder finds the reference; a damaged one is made anew.
+    # Another folder finds the reference. A damaged reference is rendered again.
     second = reference_samples(bench.run("chart", *words(64, "r2"), env=env).expect(0))
     check(second == (first[0], first[0]), f"{first}, then {second}")
     (cache / "burnish" / parts[0]).write_bytes(b"a letter")
@@ -375,8 +375,7 @@ def cache_limit(bench):
 
 STUDIO, WORKSHOP = "builtin:studio", "workshop_1k.hdr"
 
-# Where the first claim below does not hold, (environment, roughness, anisotropy). FLIP of major_axis and bent_normal: under the studio
-# 0.202 and 0.169, in the workshop 0.175 and 0.155.
+# Cases (environment, roughness, anisotropy) where the first claim below fails: major_axis has a larger FLIP than bent_normal.
 CLAIM_FAILS = {(STUDIO, 0.5, -0.5), (WORKSHOP, 0.5, -0.5)}
 
 
@@ -468,7 +467,7 @@ def check_samples(bench, names, *words):
     for row in rows_of(bench, "r"):
         places.setdefault(row["env"], {})[row["technique"], row["settings"]["samples"]] = row["flip_mean"]
         cpu.setdefault((row["technique"], row["settings"]["samples"]), []).append(row["cpu_ms_median"])
-    # Filtered importance sampling with 5 x 5 samples is the slower of the two and the farther from the truth.
+    # Filtered importance sampling with 5 x 5 samples is slower and has the larger error.
     slow, fast = min(cpu["filtered_is", 25]), min(cpu["major_axis", 16])
     print(f"CPU time of a frame: filtered_is 5 x 5 {slow:.1f} ms, major_axis 16 {fast:.1f} ms")
     if not slow > fast:

@@ -23,7 +23,7 @@ def with_little_memory(bench, words, output, limits):
         done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), timeout=300, check=False)
         if done.returncode == 127 and "shared librar" in done.stderr:
-            continue  # the loader itself had no room
+            continue  # the loader had no memory
         check(done.returncode in (0, 4, 7, 77), f"{limit // MIB} MiB: exit code {done.returncode}: {done.stderr}")
         check((bench.folder / output).exists() == (done.returncode == 0), f"{limit // MIB} MiB: output and exit code do not agree")
         (bench.folder / output).unlink(missing_ok=True)
@@ -102,7 +102,7 @@ def memory_group(bench):
     check(not bench.left_behind(), f"left: {bench.left_behind()}")
 
 
-# What makes the output, and the exit codes that are right with few threads: burnish's own loops go on, libraries may not start without theirs.
+# Outputs with their command, and valid exit codes with few threads: burnish's loops go on, while libraries may fail to start.
 PLATE = ("render", "builtin:plate", *TINY[:-3], "-q")
 FEW_THREADS = {
     "o.png": ((*PLATE, "--threads", "4"), (0,)),
@@ -137,7 +137,7 @@ def with_few_threads(bench, names, counts, user):
         path = bench.folder / name
         done = bench.run(*words, "-o", name, user=user, env=env)
         if done.code == 77:
-            continue  # the library or the device is not here at all
+            continue  # the library or the device is missing
         done.expect(0)
         whole = bytes_of(path)
         for count in counts:
@@ -199,7 +199,7 @@ def little_memory_of_a_bake(bench):
         done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit * MIB, limit * MIB)), timeout=120, check=False)
         if done.returncode == 127 and "shared librar" in done.stderr:
-            continue  # the loader itself had no room
+            continue  # the loader had no memory
         check(done.returncode in (0, 4, 7, 77), f"{limit} MiB: exit code {done.returncode}: {done.stderr}")
         check((bench.folder / "levels").exists() == (done.returncode == 0), f"{limit} MiB: output and exit code do not agree")
         check(done.returncode == 0 or len(done.stderr.splitlines()) == 1, f"{limit} MiB: {done.stderr}")
@@ -228,7 +228,7 @@ def read_only_root(bench):
     outside = str(pathlib.Path(bench.folder).parent / "nobody.png")
     for words, code in ((("render", *TINY, "-o", "o.png", "-o", "o.exr", "--stats", "-"), 0), (("render", *TINY, "-o", outside), 7), (("info",), 0),
                         (("render", *TINY, "-o", "/o.png"), 7), (("compare", "none.png", "none.png"), 4),
-                        (("render", *TINY, "--size", "2000x2000", "-o", "o.pfm"), 7),  # more than the 4 MiB that there are
+                        (("render", *TINY, "--size", "2000x2000", "-o", "o.pfm"), 7),  # more than the available 4 MiB
                         (("chart", *TINY, "-o", "/report"), 7), (("list", "scenes"), 0)):
         done = subprocess.run([*command, bench.program, *words], capture_output=True, text=True, env=env, timeout=300, check=False)
         check(done.returncode == code, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")

@@ -149,7 +149,7 @@ def compare_exported(bench, names, changed=lambda text: text, code=0):
     return parity(bench, *words, also=also, code=code, timeout=600.0)
 
 
-# All in one shader: a driver takes seconds to compile each.
+# Uses one shader for all, since a driver takes seconds to compile each.
 @case("export.files_give_the_program_s_words", tier="nightly")
 def gives_the_program_s_words(bench):
     names = [name for name, _ in TECHNIQUES]

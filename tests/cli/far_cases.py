@@ -64,7 +64,7 @@ def wrong_pixels(bench, half, eye, pitch, yfov=0.7):
     """Pixels of a.pfm that all of their corners say something else of."""
     width, height, values = read_pfm(bench.folder / "a.pfm")
     corner = [[floor_is_seen(half, eye, pitch, yfov, width / height, 2 * x / width - 1, 2 * y / height - 1) for x in range(width + 1)]
-              for y in range(height + 1)]  # rows upwards, as they lie in the file
+              for y in range(height + 1)]  # rows go upwards, as in the file
     wrong = 0
     for y in range(height):
         for x in range(width):
@@ -75,7 +75,7 @@ def wrong_pixels(bench, half, eye, pitch, yfov=0.7):
     return wrong
 
 
-# Half a side, height of the eye, pitch, near plane, size.
+# Half a side, eye height, pitch, near plane, size.
 FLOORS = ((5e4, 1.7, 0.15, 0.01, "640x360"), (1e5, 1.7, 0.15, 0.01, "512x512"), (2e5, 1.0, 0.9, 0.01, "96x96"), (500, 1.7, 0.3, 1e-4, "160x90"),
           (1e7, 2.0, 0.4, 0.01, "97x61"), (3e6, 500.0, 0.2, 1.0, "96x96"), (100, 1.7, 0.2, 0.01, "96x96"))
 

@@ -9,7 +9,7 @@ TINY = ("--size", "64x48", "--msaa", "1", "--env-size", "16", "--env-samples", "
 REFERENCE = ("render", "--backend", "reference", "--size", "48x32", "--samples", "256", "--env-size", "16", "--env-samples", "16",
              "--threads", "2", "-q")
 CHART = ("chart", *TINY, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64", "--error-size", "32x24")
-DOCUMENTED = (0, 2, 4, 7, 77)  # and 6 and 70 are faults here
+DOCUMENTED = (0, 2, 4, 7, 77)  # 6 and 70 are faults here
 
 
 def needs_embree(bench):
@@ -31,7 +31,7 @@ class Job:
         self.words, self.same, self.made = words, same, made
 
 
-# What fails in turn. XDG_CACHE_HOME is the case's folder "own".
+# Jobs whose calls fail in turn. XDG_CACHE_HOME is the case's folder "own".
 RENDER = Job(("render", *TINY, "-o", "o.png"), same=("o.png",))
 PICTURES = Job(("render", *TINY, "-o", "o.exr", "-o", "o.png"), same=("o.exr", "o.png"))
 BAKE = Job(("render", *TINY, "-o", "o.png"), same=("o.png",), made=("own",))
@@ -93,7 +93,7 @@ def fail_in_turn(bench, job, calls, steps, every=1, fail_bytes=65536, always="")
             mark.unlink()
             fired += 1
             came.add(call)
-            if fired % every == 0:  # whatever was kept, it must be good
+            if fired % every == 0:  # files that stayed must be good
                 bench.run(*job.words, env=env).expect(0)
                 for name in job.same:
                     check((bench.folder / name).read_bytes() == whole[name], f"{place}: the next run makes another {name}")

@@ -118,7 +118,7 @@ def impossible_names(bench):
     check(bench.left_behind() == ["a.png", "b.png", "file"], f"left: {bench.left_behind()}")
 
 
-# What leads elsewhere, what it leads to, and where a file that is written there lies; None: exit code 7.
+# A link, its target, and the place of the file written through the link; None: exit code 7.
 LINKS = (("l.png", "missing.png", "missing.png"), ("l.png", "sub/missing.png", "sub/missing.png"), ("sub/l.png", "../missing.png", "missing.png"),
          ("l.png", "{}/sub/whole.png", "sub/whole.png"), ("l.png", "m.png", "sub/end.png"), ("l.png", "gone/missing.png", None),
          ("l.png", "l.png", None), ("l.png", "sub", None), ("l.png", "there.png", "there.png"))

@@ -82,7 +82,7 @@ class Bench:
     def __init__(self, program, compare_program, data, folder, sanitized):
         self.program, self.compare_program = program, compare_program
         self.data, self.sanitized = data, sanitized
-        self.cache = pathlib.Path(folder) / "cache"  # shared by all cases, so that an environment is baked once
+        self.cache = pathlib.Path(folder) / "cache"  # all cases share it, so each environment is baked once
 
     def open(self, name):
         self.folder = self.cache.parent / name
@@ -101,9 +101,9 @@ class Bench:
         env["XDG_CACHE_HOME"] = str(self.cache)
         env["ASAN_OPTIONS"] = "allocator_may_return_null=1:hard_rss_limit_mb=4096:intercept_tls_get_addr=0:" + env.get("ASAN_OPTIONS", "")
         env["UBSAN_OPTIONS"] = "print_stacktrace=1"
-        if self.sanitized:  # Vulkan's drivers leak, and they are not what is looked at
+        if self.sanitized:  # Vulkan drivers leak and are not under test
             env["VK_DRIVER_FILES"] = env["VK_ICD_FILENAMES"] = str(self.cache / "none")
-            env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers look at
+            env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers check
         env.update(extra)
         return env
 
@@ -122,7 +122,7 @@ class Bench:
                 resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
 
         with open(self.folder / ".stdout", "w+b") as out, open(self.folder / ".stderr", "w+b") as err:
-            # A limit on file sizes holds for these two as well, so the program gets pipes then.
+            # A limit on file sizes applies to these two files as well, so the program gets pipes then.
             piped = file_size is not None
             begin = time.monotonic()
             child = subprocess.Popen(command, cwd=self.folder, env=self.environment(env or {}), preexec_fn=limit,
@@ -167,7 +167,7 @@ class Bench:
         return sorted(path.name for path in self.folder.rglob("*"))
 
 
-# A picture small enough for hundreds of runs: the environment is a coarse bake, read from the cache after the first.
+# An image small enough for hundreds of runs. The environment is a coarse bake, cached after the first run.
 SMALL = ("--size", "160x120", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
 
 

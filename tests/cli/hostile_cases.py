@@ -37,7 +37,7 @@ def perspective(near, yfov=1.0):
     return {"type": "perspective", "perspective": {"yfov": yfov, "znear": near}}
 
 
-# Scenes at the edges of what floats hold, and how each is looked at.
+# Scenes at the limits of floats, each with its view.
 DEGENERATE = {
     **{f"scale_{scale:g}": (scaled(scale), ()) for scale in (1e-38, 1e-30, 1e-18, 1e-9, 1e9, 1e16, 1e18, 1e20, 1e30, 3e38)},
     **{f"orthographic_{half:g}": (scaled(camera=orthographic(half)), ()) for half in (0.0, -1.0, 1e-30, 1e16, 1e18, 1e30, 3e38)},
@@ -292,7 +292,7 @@ def names(bench):
     gltf["cameras"] = [{"name": EVIL, **orthographic(1.0)}]
     gltf["scenes"][0]["nodes"].append(1)
     scratch(bench, "scene.gltf", files.text(gltf))
-    path = bench.folder / "sc\udcff\x1bene.gltf"  # no UTF-8
+    path = bench.folder / "sc\udcff\x1bene.gltf"  # not UTF-8
     path.write_text(files.text(gltf))
     scratch(bench, "evil\x9b\u202e\x1b.gltf", files.text(gltf))
     pages = ["p.svg"] + (["r/report.html"] if "reference" in bench.run("info").expect(0).out else [])
@@ -311,7 +311,7 @@ def names(bench):
             check(all(c >= " " or c == "\n" for c in text) and "\x7f" not in text and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
                   f"a control character comes through\n{done.describe()!r}")
     for name in pages:
-        text = (bench.folder / name).read_text(encoding="utf-8")  # fails where it is no UTF-8
+        text = (bench.folder / name).read_text(encoding="utf-8")  # fails on invalid UTF-8
         check("\x1b" not in text and "<b>&name" not in text, f"{name} holds the name as it is")
         if name.endswith((".svg", ".xml")):
             xml.dom.minidom.parse(str(bench.folder / name))

@@ -70,7 +70,7 @@ def taken(bench):
     gltf = lit()
     light(gltf)["rotation"], light(gltf)["intensity"] = [0, 0.5 ** 0.5, 0, 0.5 ** 0.5], 3
     scratch(bench, "turned.gltf", files.text(gltf))
-    found = seen(bench, "-z", "turned.gltf")  # a quarter about +Y, counter-clockwise from above
+    found = seen(bench, "-z", "turned.gltf")  # a quarter turn about +Y, counter-clockwise from above
     check(near(found, (3, 0, 0)), f"turned and three times as bright it is {found}")
     rgba = b"\x89PNG\r\n\x1a\n"
     for kind, data in ((b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 6, 0, 0, 0)), (b"IDAT", zlib.compress((b"\0" + b"\xff\xff\0\x33" * 8) * 8)), (b"IEND", b"")):

@@ -6,7 +6,7 @@ import struct
 import gltf_files as files
 from harness import GIB, SMALL, Failed, Skipped, case, check, data_files, scratch, words_of
 
-SECONDS = 10.0  # a run on bad input may take, at most
+SECONDS = 10.0  # maximum time of a run on bad input
 SCENES = (".gltf", ".glb")
 PICTURES = (".exr", ".hdr", ".png", ".jpg")
 
@@ -94,7 +94,7 @@ def unreadable_file(bench):
     path.chmod(0)
     user = None
     if os.geteuid() == 0:
-        user = 65534  # root reads everything: nobody must run it
+        user = 65534  # root reads everything, so another user must run it
         bench.folder.chmod(0o777)
         try:
             bench.run("--version", user=user).expect(0)

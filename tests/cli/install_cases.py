@@ -92,7 +92,7 @@ def loaded(bench, *arguments):
 
 @case("install.png_loads_no_image_library")
 def png_loads_none(bench):
-    bench.run("render", *SMALL).expect(0)  # the environment is in the cache from here on
+    bench.run("render", *SMALL).expect(0)  # puts the environment in the cache
     for arguments in (("list", "techniques"), ("info",), ("render", *SMALL, "-o", "a.png")):
         account = loaded(bench, *arguments)
         for name in ("OpenImageIO", MODULE):

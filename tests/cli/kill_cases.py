@@ -145,9 +145,9 @@ def bakes_long(bench):
 
 def killed_reports(bench, words, kills):
     """`race` and `parity` write once, at the end: whole or nothing, and what they keep of pipelines does no harm to the next run."""
-    own = kills > 10  # a cache of its own, so that pipelines are compiled and written again and again
+    own = kills > 10  # a separate cache, so that pipelines are compiled and written repeatedly
     env = {"XDG_CACHE_HOME": str(bench.folder / "cache")} if own else {}
-    env["GALLIVM_PERF"] = "nopt"  # pipelines are not optimised longer than pictures repay
+    env["GALLIVM_PERF"] = "nopt"  # optimising pipelines would take longer than drawing
     words = (*words, "--json", "found.json")
     begin = time.monotonic()
     done = bench.run(*words, env=env, timeout=500.0)
@@ -213,7 +213,7 @@ def renders_long(bench):
     killed_renders(bench, 60)
 
 
-# Jobs by name: the words, and what they write (a file or a folder), which is the same in every run. {} is a name before its ending.
+# Jobs by name: the words, and their output (a file or a folder), equal in every run. {} is a name before its suffix.
 JOBS = {
     "tables": (("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4", "-q", "-o", "{}.ltc"), ("{}.ltc",)),
     "trainings": (("train", "mip", "--steps", "12", "--size", "1x4", "-q", "-o", "{}.mipnet"), ("{}.mipnet",)),
@@ -278,7 +278,7 @@ def sets_of_textures(bench, rounds, formats):
                 check({path.name for path in folder.iterdir() if path not in temporary_paths(folder)} == set(whole), f"{form}: not all files")
             codes = [child.wait(timeout=120) for child in children[1:]]
             check(codes == [0, 0, 0], f"{form}, round {i}: exit codes {codes}")
-            bench.run(*words, folder.name).expect(0)  # sweeps what the killed one has left
+            bench.run(*words, folder.name).expect(0)  # removes the killed run's leftovers
             check({path.name: path.read_bytes() for path in folder.iterdir()} == whole, f"{form}, round {i}: other files")
     left = temporary(bench.left_behind())
     check(not left, f"left: {left}")

@@ -54,7 +54,7 @@ def differing(one, other):
     return len(pairs), max((abs(a - b) / max(abs(a), abs(b)) for a, b in pairs), default=0.0)
 
 
-# Its squares and products with eta = 1/2 are floats: the deviations of slope are 3/16 and 1/16.
+# Its squares and products with eta = 1/2 are exact floats: the slope deviations are 3/16 and 1/16.
 EXACT = "0.4204482138156891"
 
 
@@ -83,7 +83,7 @@ def turned_grain(bench, techniques):
 in_two_tiers("grains_have_no_sign", turned_grain, ("auto", "major_axis_weighted"))
 
 
-# HDR-FLIP to its mirror image: rounding; what lies elsewhere in the four pixels of a quad, which have samples of their own; random samples.
+# HDR-FLIP to the mirror image: rounding; places within a quad's four pixels, which have separate samples; random samples.
 MIRRORED = {"auto": 0.005, "lobe_line": 0.005, "mc": 0.003, "as_mc": 0.006}
 
 
@@ -169,7 +169,7 @@ def scaled(bench, techniques):
             drawn("b", scale)
             found = flip(bench, "a", "b")
             check(found < 0.002, f"{name}: FLIP {found} at {scale}")
-        # from as far as the narrowest view sees it well, a million away
+        # from a distance of a million, where the narrowest view still sees the object well
         for label, scale in (("a", 1.0), ("b", 1e6 / 1500)):
             width, rows = drawn(label, scale, (300.0, 560.0, 1359.0), "--fov", "0.1")
         check(len({v for row in rows for v in row}) > 3000, "there is nothing to be seen from afar")

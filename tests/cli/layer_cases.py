@@ -169,7 +169,7 @@ def shown(bench):
     scratch(bench, "n.png", png(64, 64, bumps))
     drawn = ("--size", "64x64", "--env-size", "32", "--env-samples", "16", "--msaa", "1", "-q")
     looks = {}
-    for repeats in (1, 2, 4, 8):  # levels 0, 1, 2, 3, at the centres of texels
+    for repeats in (1, 2, 4, 8):  # levels 0, 1, 2, 3, at texel centres
         scratch(bench, "p.gltf", files.text(lone_plane(repeats)))
         bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "--aov", "lod", "-o", "p.png", "-o", "p.tif").expect(2).expect_one_line("--aov")
         bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "-o", "p.png").expect(0)
@@ -179,7 +179,7 @@ def shown(bench):
         looks[repeats] = {texel for row in texels_of(bench.folder / "p.png") for texel in row}
         check(len(looks[repeats]) == 1, f"one level has {len(looks[repeats])} colours")
     check(len(set.union(*looks.values())) == 4, f"levels have the same colours: {looks}")
-    # normals are those of the map; the lobe of a grain along x is wide to the right, turned by 90 degrees upwards, by 45 both ways
+    # normals equal the map's; a lobe with grain along x is wide to the right, turned by 90 degrees upwards, by 45 degrees both ways
     scratch(bench, "flat.png", png(4, 4, lambda x, y: (128 + 76, 128, 128 + 101)))
     bench.run("render", "p.gltf", "--normal-map", "flat.png", *drawn, "--show", "normal", "-o", "n.out.png").expect(0)
     found = texels_of(bench.folder / "n.out.png")[32][32]
@@ -193,7 +193,7 @@ def shown(bench):
     check(axes["right"][0] > 1.5 * axes["right"][1] and axes["up"][1] > 1.5 * axes["up"][0], f"{axes}")
     check(axes["right"][:2] == axes["up"][1::-1] and abs(axes["right"][2] - 128) <= 1 and axes["between"][2] > 200, f"{axes}")
     check(abs(axes["between"][0] - axes["between"][1]) <= 1, f"{axes}")
-    # the picture's hash is of its light
+    # the image's hash covers its light
     light, false = (bench.figures("g.gltf", *drawn, *words)["pixel_hash"] for words in ((), ("--show", "tensor", "-o", "h.png")))
     check(light == false, "--show changes the hash")
     done = bench.run("render", "g.gltf", *drawn[:-1], "--show", "normal", "--exposure", "1", "-o", "w.png").expect(0)

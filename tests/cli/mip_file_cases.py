@@ -118,7 +118,7 @@ def files_hold(bench):
             check(hash_of(bench, *seen, "--mip-filter", "kappa", *look, *more, "--mip-pyramid", name) == made, f"{look} {more}: other pixels")
             check(hash_of(bench, *seen, *more, "--mip-pyramid", name) == made, f"{look} {more}: a file does not say how colours are averaged")
         hashes.append(hash_of(bench, *seen, "--mip-pyramid", name))
-        for part, (*_, begin, end) in maps.items():  # what is in the file is what is drawn
+        for part, (*_, begin, end) in maps.items():  # drawing uses the file's contents
             scratch(bench, "spoilt.mip", sealed(good[:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + good[end:-8]))
             check(hash_of(bench, *seen, "--mip-pyramid", "spoilt.mip") != hashes[-1], f"{look}: {part} are not looked at")
     check(len(set(hashes)) == len(LOOKS), f"{hashes}")
@@ -126,7 +126,7 @@ def files_hold(bench):
         bench.run("render", *seen, "--mip-filter", "kappa", *look, "--mip-pyramid", name, "-o", "x.pfm").expect(4).expect_one_line("base colours")
     done = bench.run("render", *seen, "--couple", "albedo", "--color-kernel", "kaiser", "--mip-pyramid", "0.mip", "-o", "a.pfm").expect(0)
     check(all(f"{option} has no effect with --mip-pyramid" in done.err for option in ("--couple", "--color-kernel")), done.describe())
-    # other maps, an older file, and numbers that are none
+    # other maps, an older file, and invalid numbers
     for name, part, texel in (("basecolor", "base colours", lambda x, y: (250, 120, 41)), ("metallic", "metalness", lambda x, y: (3,)),
                               ("height", "heights", lambda x, y: (3 * x,)), ("normal", "hash", lambda x, y: bumps(x + 1, y))):
         whole(bench, name, **{name: texel})
@@ -137,7 +137,7 @@ def files_hold(bench):
                              ("channels", begin - 8, b"\2"), ("levels of", begin - 16, b"\0"), ("is cut off", 16, b"\4"), ("bytes too many", 16, b"\2")):
         scratch(bench, "bad.mip", sealed(good[:at] + data + good[at + len(data):-8]))
         bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(needle)
-    # what is made of these maps by its hash, and has other sides or channels
+    # files with the hash of these maps, but other sides or channels
     at, material = 24, struct.pack("<3I", 1, 1, 0)
     width, height, levels = struct.unpack_from("<3I", good, at + 20)
     end = at + 56 + 4 * levels + 20 * sum(max(1, width >> k) * max(1, height >> k) for k in range(1, levels + 1))
@@ -207,11 +207,11 @@ def kept(bench):
             *_, begin, end = maps_of(there[name])[part]
             name.write_bytes(sealed(there[name][:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + there[name][end:-8]))
             check(drawn("set", *look)[0] != first, f"{look}: {part} of the cache are not looked at")
-            name.write_bytes(there[name][:-9])  # damaged: made anew
+            name.write_bytes(there[name][:-9])  # damaged files are replaced
             check(drawn("set", *look) == (first, there), f"{look}: a damaged file stays")
     other, more = drawn("other", *look)
     check(other != first and len(more) == len(there) + 1, "another map of base colours")
-    name, swapped = sorted(more)[:2]  # a file of something else under this name
+    name, swapped = sorted(more)[:2]  # a file with other contents under this name
     data = more[name], more[swapped]
     name.write_bytes(data[1]), swapped.write_bytes(data[0])
     for folder, found in (("set", first), ("other", other)):

@@ -13,7 +13,7 @@ from reference_cases import needs_embree
 
 SIDE = 64  # texels
 FILTERS = ("box", "lean", "baseline", "covariance", "leadr", "ssgt", "kappa", "mipnet")
-VIEWS = {60: (0.0, 1.73, 1.0), 30: (0.7, 1.0, 1.58), 12: (-1.2, 0.42, 1.58)}  # by degrees of the eye over the plate
+VIEWS = {60: (0.0, 1.73, 1.0), 30: (0.7, 1.0, 1.58), 12: (-1.2, 0.42, 1.58)}  # by the eye's elevation over the plate, in degrees
 FAR = ("--target", "0,0,0", "--fov", "14", "--env-size", "128", "--env-samples", "256", "--no-background", "--frame-map", "quaternion", "-q")
 
 

@@ -3,7 +3,7 @@ mistakes.md in its folder below build/release/tests/cli."""
 
 from harness import case, check, scratch
 
-# What is typed, the exit code, what the line must say.
+# Typed words, exit code, and text that the message must contain.
 MISTAKES = (
     ("rendr", 2, "did you mean 'render'?"),
     ("teapot", 2, "the built-in scene is called builtin:teapot"),

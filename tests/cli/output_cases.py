@@ -79,7 +79,7 @@ def alpha(bench):
     check(pixels[32 * 64 + 32][3] == 255, f"the middle is {pixels[32 * 64 + 32]}")
     edge = {pixel[3] for pixel in pixels} - {0, 255}
     check(len(edge) >= 5 and all(min(abs(a - 255 * k / 8) for k in range(9)) < 1 for a in edge), f"edges are {sorted(edge)}")
-    for y in range(1, 63):  # a rough sphere: its edge is no darker than what lies inside, if alpha is taken out of it
+    for y in range(1, 63):  # a rough sphere: without alpha the edge is as bright as the inside
         row = pixels[64 * y : 64 * y + 64]
         inside = [x for x in range(64) if row[x][3] == 255]
         if inside and 0 < row[inside[0] - 1][3] < 255:
@@ -105,7 +105,7 @@ def reference_alpha(bench):
     check(len({a[3] for a in reference}) == 5, "a pixel has four samples")
     found = json.loads(bench.run("compare", "r.exr", "t.exr", "--json", "-").expect(0).out)
     check(found["flip_mean"] < 0.1, f"{found}")
-    # with a background the option of samples still does nothing, and is told
+    # with a background the sample option has no effect, and a warning says so
     done = bench.run("render", "builtin:sphere", "--size", "16x16", "--env-size", "32", "--backend", "reference", "--samples", "4", "--msaa", "4").expect(0)
     check("--msaa has no effect" in done.err, done.describe())
 

@@ -129,7 +129,7 @@ def other_build(bench):
     check(len(set(builds.values())) == 2, f"these are not two compilers: {builds}")
     for scene in scenes:
         for isa in ((), ("--isa", "scalar")):
-            # --no-cache: the bake itself is compared, too.
+            # --no-cache: compares the bake as well.
             hashes = {program: hash_of(bench, scene, "--no-cache", *isa, program=program) for program in builds}
             check(len(set(hashes.values())) == 1, f"{scene} {isa}: {[(builds[p], h) for p, h in hashes.items()]}")
     print(f"{len(scenes)} scenes, equal pixels from {' and '.join(builds.values())}")

@@ -8,7 +8,7 @@ from harness import SMALL, case, check, scratch
 from input_cases import accept, refuse
 
 ACESCG = (0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767)
-# From linear Rec.709 to ACEScg, white adapted by Bradford, as the Academy's and others' tools print it.
+# From linear Rec.709 to ACEScg, with Bradford white adaptation, as the Academy's and other tools print it.
 TO_ACESCG = ((0.613097, 0.339523, 0.047380), (0.070194, 0.916354, 0.013452), (0.020616, 0.109570, 0.869815))
 WIDTH, HEIGHT = 32, 16
 

@@ -127,7 +127,7 @@ def stopped(bench):
         _, said = child.communicate(timeout=120)
         if child.returncode == 0:
             break
-        if child.returncode == -number:  # before it listened: nothing was there to be lost
+        if child.returncode == -number:  # killed before the handler was ready: nothing was lost
             continue
         check(child.returncode == 128 + number, f"exit code {child.returncode}: {said!r}")
         check(b"stopped" in said and b"part" in said, f"{said!r}")

@@ -6,10 +6,10 @@ import re
 from fault_cases import CHART, REFERENCE, TINY
 from harness import case, check
 
-NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # what drivers do is not looked at here
+NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # drivers are not under test here
 VIEW = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
 
-# Command lines by subcommand, each with the exit codes that it may have: 77 where a device or the reference is absent.
+# Command lines by subcommand, each with its allowed exit codes: 77 where a device or the reference is missing.
 RUNS = {
     "render": [((*TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr", "-o", "a.pfm", "-o", "a.jpg", "-o", "a.tif", "--stats", "s.json",
                  "--trace", "t.json"), (0,)),
@@ -67,7 +67,7 @@ def each(bench):
         without = set(whats) - {words[0] for words, _ in RUNS[name] if words}
         check(not without, f"{name} {sorted(without)}: in the help, and without a run")
         for words, codes in RUNS[name]:
-            if bench.sanitized and "--mip" in words:  # minutes of searches there; a small one is among the rows of render
+            if bench.sanitized and "--mip" in words:  # minutes of searches under sanitizers; render has a small search
                 continue
             done = bench.run(name, *words, env=NO_DEVICE)
             check(done.code in codes, done.describe())

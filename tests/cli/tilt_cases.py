@@ -55,7 +55,7 @@ def same(bench):
               f"{technique}: a sum is not held below the horizon")
 
 
-# What is beside it keeps its look, by the lobe that can be tilted.
+# A neighbouring material keeps its look, drawn by the tiltable lobe.
 @case("tilt.is_of_one_material_alone")
 def alone(bench):
     for technique in ("auto", "filtered_is_ggx", "mc"):

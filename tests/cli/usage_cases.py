@@ -81,7 +81,7 @@ def every_example(bench):
     check(not wrong, "\n".join(wrong))
 
 
-# Arguments, and what the one line must name.
+# Arguments, and text that the one-line message must contain.
 WRONG = (
     (("frobnicate",), "frobnicate"),
     (("render", "--bogus"), "--bogus"),

@@ -13,7 +13,7 @@ import sys
 
 EMULATOR = ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu")
 COMPILER = "aarch64-linux-gnu-g++"
-FEWEST = 40  # different hashes: pictures that are all black would be equal, too
+FEWEST = 40  # minimum of different hashes, since black images would also be equal
 
 
 def skip(reason):

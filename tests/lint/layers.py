@@ -9,17 +9,17 @@ import re
 import subprocess
 import sys
 
-LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and those below
+LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and lower layers
 EVERYWHERE = ("tests", "bench")                              # they see all layers
 RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame; raster/session sees them all
 
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
-    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # what others include, the program would load
+    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
     (r"(png|zlib)\.h$", ("core/image/io",)),
     (r"draco/", ("core/scene/gltf",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
-    (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: what Embree builds its trees with
+    (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: Embree builds its trees with it
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
     (r"vulkan/", ("raster/vulkan", "tests/unit/vulkan")),
     (r"embree", ("raster/reference", "bench")), # bench races rays against the tile renderer
@@ -29,7 +29,7 @@ THIRD_PARTY = (
     (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
 )
 
-INTERFACE = "shading/stages/interface.glsl" # says that texels lie on pages, to all that comes after it
+INTERFACE = "shading/stages/interface.glsl" # defines texel pages for all later includes
 
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
 SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp")
@@ -37,7 +37,7 @@ TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
 VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
 MAX_LINES, MAX_LINES_SIMD = 600, 900
 
-# Each word is written in two pieces, so that this file does not hold it.
+# Each word is written in two pieces, so that this file does not contain it.
 FORBIDDEN = (
     (re.compile("ffast" + "-math|Of" + r"ast\b|ffp-con" + "tract=(?!off)"), "arithmetic that is not the same everywhere"),
     (re.compile(r"_mm\w*_(rc" + "p|rsq" + "rt)|vrc" + "p|vrsq" + "rt"), "approximate reciprocals: processors differ"),
@@ -80,7 +80,7 @@ def check_include(path, quoted, name, files):
         return
     target = pathlib.PurePosixPath(name)
     if top in EVERYWHERE and path.parent / target in files:
-        return # tests may name a neighbour
+        return # tests may include a neighbour
     if target not in files:
         yield f'"{name}" is not a file of the project, seen from its root'
         return

@@ -12,7 +12,7 @@ NAME = re.compile(rf"{PART}\.({PART}/)?{PART}\.(?=\w*_){PART}([./]\w+)*")
 TIERS = {"quick", "check", "nightly"}
 
 
-# What CMake appends of a parameter's value, or puts in the place of its index.
+# Text that CMake appends for a parameter's value, or puts in place of its index.
 VALUE = re.compile(r"(  # GetParam\(\) = .*|/\d+-byte object <.*)$")
 
 

@@ -44,7 +44,7 @@ def main():
         return 1
     listed = json.loads(subprocess.run([ctest, "--test-dir", build, "--show-only=json-v1"], capture_output=True, check=True).stdout)
     tests = [re.sub(r"  # GetParam\(\).*", "", test["name"]) for test in listed["tests"]]
-    # Some need another build beside this one, and are in its list only.
+    # Some tests need a second build, and appear in its list alone.
     tests += ["cli." + line.split()[0] for line in subprocess.run(list_cases, capture_output=True, text=True, check=True).stdout.splitlines()]
     rows = list(rows_of(pathlib.Path(source, "apps/promises.md").read_text()))
     faults = list(faults_of(rows, tests))

@@ -10,7 +10,7 @@ namespace burnish::test {
 
 inline constexpr const char* kDataFolders[] = {BN_TEST_DATA, BN_SHARED_DATA};
 
-// Returns the path of tests/data/NAME, or of NAME in the optional folder where tests/data has no such file.
+// Returns the path of tests/data/NAME. If this file is missing, returns NAME's path in the optional folder.
 inline std::string data_file(const std::string& name)
 {
     for (const std::string folder : kDataFolders)

@@ -1,6 +1,6 @@
-// Golden images: renderings that somebody looked at and approved. tests/golden/NAME.txt holds the hash of the pixels, which suffices for a
-// passing test, and a check of every row and column. NAME.exr holds the image at 16 bits a channel, for people and for visible differences.
-// tests/bless rewrites both.
+// Golden images: renderings that somebody looked at and approved. tests/golden/NAME.txt holds the pixels' hash, which suffices for a
+// passing test, and a check for every row and column. NAME.exr holds the image at 16 bits a channel, for people and for visible
+// differences. tests/bless rewrites both.
 #pragma once
 #include <gtest/gtest.h>
 #include <string>

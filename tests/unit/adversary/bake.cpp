@@ -67,7 +67,7 @@ std::vector<double> fetches(const Domain& d, const double* u)
     return a;
 }
 
-// Returns derivatives of texture coordinates per pixel, of 1e-4 to 10 texels in any direction.
+// Returns texture coordinate derivatives per pixel, 1e-4 to 10 texels long, in any direction.
 std::vector<double> footprints(const Domain&, const double* u)
 {
     std::vector<double> a = {u[0], u[1]};

@@ -20,7 +20,7 @@ Vec facet_of(double u, double v);
 Vec any_direction(double u, double v);
 Vec mirrored(Vec o, Vec h);
 void append(std::vector<double>& to, const Vec& v);
-// Maps u to a range {low, high} of Domain::of: by factors if low > 0, else linearly.
+// Maps u to a range {low, high} from Domain::of: by factors if low > 0, else linearly.
 double in_range(double u, const std::vector<double>& range);
 std::vector<double> ranges(const Domain& d, const double* u); // one number a range
 

@@ -8,7 +8,7 @@
 
 namespace burnish::test {
 
-// Unit of an error, in addition to the oracle's movement by a float step of the inputs.
+// An error's unit. The oracle's movement by one float step in the inputs is added to the unit.
 enum class Unit {
     last_place, // of a float as large as the result, at least 1e-12: smaller values are invisible
     whole,      // of a float near 1: directions, cosines, weights
@@ -21,13 +21,13 @@ struct Judged {
     Unit unit;
 };
 
-// A kernel with its domain. A point consists of `numbers` numbers in [0,1), so every point of a search is valid.
+// A kernel with its domain. A point consists of `numbers` numbers in [0,1), so every search point is valid.
 struct Domain {
     std::string kernel;
     int numbers;
     std::vector<double> (*make)(const Domain& d, const double* u); // the kernel's arguments
     std::vector<Judged> judged;
-    int same = -1; // index of a result; skips points where floats and doubles differ in this result (samples that one of both rejects)
+    int same = -1; // index of a result; skips points where it differs between floats and doubles (samples that one version rejects)
     TexelView (*texels)() = nullptr;
     std::vector<std::vector<double>> of = {}; // ranges of parameters for `make`
 };
@@ -44,12 +44,12 @@ struct Worst {
     std::vector<double> in; // the kernel's arguments, floats
 };
 
-// Returns the error of result j of d at each point of `in` (laid out as in Kernel::run). The error is infinite where floats give NaN or
+// Returns the error of d's result j at each point in `in` (laid out as in Kernel::run). The error is infinite where floats give NaN or
 // infinity and doubles do not.
 std::vector<Worst> errors_at(const Domain& d, const Judged& j, const std::vector<double>& in);
 
-// Returns the worst of `count` random points after hill climbing from one in 4000 of them (25 to 1000). Climbing moves coordinates of [0,1)
-// up and down by steps from 1/4 to 2^-44, as long as the score grows. The search is deterministic.
+// Returns the worst of `count` random points after hill climbing from the worst, one in 4000 (25 to 1000). Climbing moves coordinates in
+// [0,1) up and down by steps from 1/4 to 2^-44, as long as the score grows. The search is deterministic.
 std::vector<Worst> search(const Domain& d, double count, std::uint64_t seed);
 
 } // namespace burnish::test

@@ -1,4 +1,4 @@
-// Every line of the atlas can be drawn, and every row of shading/models.def has an entry.
+// Every atlas line can be drawn, and every row of shading/models.def has an entry.
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <set>

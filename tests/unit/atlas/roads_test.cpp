@@ -49,7 +49,7 @@ void check_roads(const std::vector<double>& places, int side)
 
 TEST(atlas_roads, broken_pictures_are_the_same_words_on_every_road)
 {
-    check_roads({1.0}, 40); // more than a tile of 32
+    check_roads({1.0}, 40); // more than one tile of 32
 }
 
 TEST(atlas_roads, all_pictures_are_the_same_words_on_every_road)

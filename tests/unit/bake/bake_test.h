@@ -48,7 +48,7 @@ inline std::vector<float> results(const IsaFns& isa, const char* name, const std
     return points;
 }
 
-// Returns an equirectangular f32 RGB image of radiance(x, y, z, rgb), a function of the unit direction.
+// Returns an equirectangular f32 RGB image from radiance(x, y, z, rgb), a function on unit directions.
 inline Image equirect_of(int width, const std::function<void(double, double, double, float*)>& radiance)
 {
     Image image = make_image(width, width / 2, 3, PixelType::f32);

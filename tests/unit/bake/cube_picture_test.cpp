@@ -1,4 +1,4 @@
-// OpenEXR's cubes against the format's definition: the direction of each texel of each face.
+// OpenEXR's cubes against the format's definition: the direction of every face texel.
 #include "shading/bake/environment/cube_picture.h"
 
 #include <gtest/gtest.h>

@@ -135,8 +135,8 @@ TEST(environment, the_centre_of_the_image_is_plus_x_and_u_runs_towards_plus_z)
     EXPECT_GT(fetch(e.specular, 1, 1, 0)[2], 0.9f);
 }
 
-// At the end of every axis the image shows black lines towards the positive ends of the two other axes. Its centre is +z and u runs from +x
-// to +z, so a quarter turn maps every axis to its place.
+// At the end of every axis the image shows black lines towards the other axes' positive ends. Its centre is +z and u runs from +x to +z, so
+// a quarter turn maps every axis to its place.
 TEST(environment, an_orientation_picture_lands_the_right_way_round_on_every_face)
 {
     const Result<Image> image = read_image(test::data_file("env/OrientationLatLong_tiled_mip.exr"), Limits{});

@@ -1,4 +1,4 @@
-// Textures of area lights: exactly preserved values, and the contents of blurred levels.
+// Area light textures: exactly preserved values, and contents of blurred levels.
 #include <gtest/gtest.h>
 
 #include <cmath>

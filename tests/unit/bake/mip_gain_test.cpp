@@ -177,7 +177,7 @@ TEST(mip_gain, is_kept_in_files_and_refused_where_it_is_none)
     EXPECT_FALSE(parse_mip_file(mip_file_bytes({{&bad}, 0, {}}), "x.mip")) << "gains of nothing";
 }
 
-// Rows of any length, maps of three and four channels: states, squares, texels, tensors and hashes.
+// Rows of any length, maps with three and four channels: states, squares, texels, tensors and hashes.
 TEST(mip_lanes, have_the_same_bits_for_every_instruction_set)
 {
     std::vector<std::uint8_t> codes(4 * 150);

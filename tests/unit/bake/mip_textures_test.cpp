@@ -119,7 +119,7 @@ float held(float value, bool residual)
     return residual ? first + half_to_float(float_to_half(value - first)) : first;
 }
 
-// Returns levels as frames hold them: normals and covariances of two halves, or of one.
+// Returns levels as frames hold them: normals and covariances as one half or two.
 mipnet::Texels in_halves(const mipnet::Texels& from, bool residual)
 {
     mipnet::Texels to = from;
@@ -206,7 +206,7 @@ TEST(mip_shown, errors_are_those_of_what_differs)
 
 TEST(mip_shown, tiles_have_pairs_of_their_own)
 {
-    // One texel of a level a tile: each tile uses the directions of its number, and all tiles together give their mean.
+    // Each tile holds one level texel and uses its own pair of directions. All tiles together give the mean over the pairs.
     const ShownSurface surface = shown_surface(mipnet::Lobe::beckmann, false);
     const std::vector<std::vector<mipnet::Texels>> wider = {{flat_texels(4, 0.4f)}};
     const mipnet::Texels level0 = flat_texels(8, 0.3f);
@@ -340,7 +340,7 @@ TEST(colour_levels, by_kaiser_are_sharper_and_have_less_that_is_false)
     EXPECT_GT(left(2.56, ColourKernel::box), 0.3);
 }
 
-// A metal with level ridges of one colour and steep ridges of another. The test finds the steep ridges' part in the mean radiance.
+// A metal with flat ridges in one colour and steep ridges in another. The test finds the steep ridges' part in the mean radiance.
 TEST(colour_levels, that_are_coupled_have_less_than_half_the_error_of_colour)
 {
     constexpr int kSide = 8;

@@ -21,7 +21,7 @@ double radiance(double x, double y, double z)
     return 1.0 + 0.8 * x + 0.3 * y * z + 0.6 * std::sin(9.0 * x + 4.0 * z) * std::cos(7.0 * y);
 }
 
-// Returns the integral of radiance * D(h) n.l over the hemisphere around n, divided by the integral of D(h) n.l, in half-vector angles.
+// Integrates radiance * D(h) n.l over the hemisphere around n, divided by the integral of D(h) n.l. Uses half-vector angles.
 double brute_force(const double n[3], double alpha)
 {
     const double t[3] = {n[1], n[2], n[0]}; // not parallel to n for the directions used
@@ -127,7 +127,7 @@ double relative_error(const CubeLevel& level0, const CubeMap& baked, int level, 
     return std::sqrt(sum / texels);
 }
 
-// A sun of 9000 in a sky of 1, and lamps and windows: no level has noise or mottles.
+// A sun with radiance 9000 in a sky with radiance 1, and lamps and windows: no level has noise or mottles.
 TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
 {
     for (const char* name : {"sky", "studio"}) {

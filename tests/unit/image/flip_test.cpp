@@ -190,7 +190,7 @@ TEST(flip, uniform_grays_differ_by_their_lightness)
     const Jobs jobs;
     const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
     const Image a = uniform(30, 30, 0.5f, 0.5f, 0.5f), b = uniform(30, 30, 0.3f, 0.3f, 0.3f);
-    // L*a*b* of sRGB's green is 87.73, -86.18, 83.18, and of its blue 32.30, 79.19, -107.86. Hunt adjustment: a and b times L/100.
+    // sRGB's green has L*a*b* 87.73, -86.18, 83.18, its blue 32.30, 79.19, -107.86. Hunt adjustment: a and b times L/100.
     const double da = -86.18 * 0.8773 - 79.19 * 0.3230, db = 83.18 * 0.8773 + 107.86 * 0.3230;
     const double knee = 0.4 * std::pow(87.73 - 32.30 + std::hypot(da, db), 0.7);
     EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)), std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
@@ -305,7 +305,7 @@ TEST(flip_exposures, run_from_the_largest_to_the_median_luminance)
     EXPECT_NEAR(find_exposures(image, reinhard, jobs).start_ev, std::log2(0.85 / 0.15 / 32), 1e-5);
 }
 
-// Uses many pixels, some of them black or negative, on any number of threads.
+// Uses many pixels, including black and negative ones.
 TEST(flip_exposures, median_is_that_of_the_sorted_lit_pixels)
 {
     std::mt19937 random(21);

@@ -1,4 +1,4 @@
-// Fits of one lobe and of a table. The bytes do not depend on threads or interruptions.
+// Fits for one lobe and for a table. The bytes do not depend on threads or interruptions.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -101,7 +101,7 @@ TEST(fit, as_others_do_it_is_worse_and_the_file_says_how)
     EXPECT_NEAR(apart, own, 0.02);
 }
 
-// Returns the L1 distance of two transformed cosines, by points of one of them.
+// Returns the L1 distance between two transformed cosines, by points drawn from both.
 double between(const Matrix& a, const Matrix& b)
 {
     static const Rule rule(16);
@@ -186,7 +186,7 @@ TEST(fit, a_table_without_symmetry_has_it_all_the_same)
 
 TEST(fit, equations_are_the_derivative)
 {
-    // Along every element of E the sums' gradient equals the gradient of sum W (p - q)^2 / 2, with the initial weights.
+    // Along every element of E the sums' gradient equals that energy's gradient: sum W (p - q)^2 / 2, with the initial weights.
     const Place place = {0.8, 0.5, 0.4, 0.5};
     const Rule rule(15), white(18);
     const LobePoints points(normalised_lobe(place, white), rule);

@@ -1,4 +1,4 @@
-// Laws of the fitted lobe and of the density for fitting it.
+// Laws for the fitted lobe and for the density of the fit.
 #include <gtest/gtest.h>
 
 #include "core/math/scalar_math.h"
@@ -25,7 +25,7 @@ TEST(lobe, densities_integrate_to_one)
         const Lobe lobe = normalised_lobe(place, rule);
         const Matrix m = with_unit_axis(natural_matrix(place));
         const Matrix n = inverse(m);
-        // Integrates each of the three densities by points of the others, so that no density confirms itself.
+        // Integrates all three densities by points drawn from two of them, so that no density confirms itself.
         double visible = 0.0, reflected = 0.0, cosine = 0.0;
         for (const Rule::Point& point : points.points) {
             const Vec a = mirrored_normal(lobe, point), b = unit(m * point.clamped);
@@ -81,7 +81,7 @@ TEST(lobe, gauges_are_one_density)
 
 TEST(lobe, unaligned_neighbours_interpolate_to_another_lobe)
 {
-    // Purpose of the gauge: two matrices of one lobe, one of them turned, have a wrong mean.
+    // Shows why the gauge is needed: two matrices for one lobe, one turned, have a wrong mean.
     const Place place = kPlaces[1];
     const Rule rule(15), white(18);
     const LobePoints points(normalised_lobe(place, white), rule);

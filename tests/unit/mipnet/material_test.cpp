@@ -59,7 +59,7 @@ TEST(material, is_the_same_for_the_same_seed_and_tiles)
 
 TEST(batch, tiles_lie_as_levels_gather_them)
 {
-    // Texel i of a level of n covers texels j n + i of the level below.
+    // With n texels a level, texel i covers texels j n + i one level below.
     std::set<std::size_t> places;
     for (int y = 0; y < kTileSide; ++y)
         for (int x = 0; x < kTileSide; ++x)

@@ -229,7 +229,7 @@ TEST(direction_map, a_texel_without_direction_is_isotropic)
     }
 }
 
-// The mean of two texels' tensors gives the mean of their covariances, so filtering tensors filters covariances.
+// Averaging two texels' tensors averages their covariances, so filtering tensors filters covariances.
 TEST(direction_map, filtering_is_exact)
 {
     const double alpha = .09, strength = .8, turn = .4;

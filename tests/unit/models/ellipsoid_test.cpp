@@ -1,4 +1,4 @@
-// Known values and laws of the ellipsoid distribution and of its dielectric.
+// Known values and laws for the ellipsoid distribution and its dielectric.
 #include <cmath>
 #include <gtest/gtest.h>
 

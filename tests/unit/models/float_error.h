@@ -1,4 +1,4 @@
-// Errors of float results against the double oracle, in units of the last place and in units of unavoidable rounding.
+// Float errors against the double oracle, in units of the last place (ulp) and in units of unavoidable rounding.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -11,8 +11,8 @@ namespace burnish::test {
 // off.
 double ulp(double truth, double least = 1e-24);
 
-// Returns the movement of `exact`'s results when arguments move by one float step or stay: the largest of six tries. The density of a lobe
-// of width 0.001 moves by thousands of ulp. A refraction's cosine moves without bound where the facet is seen edge on.
+// Returns how far `exact`'s results move when arguments move by one float step or stay: the largest of six tries. The density of a lobe of
+// width 0.001 moves by thousands of ulp. A refraction's cosine moves without bound where the facet is seen edge on.
 std::vector<double> sway(const Kernel& exact, const std::vector<double>& in);
 
 // The largest of many errors, and the error that one in a thousand exceeds.
@@ -20,7 +20,7 @@ struct Extent {
     double largest, common;
 };
 
-// Errors of one kind of result: in ulp, and in multiples of ulp plus sway.
+// Errors for one kind of result, in ulp and in multiples of ulp plus sway.
 class Errors {
   public:
     void add(double value, double truth, double last_place, double moved);

@@ -1,4 +1,4 @@
-// Shared parts of the model tests: the list of models with settings, directions, random numbers, integrals over directions.
+// Shared parts of the model tests: models with settings, directions, random numbers, integrals over directions.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -129,7 +129,7 @@ TEST(race_report, counts_rows_with_the_same_picture)
     EXPECT_NE(table.find("out of memory"), std::string::npos);
 }
 
-// Two draws of two triangles each, in pixels of two samples.
+// Two draws with two triangles each, two samples a pixel.
 TEST(race_report, silhouettes_are_where_draws_meet)
 {
     DrawTables tables;

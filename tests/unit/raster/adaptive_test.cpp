@@ -59,8 +59,8 @@ double roughest(const Frame& f)
 }
 
 // A fixed sample count moves its samples smoothly. The adaptive count must add no steps to that. The bound is the worse of two fixed
-// counts: sixteen equally spaced samples leave sharper edges in narrow lobes, and sixteen samples by density leave more ripples in wide
-// ones. Samples that appear without fading would exceed the bound many times over.
+// counts. Sixteen equally spaced samples leave sharper edges in narrow lobes. Sixteen samples by density leave more ripples in wide lobes.
+// Samples that appear without fading would exceed the bound many times over.
 TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
 {
     const Judge judge;

@@ -140,7 +140,7 @@ TEST(anisotropy, nothing_jumps_where_lobes_are_nearly_round_or_thin)
     EXPECT_LT(step, 0.1f);
 }
 
-// Returns the number of words from `input` to the end of a pair's record: the rest of material.def and the colour.
+// Counts the words from `input` to the end of a pair's record: the rest of material.def and the colour.
 constexpr int words_from(std::string_view input)
 {
     int sum = 3;

@@ -180,8 +180,8 @@ TEST(area_lights, go_with_their_nodes)
     EXPECT_EQ(disk.normal, glm::vec3(0, 0, 1));
 }
 
-// Compares the transformed cosine with the mean of the lobe over points of the light. They differ by the fit's error, most where the light
-// lies in the lobe's tail.
+// Compares the transformed cosine with the lobe's mean over points on the light. They differ by the fit's error, most where the light lies
+// in the lobe's tail.
 TEST(area_lights, by_cosines_are_what_sampling_finds)
 {
     const char* names[] = {"quad", "polygon", "disk", "sphere", "line"};

@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 
-// Returns a cluster with a radius of 5 cm whose triangles face -Z within a sixth of a turn.
+// Returns a cluster with radius 5 cm whose triangles face -Z within a sixth of a turn.
 DrawTables ball_that_looks_away(glm::vec3 center)
 {
     DrawTables tables;

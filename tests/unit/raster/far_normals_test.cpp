@@ -1,4 +1,4 @@
-// Strong normal maps from afar: mean light of a far plate by each mip filter, against the mean over the texels of its map.
+// Strong normal maps from afar: a far plate's mean light by each mip filter, against the mean over its map's texels.
 #include <gtest/gtest.h>
 
 #include <cmath>

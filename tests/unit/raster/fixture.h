@@ -51,8 +51,8 @@ class Stage {
     Frame render(const FrameDesc& desc, Isa isa) const;
 };
 
-// Returns an orthographic view of width x height pixels, measured from the image's top left corner, with y up negative: the world position
-// (x, -y, 0) lands on pixel position (x, y).
+// Returns an orthographic view with width x height pixels, measured from the top left corner. The world position (x, -y, 0) lands on pixel
+// position (x, y).
 View pixel_view(int width, int height);
 
 } // namespace burnish::test

@@ -1,5 +1,5 @@
-// Key lights on a surface: the lobe's response to a small disc or ellipse on the sky, against the sum of many directional lights inside it,
-// and from a mirror to a rough surface.
+// Key lights on a surface: the lobe's response to a small disc or ellipse on the sky, against a sum over directional lights inside it.
+// Roughness goes from a mirror to a rough surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -41,7 +41,7 @@ class OneTriangle {
         vertices_.resize(3);
         material_.double_sided = 1;
     }
-    // Returns the setup of the whole triangle, or of the pieces after clipping.
+    // Returns the whole triangle's setup, or the setups of its pieces after clipping.
     const std::vector<ClippedPiece>& draw(const View& view, int width, int height, const glm::vec3 corners[3])
     {
         FrameParams f = {};

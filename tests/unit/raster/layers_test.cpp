@@ -1,4 +1,4 @@
-// Layers of an image against the drawn scene, and the parts of pixels against the pixels.
+// An image's layers against the drawn scene, and the parts of pixels against the pixels.
 #include <gtest/gtest.h>
 
 #include <cmath>

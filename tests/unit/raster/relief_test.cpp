@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kDepth = 0.2f; // in texture coordinates
 
-// Returns a plane of one triangle whose heights are one row of texels.
+// Returns a plane of one triangle whose heights are one texel row.
 Scene plane_of(const std::vector<int>& heights)
 {
     Scene s = scene_of({Triangle{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}}, true);

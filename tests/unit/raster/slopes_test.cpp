@@ -1,4 +1,4 @@
-// Moments of slopes: the lobe that shading makes from a tilt texel, from a mean of texels, and from roughness maps.
+// Slope moments: the lobe that shading makes from a tilt texel, from a texel mean, and from roughness maps.
 #include <gtest/gtest.h>
 
 #include <cmath>

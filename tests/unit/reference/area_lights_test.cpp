@@ -124,8 +124,7 @@ TEST(area_lights, are_counted_once_along_a_path)
     FrameDesc d = desc_of(8, 8, make_view(glm::vec3(0.0f, 0.0f, 0.9f), glm::vec3(0.3f, 0.2f, 2.0f), 0.3f, 8, 8));
     ReferenceOptions o;
     o.samples = 4096, o.bounces = 60;
-    // on a ball around the light the first bounce is even: radiance r^2 / R^2 times albedo; half of the light leaving a wall may meet the
-    // lamp again
+    // on a ball around the light the first bounce is even: radiance r^2 / R^2 times albedo
     const auto seen = [&](ReferenceMode mode, bool solid) {
         o.mode = mode;
         AreaLight lamp = light;

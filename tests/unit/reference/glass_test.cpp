@@ -82,7 +82,7 @@ double reflectance(double cosine, double ior)
     return 0.5 * (s * s + p * p);
 }
 
-// Returns the radiance of a smooth ball of radius 1 seen along -z at distance b from its centre, in the xz plane.
+// Returns the radiance through a smooth ball with radius 1, seen along -z at distance b from its centre, in the xz plane.
 double seen_through_ball(double b, double ior)
 {
     const double in = std::asin(b), out = std::asin(b / ior), r = reflectance(std::cos(in), ior);

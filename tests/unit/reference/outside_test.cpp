@@ -185,7 +185,7 @@ TEST(outside, a_dielectric_shares_light_with_its_diffuse_part)
             }
 }
 
-// KHR_materials_clearcoat: a layer of index 1.5 whose share of the light depends on the view angle.
+// KHR_materials_clearcoat: a layer with index 1.5 whose share of the light depends on the view angle.
 TEST(outside, a_clear_coat_lies_over_metals_and_dielectrics)
 {
     BN_NEEDS_EMBREE();

@@ -12,7 +12,7 @@
 
 namespace burnish::test {
 
-// Bakes an environment from a radiance function of directions, through a cube of `size` texels a side.
+// Bakes an environment from radiance by direction, through a cube with `size` texels a side.
 Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& radiance, int size, const Jobs& jobs);
 Stage under_coloured_sky(const Scene& scene); // coloured_sky() of formulas.h
 

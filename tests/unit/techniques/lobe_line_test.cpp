@@ -56,7 +56,8 @@ TEST(lobe_line, and_its_round_lobes_are_the_lobe)
             }
 }
 
-// The density of GGX slopes is the line's marginal times a round lobe's density of width sqrt(1 + z^2), with 3 / (2 pi) (1 + r^2)^(-5/2).
+// The GGX slope density is the line's marginal times a round lobe's density. The round lobe has width sqrt(1 + z^2) and density 3 / (2 pi)
+// (1 + r^2)^(-5/2).
 TEST(lobe_line, sums_to_the_density_of_slopes)
 {
     const double pi = std::numbers::pi, up[3] = {0, 0, 1};

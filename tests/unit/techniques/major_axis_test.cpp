@@ -103,8 +103,8 @@ void expect_vector(const IsaFns& kernels, const Vector& v, double tolerance, int
     EXPECT_LT(std::min(straight, swapped), tolerance) << kernels.name << " vector " << index;
 }
 
-// Further printed values: the clamps of the ends (tau 0 to 1), the shift delta of the closest points, the kept part zeta of the axis, f1
-// and f2 of the extrema, and the directions of the first and last sample.
+// Further printed values: the extrema's f1 and f2, the ends' clamps (tau 0 to 1), the closest points' shift delta, the kept part zeta of
+// the axis, and directions of the first and last sample.
 struct Steps {
     int vector;
     double f1, f2, tau0, tau1, delta, zeta; // 0: not printed
@@ -222,7 +222,8 @@ float exact_root(float x)
     return std::sqrt(x);
 }
 
-// Returns a square root as inexact as Vulkan 1.3 allows ("Precision and Operation of SPIR-V Instructions": Sqrt is 1.0 / InverseSqrt).
+// Returns a square root within the error allowed by Vulkan 1.3 ("Precision and Operation of SPIR-V Instructions": Sqrt is 1.0 /
+// InverseSqrt).
 float device_root(float x)
 {
     return 1.0f / (1.0f / std::sqrt(x));
@@ -246,8 +247,9 @@ double turn_between(double a, double b)
     return std::min(apart, M_PI - apart);
 }
 
-// Beside a symmetry plane of the lobe the printed quotient divides differences of nearly equal numbers. Images then show a line of
-// speckles, unless the root of a square is exact, as here but not on all devices. The kernel's form avoids the cancellation.
+// Beside the lobe's symmetry planes the printed quotient divides differences of nearly equal numbers. Images then show a line of speckles,
+// unless the square root of a square is exact. The device's square root is inexact, as Vulkan allows. The kernel's form avoids the
+// cancellation.
 TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and_the_kernel_does_not)
 {
     Random random{41};

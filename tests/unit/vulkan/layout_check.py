@@ -67,7 +67,7 @@ def main():
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
     for name, _ in stages.lines(root):
         for key, offset in spirv_layout(stages.assembly(folder, name)).items():
-            if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block of one structure, or of an array of them
+            if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block with one structure, or an array of structures
                 print(f"{name}: {'.'.join(key)} begins at {offset}")
                 bad += 1
             if key[0] not in structures:
