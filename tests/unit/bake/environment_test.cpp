@@ -287,7 +287,7 @@ TEST(environment, negative_light_is_taken_from_what_is_around_it)
     const Equirect e = make_equirect(image);
     EXPECT_NEAR(mean_luminance(e), sum, 1e-6 * sum);
     EXPECT_GE(*std::min_element(e.rgb.begin(), e.rgb.end()), 0.0f);
-    for (int x = 24; x < 32; ++x) // of a block without bad values
+    for (int x = 24; x < 32; ++x) // of a block without negative values
         EXPECT_EQ(e.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))], before.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))]);
 
     Image dark = make_image(8, 4, 3, PixelType::f32);

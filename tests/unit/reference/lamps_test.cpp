@@ -221,7 +221,7 @@ TEST(lamps, do_not_hide_point_lights)
     EXPECT_EQ(shadowed(solid(kAway)), 0.0);
 }
 
-// Open and solid lights differ in their checkpoint keys, since open lights cast no shadows.
+// Traced modes with area lights have separate checkpoint keys. Checkpoints whose open lights occluded each other are not continued.
 TEST(lamps, have_keys_of_their_own_where_rays_are_traced)
 {
     const auto key_of = [](const std::vector<AreaLight>& lights, ReferenceMode mode) {
