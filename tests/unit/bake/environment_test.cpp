@@ -276,7 +276,7 @@ TEST(environment, negative_light_is_taken_from_what_is_around_it)
                                       {20, 10, 300.0f},
                                       {22, 10, -4.0f},
                                       {20, 13, -9.0f},
-                                      {63, 1, -20.0f} /* more than there is in its block */})
+                                      {63, 1, -20.0f} /* exceeds the light in its block */})
         std::fill_n(at(x, y), 3, value);
     double sum = 0.0;
     for (int y = 0; y < 32; ++y)

@@ -192,7 +192,7 @@ TEST(mip, filters_widen_lobes_by_what_their_formulas_say)
     EXPECT_NEAR(gain_of_taps(kMipFilter_kappa, 2.0f), 1.0f, 1e-6f);
 }
 
-// Mirroring a material, or swapping its axes, does the same to its levels, bit for bit.
+// Mirroring a material, or swapping its axes, mirrors or swaps its levels, bit for bit.
 TEST(mip, squares_are_filtered_alike_however_they_lie)
 {
     constexpr int kSide = 32;
@@ -223,7 +223,7 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
                 return to;
             });
         };
-        // halves with an exact 1 - x
+        // rounded so that 1 - x is exact
         Maps coarse = maps;
         for (std::size_t i = 0; i < coarse.normal.bytes.size() / 4; ++i) {
             coarse.normal.f32()[i] = std::round(coarse.normal.f32()[i] * 4096.0f) / 4096.0f;

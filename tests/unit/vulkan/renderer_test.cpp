@@ -247,7 +247,7 @@ class cache : public testing::Test {
         ::unsetenv("XDG_CACHE_HOME");
         std::filesystem::remove_all(folder);
     }
-    // Draws a frame on a new device. Returns whether the cache held anything, and the frame's hash.
+    // Draws a frame on a new device. Returns true if the cache held anything, and the frame's hash.
     std::pair<bool, std::uint64_t> draw()
     {
         VulkanOptions options = lavapipe();
