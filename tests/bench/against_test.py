@@ -1,4 +1,4 @@
-"""bench/against.py makes ratios of two programs' known times, and bench/instructions/mix.py reads callgrind's counts."""
+"""bench/against.py computes ratios of two programs' known times, and bench/instructions/mix.py reads callgrind's counts."""
 
 import contextlib
 import importlib.util

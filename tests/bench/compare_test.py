@@ -1,4 +1,4 @@
-"""bench/compare.py says of known figures what is known of them."""
+"""bench/compare.py reports the known differences of known figures."""
 
 import contextlib
 import importlib.util

@@ -1,4 +1,4 @@
-"""bench/instructions/flame.py counts instructions for the functions that asked for them, and draws them as wide as they are."""
+"""bench/instructions/flame.py counts instructions for their callers, and draws functions with proportional widths."""
 
 import os
 import pathlib

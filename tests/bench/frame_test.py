@@ -1,4 +1,4 @@
-"""bench_frame: its JSON hangs together. Usage: frame_test.py BENCH_FRAME FOLDER"""
+"""bench_frame: its JSON is consistent. Usage: frame_test.py BENCH_FRAME FOLDER"""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""bench/growth.py lays lines through known figures and says which are none."""
+"""bench/growth.py fits lines to known figures and reports figures that form no line."""
 
 import contextlib
 import importlib.util

@@ -1,4 +1,4 @@
-"""bench/roofline.py draws known figures where they belong."""
+"""bench/roofline.py draws known figures at their places."""
 
 import contextlib
 import importlib.util

@@ -1,4 +1,4 @@
-"""Pictures in a row: render --animate and --turntable, compare --sequence."""
+"""Image sequences: render --animate and --turntable, compare --sequence."""
 
 import json
 import struct
@@ -45,7 +45,7 @@ def materials_change_too(bench):
 
 
 def turning():
-    """A triangle that turns about y, by 90 degrees in two seconds."""
+    """Returns a triangle that turns about y by 90 degrees in two seconds."""
     gltf = files.triangle()
     keys = struct.pack("<2f", 0, 2) + struct.pack("<8f", 0, 0, 0, 1, 0, 0.5**0.5, 0, 0.5**0.5)
     gltf["buffers"].append({"uri": files.data_uri(keys), "byteLength": len(keys)})
@@ -89,7 +89,7 @@ def a_turntable_goes_once_around_at_one_distance(bench):
 
 
 def seen_in_file(bench):
-    """What camera_cases.seen() finds in a.pfm, which is there."""
+    """Returns camera_cases.seen() for the existing a.pfm."""
     class Still:
         folder = bench.folder
 

@@ -1,4 +1,4 @@
-"""burnish atlas: where methods break, and that it is held."""
+"""burnish atlas: failures of methods, and their blessed figures."""
 
 import csv
 import io
@@ -75,7 +75,7 @@ def held(bench):
 
 @case("atlas.goes_on_where_it_was_stopped", tier="nightly")
 def goes_on(bench):
-    """What is finished is kept in DIR, and a run that was stopped ends with the figures of one that was not."""
+    """Finished entries are kept in DIR. A stopped run ends with the figures of an uninterrupted run."""
     needs_embree(bench)
     ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in table order
     words = ("atlas", *ids, "--quick", "--no-cache")
@@ -89,7 +89,7 @@ def goes_on(bench):
 
 
 def stopped(bench, words, folder, by):
-    """Exit code and standard error of an atlas that got a signal once its first entry was finished."""
+    """Returns the exit code and standard error of an atlas that got a signal after its first entry."""
     child = subprocess.Popen([bench.program, *words, "-o", folder], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE)
     begin = time.monotonic()
@@ -107,7 +107,7 @@ def same_figures(bench):
 
 @case("atlas.full_walk_goes_on_after_kill_9", tier="nightly")
 def goes_on_in_full(bench):
-    """33 steps an entry."""
+    """Takes 33 steps an entry."""
     needs_embree(bench)
     words = ("atlas", FAST, "tangents_left")
     check(stopped(bench, words, "a", signal.SIGKILL)[0] == -signal.SIGKILL, "it was over before")
@@ -239,7 +239,7 @@ def own_defects(bench):
 
 @case("atlas.every_entry_can_fail", tier="nightly")
 def can_fail(bench):
-    """Where all that is drawn is twice as bright as the truth, no entry is held."""
+    """If all drawings are twice as bright as the reference, no entry is held."""
     needs_embree(bench)
     report = json.loads(bench.run("atlas", "--quick", "--with", "--env-exposure 1", "--json", "-", timeout=1100).expect(1).out)
     blind = [e["id"] for e in report["entries"] if e["verdict"] not in ("worse", "cure fails")]
@@ -248,7 +248,7 @@ def can_fail(bench):
 
 @case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="nightly")
 def near_index_one(bench):
-    """Neither by many samples nor by few: there is ever less to reflect, and light goes ever straighter."""
+    """Fails neither with many samples nor with few: reflection vanishes, and light passes ever straighter."""
     needs_embree(bench)
     found = {}
     for index in ("1.5", "1.1", "1.01", "1.001", "1"):
@@ -264,7 +264,7 @@ def near_index_one(bench):
 
 
 def broken_ends(bench):
-    """{entry: words of `burnish render`} where each path ends. Tables that only the atlas makes are left out."""
+    """Returns {entry: words of `burnish render`} at each path's end, without tables that only the atlas makes."""
     ends = {}
     for entry, words, path in re.findall(r"^  (\w+)\n.*\n      burnish render ([^,]*(?:,[^ ]*)*(?: [^ ]+)*?), (\S+=\S+)", bench.run("atlas", "--list").out, re.M):
         words = words.split()

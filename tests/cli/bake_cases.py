@@ -133,7 +133,7 @@ def wrong(bench):
 
 
 def shown(bench, name):
-    """Width, height and rows of (r, g, b), 8 bits, of a PNG that the program wrote."""
+    """Returns the width, height and rows of (r, g, b), 8 bits, of a PNG by the program."""
     data = (bench.folder / name).read_bytes()
     at, parts, header = 8, b"", None
     while at < len(data):

@@ -1,4 +1,4 @@
-"""Blended surfaces over what lies behind them: files, alpha of pictures, the reference, the device."""
+"""Blended surfaces over their background: files, alpha of images, the reference, the device."""
 
 import json
 
@@ -39,7 +39,7 @@ def samples(bench):
 
 @case("blend.alpha_of_pictures_is_what_does_not_shine_through", tier="nightly")
 def alpha(bench):
-    """White sheets before nothing: alpha is light."""
+    """White sheets over nothing: alpha equals light."""
     for backend in ("tile", "reference"):
         if backend == "reference":
             needs_embree(bench)

@@ -1,4 +1,4 @@
-"""--brdf: every model that can lie on a surface, under lamps, in mc, in the reference, on a device."""
+"""--brdf: every surface model, under lamps, in mc, in the reference, on a device."""
 
 import json
 import pathlib
@@ -17,7 +17,7 @@ CLOSE = ("builtin:sphere", "--eye", "0,0,0.5", "--fov", "35", "--size", "40x40",
 
 
 def lobes(bench):
-    """{name: whether nothing but lamps meets it} of what --brdf takes, as list models has it."""
+    """Returns {name: True if lamps alone meet the lobe} for the models of --brdf, as list models prints them."""
     found = {}
     for line in bench.run("list", "models").expect(0).out.splitlines():
         if "--brdf" in line:
@@ -77,14 +77,14 @@ def reference_of(bench, name):
 
 
 def against_files(bench, reference, test, variance):
-    """How a picture differs from a reference of known variance."""
+    """Returns the difference between an image and a reference with known variance."""
     done = bench.run("compare", reference, test, "--variance", variance, "--significance", "0.01", "--json", "c.json", "-q")
     check(done.code in (0, 1), done.describe())
     return json.loads((bench.folder / "c.json").read_text())
 
 
 def against_reference(bench, samples, name):
-    """How mc by `name` differs from the reference that is there."""
+    """Returns the difference between mc by `name` and the existing reference."""
     bench.run("render", *PATCH, "--technique", "mc", "--samples", samples, "--brdf", name, "-o", "mc.pfm").expect(0)
     return against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
 

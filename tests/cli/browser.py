@@ -1,4 +1,4 @@
-"""Headless Chromium through its debugging pipe: pages as a reader meets them, with nothing but the standard library."""
+"""Headless Chromium through its debugging pipe: pages as a reader sees them, with the standard library alone."""
 
 import base64
 import json
@@ -17,7 +17,7 @@ TIMEOUT = 60.0  # seconds for one answer
 
 
 class Browser:
-    """`with Browser(folder) as browser`. The folder holds its profile."""
+    """Used as `with Browser(folder) as browser`. The folder holds its profile."""
 
     def __init__(self, folder):
         program = next(filter(None, map(shutil.which, NAMES)), None)
@@ -126,7 +126,7 @@ class Browser:
         self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
     def press(self, key, code=None, number=0, text=None):
-        """A real key stroke: what has the focus gets it."""
+        """Presses a real key. The focused element receives it."""
         more = {"text": text} if text else {}
         self.send("Input.dispatchKeyEvent", type="keyDown", key=key, code=code or key, windowsVirtualKeyCode=number, **more)
         self.send("Input.dispatchKeyEvent", type="keyUp", key=key, code=code or key, windowsVirtualKeyCode=number)

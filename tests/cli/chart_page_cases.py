@@ -36,7 +36,7 @@ def healthy(browser):
 
 
 def point(browser, index):
-    """Centre of a point's mark, scrolled into view, and the row that it stands for."""
+    """Returns the centre of a point's mark, scrolled into view, and the point's row."""
     return browser.value(f"""(() => {{ const p = {POINTS}[{index}]; p.scrollIntoView({{block: 'center'}});
         const b = p.querySelector('.mark').getBoundingClientRect();
         return {{x: b.x + b.width / 2, y: b.y + b.height / 2, row: p.dataset.row}}; }})()""")

@@ -1,4 +1,4 @@
-"""burnish compare: figures, outputs, limits, and an exit code for each way to fail."""
+"""burnish compare: figures, outputs, limits, and an exit code for each kind of failure."""
 
 import base64
 import csv
@@ -16,7 +16,7 @@ NAN, INF = float("nan"), float("inf")
 
 
 def png(width, height, pixel, channels=3, bits=8):
-    """pixel(x, y) gives the channels."""
+    """Returns a PNG. pixel(x, y) gives the channels."""
     form = ">%dB" if bits == 8 else ">%dH"
     rows = b"".join(b"\0" + struct.pack(form % (width * channels), *(v for x in range(width) for v in pixel(x, y)))
                     for y in range(height))
@@ -30,7 +30,7 @@ def png(width, height, pixel, channels=3, bits=8):
 
 
 def pfm(width, height, pixel):
-    """RGB floats; the format begins with the bottom row."""
+    """Returns a PFM of RGB floats, which begins with the bottom row."""
     values = [v for y in reversed(range(height)) for x in range(width) for v in pixel(x, y)]
     return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<%df" % len(values), *values)
 
@@ -44,7 +44,7 @@ def bright(x, y):
 
 
 def pictures(bench):
-    """Pairs of small pictures: 8 bits, and floats."""
+    """Writes pairs of small images: 8 bits, and floats."""
     scratch(bench, "a.png", png(24, 16, ramp))
     scratch(bench, "b.png", png(24, 16, lambda x, y: (8 * x % 256, 8 * y % 256, 128 if x or y else 153)))
     scratch(bench, "a.pfm", pfm(24, 16, bright))
@@ -78,7 +78,7 @@ def equal(bench):
 
 @case("compare.known_pictures_have_their_known_errors", tier="nightly")
 def known(bench):
-    """Means of the FLIP authors' own program; see SOURCES.md beside the pictures."""
+    """Means printed by the FLIP authors' program; see SOURCES.md beside the images."""
     folder = bench.data_file("flip")
     for one, other, mean in (("ldr_ref.png", "ldr_blur.png", 0.098760), ("ldr_ref.png", "ldr_tint.png", 0.263008),
                              ("hdr_ref.exr", "hdr_blur.exr", 0.125888)):

@@ -1,4 +1,4 @@
-"""Where the program may have little: memory (ulimit -v, control groups), threads, no rights, a root that is read-only."""
+"""The program with few resources: memory (ulimit -v, control groups), threads, no rights, a read-only root."""
 
 import json
 import os
@@ -15,7 +15,7 @@ MIB = 1 << 20
 
 
 def with_little_memory(bench, words, output, limits):
-    """Under ulimit -v: a line and a code, or all that was asked for. Gives what was said where it did not go."""
+    """Runs under ulimit -v. Each run gives an error line and a code, or the whole output. Returns the messages of failed runs."""
     if bench.sanitized:
         raise Skipped("shadow memory reserves terabytes of addresses")
     codes, said = [], []
@@ -49,7 +49,7 @@ def little_memory_all(bench):
 
 @case("confine.a_picture_that_does_not_fit_is_not_called_damaged", tier="nightly")
 def exr_memory(bench):
-    """What OpenEXR says where it gets no memory is not taken for what it says of a damaged file."""
+    """OpenEXR's message for missing memory is not taken for its message for a damaged file."""
     bench.run("render", "builtin:plate", *TINY, "--size", "4000x4000", "-o", "big.exr").expect(0)
     words = ("compare", "big.exr", "big.exr", "--metric", "mse", "--json", "found.json")
     said = with_little_memory(bench, words, "found.json", [m * MIB for m in (300, 900, 960, 1020, 1080, 3000)])
@@ -89,7 +89,7 @@ def in_group(bench, kind, limit, words):
 
 @case("confine.little_memory_of_a_control_group", tier="nightly")
 def memory_group(bench):
-    """What would be killed without a word ends with one, and leaves no half picture."""
+    """Instead of being killed silently, the program prints an error, and leaves no partial image."""
     if bench.sanitized:
         raise Skipped("sanitizers need memory of their own")
     words = ("--threads", "2", "-o", "o.png")
@@ -123,7 +123,7 @@ def bytes_of(path):
 
 
 def with_few_threads(bench, names, counts, user):
-    """The same files by `counts` processes of a user of its own, or one line, a code, and nothing."""
+    """Makes equal files by `counts` processes of another user, or one error line, a code, and no file."""
     if os.geteuid() or bench.sanitized:
         raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")
     bench.folder.chmod(0o777)
@@ -209,7 +209,7 @@ def little_memory_of_a_bake(bench):
 
 @case("confine.read_only_root_and_no_rights", tier="nightly")
 def read_only_root(bench):
-    """As nobody, as process 1, without a network, with every file system read-only but one small one: as containers are run."""
+    """Runs as nobody, as process 1, without a network, with one small writable file system: like in a container."""
     if os.geteuid():
         raise Skipped("needs root, to become nobody")
     folder = bench.folder / "free"
@@ -240,7 +240,7 @@ def read_only_root(bench):
 
 @case("confine.a_folder_without_rights", tier="nightly")
 def no_rights(bench):
-    """As nobody, in a folder that is root's: what cannot be written is said, and nothing is left."""
+    """Runs as nobody in a folder of root. Failed writes are reported, and nothing is left."""
     if os.geteuid():
         raise Skipped("needs root, to become nobody")
     bench.folder.chmod(0o755)

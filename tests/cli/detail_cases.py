@@ -1,4 +1,4 @@
-"""Detail of surfaces: normal, quaternion and rotation maps by option and by file, frames under them, material folders, OBJ files."""
+"""Surface detail: normal, quaternion and rotation maps by option and by file, shading frames under them, material folders, OBJ files."""
 
 import json
 import math
@@ -18,7 +18,7 @@ METAL = ("--roughness", "0.4", "--anisotropy", "0.8")
 
 
 def bare(**material):
-    """A triangle with texture coordinates and no texture."""
+    """Returns a triangle with texture coordinates and no texture."""
     gltf = files.textured("x.png")
     del gltf["textures"], gltf["images"]
     gltf["materials"] = [{"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "doubleSided": True, **material}]
@@ -26,7 +26,7 @@ def bare(**material):
 
 
 def bumps(x, y):
-    """A normal map that leans all ways, by smooth waves."""
+    """Returns a normal map texel. The map leans all ways, in smooth waves."""
     nx, ny = 0.5 * math.sin(x * 0.7), 0.5 * math.cos(y * 0.9)
     nz = math.sqrt(1 - nx * nx - ny * ny)
     return tuple(int(127.5 + 127.5 * n) for n in (nx, ny, nz))
@@ -136,7 +136,7 @@ def rotations(bench):
 
 
 def square(turned):
-    """An OBJ file: a square in the plane of x and y whose texture lies `turned` degrees off it."""
+    """Returns an OBJ file: a square in the xy plane whose texture is turned by `turned` degrees."""
     c, s = 0.5 * math.cos(math.radians(turned)), 0.5 * math.sin(math.radians(turned))
     corners = [(x, y) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]
     lines = [f"v {0.3 + 0.6 * x} {0.3 + 0.6 * y} 0" for x, y in corners]
@@ -166,8 +166,8 @@ EYE = (1.2, 0.9, 3.0)
 
 
 def patched_sphere(islands):
-    """An OBJ file: a sphere of six patches, less what lies farthest from the eye. Its texture is of six islands, each turned otherwise, or of one piece,
-    seen from the eye with areas kept (Lambert's azimuthal projection)."""
+    """Returns an OBJ file: a sphere of six patches, without the part farthest from the eye. Its texture has six islands, each turned
+    differently, or one piece, projected from the eye with equal areas (Lambert's azimuthal projection)."""
     n, lines, faces, kept = 24, [], [], []
     length = math.hypot(*EYE)
     e = [c / length for c in EYE]
@@ -230,7 +230,7 @@ def lean(bench):
     chance = random.Random(7)
 
     def grain(x, y):
-        """Slopes by chance, about as the bell curve has them."""
+        """Returns a texel with random slopes, approximately normally distributed."""
         sx, sy = (0.15 * sum(chance.uniform(-1, 1) for _ in range(3)) for _ in range(2))
         length = math.sqrt(1 + sx * sx + sy * sy)
         return tuple(int(127.5 + 127.5 * n / length + 0.5) for n in (-sx, -sy, 1))
@@ -371,7 +371,7 @@ def phong(bench):
 
 
 def smooth(x, y):
-    """A texel of an environment of 64 x 32 without an edge."""
+    """Returns a texel of a smooth environment with 64 x 32 texels."""
     t, p = math.pi * (y + 0.5) / 32, 2 * math.pi * (x + 0.5) / 64
     a, b, c = math.cos(t), math.sin(t) * math.cos(p), math.sin(t) * math.sin(p)
     return (1 + 0.5 * a + 0.4 * b * c, 1 + 0.6 * a - 0.3 * b, 1.2 + 0.5 * c * a)

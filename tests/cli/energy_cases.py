@@ -1,4 +1,4 @@
-"""Laws of energy over whole frames: what an even light shows of white metal, and that eye and lamp may change places."""
+"""Energy laws over whole frames: white metal under uniform light, and exchanged places of eye and lamp."""
 
 import itertools
 import math
@@ -114,7 +114,7 @@ def pairs(options):
 
 
 def all_options(bench):
-    """OPTIONS, techniques, and models, which are mc's: {name: (what it is a way of, words)}."""
+    """Returns options, techniques and mc's models as {name: (group, words)}."""
     more = {**{f"model {m}": ("technique", f"--technique mc --brdf {m}") for m in lobes(bench)},
             **{f"technique {t}": ("technique", f"--technique {t}") for t in names_of(bench, "techniques")}}
     return {**OPTIONS, **more}
@@ -128,7 +128,7 @@ BENT = (150, 110, 245)  # a normal map texel
 
 
 def normal_of(words):
-    """That light's cosine is taken at: of the map, whose bitangent is -z; of the plate itself for lobes that are tilted against it."""
+    """Returns the normal of the light's cosine: the map's normal, whose bitangent is -z, or the plate's normal for tilted lobes."""
     mapped = "--normal-map" in words and "--tilt" not in words and not any(word.startswith("ellipsoid") for word in words)
     x, y, z = (2 * c / 255 - 1 for c in BENT) if mapped else (0.0, 0.0, 1.0)
     length = math.hypot(x, y, z)
@@ -136,13 +136,13 @@ def normal_of(words):
 
 
 def direction(theta, phi):
-    """Over the plate: x along the tangent, y the normal."""
+    """Returns a direction over the plate: x along the tangent, y the normal."""
     t, p = math.radians(theta), math.radians(phi)
     return math.sin(t) * math.cos(p), math.cos(t), math.sin(t) * math.sin(p)
 
 
 def facing(d, away):
-    """A node whose z axis points along d, `away` from the plate."""
+    """Returns a node whose z axis points along d, `away` from the plate."""
     x = (d[2], 0.0, -d[0])
     x = tuple(c / math.hypot(*x) for c in x)
     y = (d[1] * x[2] - d[2] * x[1], d[2] * x[0] - d[0] * x[2], d[0] * x[1] - d[1] * x[0])
@@ -150,7 +150,7 @@ def facing(d, away):
 
 
 def plate(eye, lamp):
-    """A metal plate about the origin, seen from far along `eye`; `lamp`: light from there, or None."""
+    """Returns a metal plate around the origin, seen from far along `eye`; `lamp`: direction of light, or None."""
     corners = [(x, 0.0, z, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, x, z) for x, z in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
     data = struct.pack("<48f6H", *(v for c in corners for v in c), 0, 1, 2, 0, 2, 3)
     of = lambda at, kind, **more: {"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": 4, "type": kind, **more}
@@ -174,7 +174,7 @@ def plate(eye, lamp):
 
 
 def drawn(bench, *words):
-    """Whether; what does not go together is refused."""
+    """Returns True if the options are accepted; incompatible options are refused."""
     done = bench.run("render", *words, "-q")
     if done.code != 2:
         done.expect(0)
@@ -182,7 +182,7 @@ def drawn(bench, *words):
 
 
 def seen(bench, eye, lamp, words, lamps):
-    """What the plate shows along `eye` of light along `lamp`, over the lamp's cosine; lamps: "lamp" or "key"."""
+    """Returns the plate's radiance along `eye` from light along `lamp`, divided by the lamp's cosine; lamps: "lamp" or "key"."""
     scratch(bench, "plate.gltf", plate(eye, lamp if lamps == "lamp" else None))
     env = "dark.exr" if lamps == "lamp" else key_light(bench, lamp)
     if not drawn(bench, "plate.gltf", "--env", env, "--env-size", "16", "--env-samples", "4", "--size", "4x4", "--msaa", "1", *words, "-o", "s.pfm"):
@@ -195,7 +195,7 @@ WIDE = 512 # texels of an environment
 
 
 def key_light(bench, lamp):
-    """A picture that is black but for a texel, whose irradiance is the same wherever it is."""
+    """Writes an image that is black except for one texel, whose irradiance is equal at every place."""
     x, y = texel(lamp)
     (bench.folder / "key.exr").write_bytes(exr(WIDE, WIDE // 2, with_texels({(x, y): 3e4 / math.sin(math.pi * (y + 0.5) / (WIDE // 2))}, 0.0)))
     return "key.exr"
@@ -206,13 +206,13 @@ def texel(d):
 
 
 def middle(x, y):
-    """The direction of a texel's middle."""
+    """Returns the direction of a texel's centre."""
     theta, phi = math.pi * (y + 0.5) / (WIDE // 2), 2 * math.pi * ((x + 0.5) / WIDE - 0.5)
     return math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi)
 
 
 def swapped(bench, words, lamps="lamp"):
-    """The largest difference that a change of places makes, of the larger one; None where words do not go together."""
+    """Returns the largest relative difference that exchanging places makes, or None if the options are incompatible."""
     (bench.folder / "dark.exr").write_bytes(exr(16, 8, even(0.0)))
     (bench.folder / "bent.png").write_bytes(png(4, 4, color=lambda *_: BENT))
     a, b = (direction(*place) for place in PLACES)
@@ -227,7 +227,7 @@ def swapped(bench, words, lamps="lamp"):
 
 
 def one_way(names, rounding):
-    """The most that a change of places may make."""
+    """Returns the largest allowed difference of exchanged places."""
     if "compensated" not in names:
         return rounding
     usual = COMPENSATED.get(next((name for name in names if name != "compensated"), ""), COMPENSATED[""])
@@ -235,7 +235,7 @@ def one_way(names, rounding):
 
 
 def change_places(bench, asked, lamps="lamp"):
-    """asked: tuples of names of options."""
+    """asked: tuples of option names."""
     options, off, refused = all_options(bench), [], 0
     for names in asked:
         found = swapped(bench, words_for(options, names), lamps)
@@ -277,7 +277,7 @@ OFF_BY = 0.004 # tolerance of measurement and rounding
 
 @case("energy.an_even_light_hides_white_metal_under_every_pair_of_options", tier="nightly")
 def furnace_pairs(bench):
-    """Models are those of mc; 256 samples of it are enough for a mean over pixels."""
+    """Models are drawn by mc; 256 samples are enough for a mean over pixels."""
     (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
     (bench.folder / "bent.png").write_bytes(png(16, 16, color=lambda x, y, *_: (128 + (30 if x & 4 else -30), 128 + (20 if y & 4 else -20), 250)))
     scratch(bench, "ball.gltf", ball(1.0))

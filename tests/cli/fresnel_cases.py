@@ -14,7 +14,7 @@ CLOSE = ("--eye", "0.85,0.3,0.28", "--target", "0,0.3,0", "--fov", "8", "--size"
 
 
 def triangle_of(conductor=None, metallic=1.0, color=0.4, **more):
-    """A triangle that the view lies in, of a rough material."""
+    """Returns a triangle that fills the view, with a rough material."""
     gltf = files.triangle()
     gltf["meshes"][0]["primitives"][0]["material"] = 0
     material = {"pbrMetallicRoughness": {"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [color, color, color, 1]}, **more}

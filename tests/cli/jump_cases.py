@@ -1,5 +1,5 @@
-"""Laws of steps: along options, through the points where there might be a jump, pictures change no faster than the reference does, and no step
-stands out of its row. What breaks either stands in BREACHES, with how far, and is printed with how far it goes now."""
+"""Laws of steps: along options, through points where a jump might occur, images change no faster than the reference, and no step exceeds
+its row. BREACHES holds the violations with their size. Their present size is printed."""
 
 import csv
 import io
@@ -145,7 +145,7 @@ SAMPLES = 4096  # of the reference, per pixel
 
 
 def moved(bench, path, words, name):
-    """A row of pictures NAME%02d.pfm."""
+    """Draws a row of images NAME%02d.pfm."""
     along, own, count = path
     scene, *own = own.split()
     words = (*LIGHT, *own, *words, *SIDE)
@@ -160,7 +160,7 @@ def moved(bench, path, words, name):
 
 
 def steps_of(bench, path, words):
-    """Mean HDR-FLIP between neighbours."""
+    """Returns the mean HDR-FLIP between neighbours."""
     moved(bench, path, words, "s")
     rows = list(csv.DictReader(io.StringIO(bench.run("compare", "--sequence", "s%02d.pfm", "s%02d.pfm", "-q", "--csv", "-").expect(0).out)))[1:]
     return [float(row["change"]) for row in rows]
@@ -171,19 +171,19 @@ def reference_steps(bench, path, lobe):
 
 
 def without_swaps(s):
-    """Where eta changes its sign the axes of the reference's samples swap, and one step is their noise, which more samples lessen (.0157 by 256 a pixel,
-    .0063 by 4096, .0040 by 16384, beside .0017): of three neighbours the median counts."""
+    """Replaces each step by the median of three neighbours. Where eta changes its sign the reference's sample axes swap, and one step is
+    noise. More samples reduce this noise (see the notebook)."""
     return [s[0], *(sorted(s[i - 1:i + 2])[1] for i in range(1, len(s) - 1)), s[-1]]
 
 
 def kept_steps():
-    """{(path, lobe): the reference's steps}."""
+    """Returns {(path, lobe): the reference's steps}."""
     rows = [[part.strip() for part in line.split("|")] for line in KEPT.read_text().splitlines()]
     return {(path, lobe): without_swaps(list(map(float, steps.split()))) for path, lobe, steps in rows}
 
 
 def excess(bench, key, path, words, reference):
-    """The largest step over what is allowed beside the reference's at its place, and beside its own row's median: above 1 is a breach."""
+    """Returns the largest step divided by the allowed step, against the reference and against the row's median. Above 1 is a breach."""
     steps = steps_of(bench, path, words)
     usual = sorted(steps)[len(steps) // 2]
     beside = reference if key[1] in ENDS else [0.0] * len(steps)
@@ -256,7 +256,7 @@ def sinking_lamps(bench):
 
 @case("laws.steps_of_the_reference_are_those_that_are_kept", tier="nightly")
 def reference_is_kept(bench):
-    """BN_BLESS=1 keeps what is found."""
+    """BN_BLESS=1 keeps the steps found."""
     needs_embree(bench)
     rows = {(key[1], lobe): path for key, (path, _, lobe) in {**by_technique(bench), **by_model(bench), **by_way(bench, AREA_PATHS)}.items()
             if key[1] not in OWN_PATHS}

@@ -1,4 +1,4 @@
-"""Layers of pictures, and pixels that are tonemapped before they are averaged."""
+"""Layers of images, and pixels whose parts are tonemapped before they are averaged."""
 
 import json
 import struct
@@ -15,7 +15,7 @@ ALL = "depth,normal,albedo,roughness,tangent,anisotropy,metalness,lod,object-id,
 
 
 def exr_channels(path):
-    """{channel: rows of floats} of a file of ours: scan lines of floats, sixteen a chunk, ZIP."""
+    """Returns {channel: rows of floats} of a file by the program: scan lines of floats, sixteen a chunk, ZIP."""
     data = path.read_bytes()
     at, attributes = 8, {}
     while data[at]:
@@ -87,7 +87,7 @@ def names(bench):
 
 @case("layers.are_the_same_bytes_by_vulkan")
 def twins(bench):
-    """So are the pictures of samples tonemapped each by itself, and those of samples shared between pixels (auto)."""
+    """Also compares images whose samples are tonemapped separately, and images whose samples are shared between pixels (auto)."""
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
         for backend in ("tile", "vulkan"):
             drawn_by(bench, ("--aov", ALL, "--resolve", "display", "-o", f"{backend}.exr", "-o", f"{backend}.png"), backend, scene, *more)
@@ -124,7 +124,8 @@ def resolve(bench):
 
 
 def lone_plane(repeats=1.0, **material):
-    """A square of 2 by 2 metres that fills the picture of an orthographic camera right above it, its maps `repeats` times each way."""
+    """Returns a square of 2 by 2 metres that fills the image of an orthographic camera above it, with maps repeated `repeats` times each
+    way."""
     gltf = bare(**material)
     corners = ((-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1))
     columns = ([c for x, y in corners for c in (x, y, 0)], [0, 0, 1] * 6, [c * repeats for x, y in corners for c in ((x + 1) / 2, (1 - y) / 2)])
@@ -143,7 +144,7 @@ def lone_plane(repeats=1.0, **material):
 
 
 def texels_of(path):
-    """Rows of (red, green, blue), [0,255], of a PNG of 8 bits without interlacing."""
+    """Returns rows of (red, green, blue), [0,255], of an 8-bit PNG without interlacing."""
     data, at, packed = path.read_bytes(), 8, b""
     while at < len(data):
         size, kind = struct.unpack_from(">I4s", data, at)
@@ -223,7 +224,7 @@ def refused(bench):
 
 @case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="nightly")
 def specular_aa(bench):
-    """Still, against the reference; by Vulkan it is the same picture."""
+    """Compares a still image with the reference; Vulkan draws the same image."""
     view = ("builtin:bumps", "--horizon", "off", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
     done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "truth.exr")
     if done.code == 77:

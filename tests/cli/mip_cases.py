@@ -31,7 +31,7 @@ def named(bench):
 
 
 def grain(side, steep, seed=7):
-    """A picture of normals by chance, about as the bell curve has them."""
+    """Returns an image of random normals, approximately normally distributed."""
     chance = random.Random(seed)
 
     def texel(x, y):
@@ -75,7 +75,7 @@ def devices(bench):
 
 @case("mip.a_tilted_map_turns_no_lobe")
 def tilted(bench):
-    """One normal everywhere: no filter widens anything, and lobes lie as --frame-map quaternion has them."""
+    """With one normal everywhere no filter widens a lobe, and lobes lie as in --frame-map quaternion."""
     scratch(bench, "bare.gltf", files.text(bare(extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 0.4}})))
     scratch(bench, "n.png", png(64, 64, lambda x, y: (200, 170, 228)))
     words = ("bare.gltf", *VIEW, "--normal-map", "n.png", "-q")
@@ -275,7 +275,7 @@ def fallbacks(bench):
 
 
 def tiles_of(exr):
-    """Of an OpenEXR file: side of its tiles, how its levels are made (1: mip levels, rounded down)."""
+    """Returns an OpenEXR file's tile side and level mode (1: mip levels, rounded down)."""
     at = exr.index(b"tiles\0tiledesc\0") + len(b"tiles\0tiledesc\0") + 4
     width, height, mode = struct.unpack("<IIB", exr[at:at + 9])
     return width, height, mode
@@ -363,7 +363,7 @@ def otherwise(bench):
 
 @case("mip.normals_of_levels_are_as_fine_as_floats")
 def fine_normals(bench):
-    """A plane from above, a pixel a texel of level 1: the normals that frames have are those of the pyramid's file."""
+    """A plane from above with one pixel a texel of level 1: the frames' normals equal the pyramid file's."""
     scratch(bench, "p.gltf", files.text(lone_plane()))
     (bench.folder / "set").mkdir()
     (bench.folder / "set/n_normal.png").write_bytes(png(128, 128, bumps))
@@ -382,7 +382,7 @@ DARK = ("--env-exposure", "-32", "--env-size", "32", "--env-samples", "16", "--n
 
 
 def suns(gltf, count, anywhere=False):
-    """Directional lights from above, the more the nearer to straight above, as cosines weigh them, or evenly down to 84 degrees."""
+    """Adds directional lights from above, cosine-weighted, or evenly down to 84 degrees."""
     gltf["extensionsUsed"] = ["KHR_lights_punctual"]
     gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3.0}]}}
     for i in range(count):
@@ -421,8 +421,8 @@ def protocols(bench):
 
 @case("mip.levels_reflect_as_much_as_their_texels")
 def gains(bench):
-    """Matt bumps of many texels from above under lamps from everywhere above: the mean of a picture, with gains of levels and without, beside the
-    truth's."""
+    """Matte bumps of many texels, seen from above, under lamps from everywhere above. Compares image means with and without level gains
+    with the reference's."""
     needs_embree(bench)
     chance = random.Random(5)
     lean = [[(chance.gauss(0, 0.5), chance.gauss(0, 0.5)) for _ in range(16)] for _ in range(16)]
@@ -454,7 +454,7 @@ def gains(bench):
 
 @case("mip.coupled_colours_halve_the_error_of_colour")
 def coupled(bench):
-    """Two colours on ridges of metal, level ones and steep ones, seen from above under many lamps: the mean colour, red over blue."""
+    """Two colours on metal ridges, flat and steep ones, seen from above under many lamps: the mean colour, red over blue."""
     needs_embree(bench)
     gltf = lone_plane(8, normalTexture={"index": 0}, pbrMetallicRoughness={"roughnessFactor": 0.55, "metallicFactor": 1, "baseColorTexture": {"index": 1}})
     gltf["textures"], gltf["images"] = [{"source": 0}, {"source": 1}], [{"uri": "n.png"}, {"uri": "c.png"}]

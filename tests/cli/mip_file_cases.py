@@ -1,4 +1,4 @@
-"""Files of `burnish bake mip`: whole pyramids, base colours, metalness and heights too."""
+"""Files of `burnish bake mip`: whole pyramids, with base colours, metalness and heights."""
 
 import random
 import re
@@ -17,7 +17,7 @@ MASK = 2**64 - 1
 
 
 def xxh64(data, seed):
-    """xxHash64 as its specification has it."""
+    """xxHash64 as specified."""
     p1, p2, p3, p4, p5 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
 
     def turned(x, by):
@@ -59,7 +59,7 @@ def sealed(body):
 
 
 def maps_of(file):
-    """{part: (kernel, hash of normals, where its halves begin, where they end)}, as pyramid_file.h has it."""
+    """Returns {part: (kernel, hash of normals, where its halves begin, where they end)}, in the layout of pyramid_file.h."""
     version, materials, count, zero = struct.unpack_from("<4I", file, 8)
     check((file[:8], version, zero) == (b"bnmip01\n", 4, 0), f"{file[:24]}")
     at, found = 24, {}
@@ -80,7 +80,7 @@ def maps_of(file):
 
 
 def whole(bench, name, **other):
-    """A folder of all maps, of which the given ones are others."""
+    """Writes a folder with all maps; `other` replaces the given ones."""
     folder = bench.folder / name
     folder.mkdir()
 
@@ -153,7 +153,7 @@ def files_hold(bench):
 
 @case("mip.numbers_of_files_lie_in_their_ranges", "input")
 def ranges(bench):
-    """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
+    """With a right hash: kappa, gains, lobes and texels outside the range of any bake."""
     whole(bench, "set")
     seen = ("builtin:sphere", *SMALL, "--material", "set")
     for name, filter_ in (("kappa.mip", "kappa"), ("leadr.mip", "leadr")):
@@ -248,7 +248,7 @@ def one_texel(bench):
 
 
 def flipped(bench, name, words, flips, codes):
-    """One bit after another of the file is another one: a picture, or one line and a code."""
+    """Flips one bit of the file after another. Each gives an image, or one line and a code."""
     chance, good = random.Random(17), (bench.folder / name).read_bytes()
     for _ in range(flips):
         at, bit = chance.randrange(len(good)), chance.randrange(8)
@@ -261,7 +261,7 @@ def flipped(bench, name, words, flips, codes):
 
 @case("mip.flipped_bits_are_refused_or_read", tier="nightly")
 def flips(bench):
-    """200 of a pyramid file, 50 of a picture of each format; those of files without a hash may go unseen."""
+    """Flips 200 bits of a pyramid file, 50 of an image in each format. In files without a hash a flip may go unnoticed."""
     bench.run("bake", "mip", "builtin:roofs=1", "-q", "-o", "p.mip").expect(0)
     render = ("render", "builtin:roofs=1", *SMALL, "-q", "-o", "x.pfm")
     flipped(bench, "p.mip", (*render, "--mip-pyramid", "flipp.mip"), 200, (4,))
@@ -274,7 +274,7 @@ def flips(bench):
 
 @case("mip.names_of_files_may_be_any")
 def hostile_names(bench):
-    """Names of folders and of materials, by the formats that make files of them; by another locale, too."""
+    """Names of folders and materials, in the formats that name files after them, and in another locale."""
     gltf = bare(normalTexture={"index": 0})
     gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]
     scratch(bench, "n.png", png(16, 16, bumps))

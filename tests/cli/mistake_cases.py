@@ -1,5 +1,5 @@
-"""Typical mistakes: each is answered with one line that tells what helps, and nothing is written. The case leaves the table of them as
-mistakes.md in its folder below build/release/tests/cli."""
+"""Typical mistakes: each is answered with one helpful line, and nothing is written. The case leaves their table as mistakes.md in its
+folder below build/release/tests/cli."""
 
 from harness import case, check, scratch
 

@@ -1,4 +1,4 @@
-"""What is written is complete, repeatable and holds nothing volatile; what cannot be written is said and leaves no trace."""
+"""Outputs are complete, repeatable and without volatile data. Failed outputs are reported and leave no trace."""
 
 import json
 import os
@@ -57,7 +57,7 @@ def stats(bench):
 
 
 def tiff_pixels(path):
-    """Of a TIFF file of ours, 8 bits RGBA: its pixels, each as (r, g, b, a)."""
+    """Returns the pixels of a TIFF file by the program, 8 bits RGBA, each as (r, g, b, a)."""
     data = path.read_bytes()
     fields = {}
     for i in range(int.from_bytes(data[8:10], "little")):
@@ -188,7 +188,7 @@ def file_size_limit(bench):
 
 @case("output.full_disk_keeps_what_was_there", "input")
 def full_disk(bench):
-    """A disk of 64 KB in a mount namespace of its own, which ends with the shell."""
+    """A disk of 64 KB in a separate mount namespace, which ends with the shell."""
     disk = bench.folder / "disk"
     disk.mkdir()
     probe = ["unshare", "--mount"] + (["--map-root-user"] if os.geteuid() else []) + ["sh", "-c"]
@@ -262,7 +262,7 @@ def failed_run(bench):
 
 @case("output.devices_are_written_into")
 def devices(bench):
-    """Through names that a fault could not harm: links of the case's own folder, and /proc."""
+    """Uses names that a fault could not harm: links in the case's folder, and /proc."""
     done = bench.run("render", *SMALL, "--quiet", "--stats", "/proc/self/fd/1").expect(0)
     check('"pixel_hash"' in done.out, done.describe())
     for name in ("stats", "trace"):
@@ -276,7 +276,7 @@ def devices(bench):
 
 @case("output.cache_is_optional")
 def cache(bench):
-    """A cache folder that cannot be written, or holds rubbish, never stops a render."""
+    """A cache folder that is not writable, or holds rubbish, never stops a render."""
     elsewhere = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
     first = bench.figures(*SMALL, env=elsewhere)
     again = bench.figures(*SMALL, env=elsewhere)
@@ -295,7 +295,7 @@ def cache(bench):
 
 @case("output.locales_change_no_byte")
 def locales(bench):
-    """Numbers are read and written with a point where the user's are written with a comma."""
+    """Numbers are read and written with a point, even if the user's locale has a comma."""
     folder = bench.folder / "locales"
     folder.mkdir()
     try:

@@ -1,4 +1,4 @@
-"""The Vulkan renderer against the tile renderer, bit by bit, and that `burnish parity` sees what it is there to see."""
+"""The Vulkan renderer against the tile renderer, bit by bit; `burnish parity` detects planted defects."""
 
 import csv
 import json
@@ -17,8 +17,8 @@ OF_IDS = [*STAGES, "layers"]  # of --pipeline ids
 
 
 def parity(bench, *arguments, also=(), code=0, timeout=540.0, device="lavapipe", optimised=False):
-    """Runs the command and gives its JSON; skips where the device or Vulkan is absent. also: option lists of more looks, for which a driver
-    compiles nothing again. optimised: with what lavapipe's compiler optimises, which takes a third longer than pictures of tests repay."""
+    """Runs the command and returns its JSON; skips without the device or Vulkan. also: option lists of more looks, for which a driver
+    compiles nothing again. optimised: with lavapipe's optimisation, which takes longer than the tests' images repay."""
     looks = [word for look in also for word in ("--also", " ".join(map(str, look)))]
     done = bench.run("parity", *arguments, *looks, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout,
                      env={} if optimised else {"GALLIVM_PERF": "nopt"})
@@ -44,14 +44,14 @@ def check_equal(report):
 
 
 def packages_are_there():
-    """What apps/packages.txt installs for these tests."""
+    """Returns True if the packages of apps/packages.txt for these tests are installed."""
     drivers = pathlib.Path("/usr/share/vulkan/icd.d")
     return shutil.which("glslc") and drivers.is_dir() and any(drivers.glob("lvp_icd*.json"))
 
 
 @case("parity.a_device_is_there", tier="nightly")
 def a_device_is_there(bench):
-    """Where the packages are, no test may be skipped for want of a device."""
+    """With the packages, no test may be skipped for lack of a device."""
     if not packages_are_there():
         raise Skipped("no glslc or no driver of Mesa's: groups build and test of apps/packages.txt")
     info = json.loads(bench.run("info", "--json").expect(0).out)
@@ -62,7 +62,7 @@ def a_device_is_there(bench):
 
 @case("parity.render_gives_the_same_hash", tier="nightly")
 def render_gives_the_same_hash(bench):
-    """What render draws, without parity's records."""
+    """Compares render without parity's records."""
     def pixel_hash(*options):
         done = bench.run("render", *options, *COARSE, "-o", "a.exr", "--stats", "s.json", "-q")
         if done.code == 77:
@@ -167,7 +167,7 @@ CAUSES = {"equal", "visibility", "interpolants", "material inputs", "shaded colo
 
 
 def check_looks_the_same(report):
-    """Mean FLIP as promised, and every pixel that differs explained by a stage."""
+    """Mean FLIP is within its promise, and a stage explains every differing pixel."""
     for row in report["rows"]:
         name = f"{row['scene']} {row['technique']} {row['msaa']}x {row['sampler']}"
         check(row["error"] is None and 0 < row["flip_mean"] < 0.002, f"{name}: {row['error']}, mean FLIP {row['flip_mean']}")
@@ -242,7 +242,7 @@ def writes_over_no_model(bench):
 
 @case("parity.wide_pictures_are_equal", tier="nightly")
 def wide_pictures(bench):
-    """What no single buffer of the device could hold is drawn in bands; 16384 pixels are the widest that it takes."""
+    """Images larger than a single device buffer are drawn in bands; 16384 pixels are the largest width."""
     def pixel_hash(*options):
         done = bench.run("render", "builtin:teapot", "--technique", "bent_normal", *options, *COARSE, "-o", "a.exr", "--stats", "s.json", "-q", timeout=240.0)
         if done.code == 77:
@@ -266,7 +266,7 @@ def forward_is_valid(bench, technique, i):
 
 @case("parity.validation_layer_is_silent", tier="nightly")
 def validation_layer_is_silent(bench):
-    """Every technique, every number of samples, the passes that record stages, and one technique by each pipeline and sampler."""
+    """Every technique, every sample count, the passes that record stages, and one technique by each pipeline and sampler."""
     techniques = set()
     for extra in (("--msaa", "1,4"), ("--msaa", "2,8,16", "--technique", "mc"),
                   ("--msaa", "4", "--technique", "bent_normal", "--pipeline", "forward", "--sampler", "native")):
@@ -357,7 +357,7 @@ def race_goes_on(bench):
 
 
 def lean_rows(bench, *arguments, code=0, timeout=540.0):
-    """Rows of a race against the lean shader."""
+    """Returns the rows of a race against the lean shader."""
     done = bench.run("race", *arguments, "--runs", "1", "--shaders", "lean", "--devices", "lavapipe", *COARSE, "--json", "race.json", timeout=timeout)
     if done.code == 77 and not (bench.folder / "race.json").exists():
         raise Skipped(done.err.strip())
@@ -379,7 +379,7 @@ def lean_draws(bench):
 
 @case("race.lean_draws_the_same_everywhere", tier="nightly")
 def lean_draws_all(bench):
-    """But for lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
+    """Except lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
     alone = ",".join(("split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "filtered_is", "filtered_is_ggx", "mc"))
     small = lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "480x270", "--techniques", alone, "--msaa", "1")
     check_lean(small, 24)
@@ -395,7 +395,7 @@ LEAN_DEFECTS = (("techniques.glsl", "reflect(-s.v, bent)", "reflect(-s.v, s.n)",
 
 
 def lean_with(bench, replaced, name):
-    """Whether the lean shader, so changed, is said to draw the same."""
+    """Compiles the lean shader with replacements (file, old text, new text). Returns the folder of its stages."""
     if not shutil.which("glslc"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
@@ -431,7 +431,7 @@ def sees_all_lean_defects(bench):
 
 @case("race.lean_refuses_what_it_does_not_draw", tier="nightly")
 def lean_refuses(bench):
-    """By row, the others being raced; a picture that it draws wrongly there is none."""
+    """Refuses by row and races the other rows. An image that it would draw wrongly is not drawn."""
     row, = lean_rows(bench, "builtin:sphere", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("punctual lights" in row["error"] and "ratio" not in row, f"{row}")
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
@@ -474,7 +474,7 @@ AREA_DEFECTS = {"a_mirror_that_is_not_undone": (LTC_TABLE, "return vec3_of(p.sig
 
 
 def compile_stages(source, folder, only=None):
-    """Every shader of stages.txt, or one of them, from the shading text below `source`."""
+    """Compiles every shader of stages.txt, or one of them, from the shading text below `source`."""
     for line in (ROOT / "raster/vulkan/stages.txt").read_text().splitlines():
         if not re.match("[a-z]", line):
             continue

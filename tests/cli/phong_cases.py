@@ -106,7 +106,7 @@ def pixels(bench, name):
 
 
 def ball(columns, rows):
-    """A sphere of a material that is no metal, with coordinates and normals."""
+    """Returns a dielectric sphere with texture coordinates and normals."""
     lines, faces = [], []
     for j in range(rows + 1):
         for i in range(columns + 1):

@@ -1,4 +1,4 @@
-"""The promise: pixels are a function of version, scene and options alone."""
+"""The promise: pixels depend on version, scene and options alone."""
 
 import colorsys
 import json
@@ -137,7 +137,7 @@ def other_build(bench):
 
 @case("pixels.brushing_sets_in_without_a_step")
 def brushing_sets_in(bench):
-    """What is brushed is drawn by another technique than what is not; the least of it must not show."""
+    """Brushed surfaces are drawn by another technique than others. The transition must not show."""
     both = ("auto", "lobe_line")
     for scene, msaa, techniques in (("builtin:spheres", "1", both), ("builtin:spheres", "8", both), ("builtin:plate", "1", ("auto",))): # a map
         for roughness in ("0.15", "0.4", "0.7"):
@@ -153,7 +153,7 @@ def brushing_sets_in(bench):
 
 @case("pixels.lines_that_turn_fast_leave_no_dots")
 def no_dots(bench):
-    """Where fragments of a quad share too little of what their samples found, quads show: their error correlates more at two pixels than at one."""
+    """If a quad's fragments share too few of their samples, quads show: their error correlates more at two pixels than at one."""
     needs_embree(bench)
     from lobe_line import pattern, read_pfm
 

@@ -8,7 +8,7 @@ from harness import case, check
 
 
 def discs(bench, *words):
-    """{family: [(x, y)]} of the dots of `plot axis`."""
+    """Returns {family: [(x, y)]} of the dots of `plot axis`."""
     bench.run("plot", "axis", *words, "-o", "a.svg").expect(0)
     text = (bench.folder / "a.svg").read_text()
     xml.dom.minidom.parseString(text)
@@ -55,7 +55,7 @@ def width(bench):
 
 
 def lobe(bench, *words):
-    """What a figure says of a lobe: the peak and where it is, the value along the mirror direction and where that is; and the figure."""
+    """Returns a figure's lobe data: the peak and its place, the value in the mirror direction and its place; and the figure."""
     bench.run("plot", "lobe", *words, "-o", "l.svg", "-q").expect(0)
     text = (bench.folder / "l.svg").read_text()
     xml.dom.minidom.parseString(text)
@@ -151,7 +151,7 @@ def same(bench):
 
 
 def distances(bench, *words):
-    """{title: L1} of the panels of `plot ltc`."""
+    """Returns {title: L1} of the panels of `plot ltc`."""
     bench.run("plot", "ltc", *words, "-o", "c.svg", "-q", timeout=300).expect(0)
     return re.findall(r">([^<>]*), L1 ([0-9.]+)(: a lune)?<", (bench.folder / "c.svg").read_text())
 
@@ -187,7 +187,7 @@ def wrong(bench):
 
 
 def rotation(x, y, z):
-    """Rx Ry Rz of the ellipsoid's angles, by rows."""
+    """Returns Rx Ry Rz of the ellipsoid's angles, by rows."""
     def product(a, b):
         return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
 
@@ -196,7 +196,7 @@ def rotation(x, y, z):
 
 
 def mean_normal(ax, ay, angles, rows=160):
-    """Integral of the distribution times normals, a sum in double precision apart from the program: equation 1."""
+    """Returns the integral of the distribution times normals, a double-precision sum independent of the program: equation 1."""
     turn = rotation(*angles)
     length = math.sqrt((ax * turn[0][2])**2 + (ay * turn[1][2])**2 + turn[2][2]**2)
     mean = [0.0, 0.0, 0.0]

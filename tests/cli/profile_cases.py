@@ -1,4 +1,4 @@
-"""burnish profile: the figures hang together, and looking does not change the picture."""
+"""burnish profile: the figures are consistent, and profiling does not change the image."""
 
 import json
 import xml.etree.ElementTree as tree

@@ -1,4 +1,4 @@
-"""What files say of their colours, shapes and numbers: taken, refused or said, never passed over."""
+"""Colours, shapes and numbers in files are applied, refused or reported, never ignored."""
 
 import struct
 
@@ -40,7 +40,7 @@ def plain_hdr(value, lines=""):
 
 
 def drawn(bench, env):
-    """Pixel hash and warnings of a plate under it."""
+    """Returns the pixel hash and warnings of a plate under this environment."""
     found = bench.figures("builtin:plate", *SMALL, "--env", env)
     return found["pixel_hash"], found["warnings"]
 
@@ -132,7 +132,7 @@ def obj_texts(bench):
 
 @case("reading.files_of_reports_are_read_right", tier="nightly")
 def reports(bench):
-    """What beside the checkout was read wrongly once."""
+    """Optional files that were once read wrongly."""
     folder = bench.data_file("reports/env_acescg.exr").parent
 
     def hash_of(name):

@@ -43,7 +43,7 @@ def modes(bench):
 
 @case("reference.bakes_only_what_it_reads", tier="nightly")
 def bakes_little(bench):
-    """Without a bake in the cache it makes none, and its picture is the same."""
+    """Without a cached bake the reference makes none, and its image is equal."""
     needs_embree(bench)
     own = {"XDG_CACHE_HOME": str(bench.folder / "own")}
     for environment in ("builtin:sky", "builtin:studio"):

@@ -1,4 +1,4 @@
-"""Parallax occlusion mapping: heights by option, by file and by folder, against the same heights as triangles, on devices, and bad input."""
+"""Parallax occlusion mapping: heights by option, file and folder, against equal heights as triangles, on devices, and bad input."""
 
 import math
 import pathlib
@@ -15,7 +15,7 @@ OBLIQUE = ("--eye", "0.85,0.3,0.5", "--target", "0.36,0.3,0", "--fov", "16", "--
 
 
 def domes(x, y):
-    """Four round stones along each side of 64 texels; red."""
+    """Returns a texel of four round stones along each side of 64 texels; red."""
     u, v = (x + 0.5) / 16 % 1 - 0.5, (y + 0.5) / 16 % 1 - 0.5
     return (int(255 * math.sqrt(max(0.0, 1.0 - (u * u + v * v) / 0.23)) + 0.5),)
 

@@ -1,4 +1,4 @@
-"""burnish render --risks: where a technique is beyond what the atlas found it to hold."""
+"""burnish render --risks: places where a technique exceeds the limits that the atlas found."""
 
 import json
 import re
@@ -11,7 +11,7 @@ BRUSHED = ("--technique", "bent_normal", "--roughness", "0.4", "--anisotropy", "
 
 
 def shares(out):
-    """{entry: percent}, and that of any under ""."""
+    """Returns {entry: percent}, and the percentage of any entry under ""."""
     found = {entry: float(share) for share, entry in re.findall(r"^([\d.]+) % of shaded pixels: .*; (\w+)\)$", out, re.M)}
     found[""] = float(re.search(r"^([\d.]+) % of shaded pixels are beyond", out, re.M)[1])
     return found
@@ -39,7 +39,7 @@ def told(bench):
 
 @case("risks.say_the_eye_as_an_angle")
 def angle(bench):
-    """A trial's place of the eye says nothing in another scene."""
+    """A trial's eye position has no meaning in another scene."""
     done = bench.run("render", "builtin:plate", "--size", "48x32", "--env-size", "64", "--env-samples", "64", "--technique", "bent_normal",
                      "--risks", "-").expect(0)
     check(re.search(r"bent_normal beyond an eye \d\d degrees above the surface \(", done.out), done.out)

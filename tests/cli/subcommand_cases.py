@@ -1,4 +1,4 @@
-"""Every subcommand once, small, in a build with sanitizers too."""
+"""Every subcommand once, small, also in a build with sanitizers."""
 
 import json
 import re
@@ -79,7 +79,7 @@ def each(bench):
 
 @case("subcommand.each_refuses_bad_input", "input")
 def bad_input(bench):
-    """And each says one line where its input is none."""
+    """Each prints one line on invalid input."""
     (bench.folder / "bad.glb").write_bytes(b"glTF, not")
     (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
     for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),

@@ -1,4 +1,4 @@
-"""Every exit code of core/base/result.h stands in the table of apps/manual/ci.md and in what --help says of them."""
+"""Every exit code of core/base/result.h is in the table of apps/manual/ci.md and in the text of --help."""
 
 import pathlib
 import re

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""lint.elf: reads from the finished files what their build promises.
+"""lint.elf: checks in the finished files that the build's hardening is there.
 
 Usage: hardened.py FILE...   programs and shared libraries for 64-bit little-endian machines
 
-Full RELRO (all symbols bound at the start, what they are bound to read-only), no executable stack, position-independent code, stack
-protection, checked functions of the C library, and on x86-64 an endbr64 wherever an indirect call may land.
+Full RELRO (symbols are bound at the start and then read-only), no executable stack, position-independent code, stack protection, checked
+functions of the C library, and on x86-64 an endbr64 wherever an indirect call may land.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The rules of the house that a script can see: who includes whom, sizes, words, what lies at the root.
+"""House rules that a script can check: includes, sizes, words, entries at the root.
 
 Usage: layers.py ROOT. Prints one line a fault; exit code 1 where there is any.
 """
@@ -47,8 +47,8 @@ FORBIDDEN = (
 
 
 def listed(root):
-    """What the repository holds, and what lies in its folders and could be added; at the root lie pictures of users too. Without git,
-    everything but build folders."""
+    """Returns the repository's files, and untracked files in its folders that could be added. The root may also hold users' images.
+    Without git, returns everything except build folders."""
     def files(*which):
         done = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *which], capture_output=True, check=True)
         return [pathlib.PurePosixPath(os.fsdecode(name)) for name in done.stdout.split(b"\0") if name]
@@ -66,12 +66,12 @@ def lies_in(path, folders):
 
 
 def is_kernel(path):
-    """Text in the kernel language: C++ and GLSL read it."""
+    """Returns True for text in the kernel language, which C++ and GLSL read."""
     return path.parts[0] == "shading" and path.name.endswith((".k.h", ".t.h"))
 
 
 def check_include(path, quoted, name, files):
-    """Faults of one #include line."""
+    """Yields the faults of one #include line."""
     top = path.parts[0]
     for pattern, folders in THIRD_PARTY:
         if re.match(pattern, name) and not lies_in(path, folders):
@@ -102,12 +102,12 @@ def check_include(path, quoted, name, files):
 
 
 def is_stage(path):
-    """An entry of a shader; *.glsl beside it are parts of them."""
+    """Returns True for a shader's entry; *.glsl beside it are parts."""
     return path.parent == pathlib.PurePosixPath("shading/stages") and path.suffix != ".glsl"
 
 
 def guarded(path, lines):
-    """GLSL knows no #pragma once, so what it reads has a macro."""
+    """Returns True if a header is guarded. GLSL has no #pragma once, so files for GLSL need a macro."""
     glsl = is_kernel(path) or path.is_relative_to("shading/lang")
     text = "\n".join(lines)
     return "#pragma once" in text or (glsl and re.search(r"#ifndef (\w+)\n#define \1", text))

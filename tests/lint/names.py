@@ -1,4 +1,4 @@
-"""Test names in one grammar: suite.area.claim_in_words, then what it was tried on: .of_what or /of_what. Every test has one tier.
+"""Test names follow one grammar: suite.area.claim_in_words, then a subject: .of_what or /of_what. Every test has one tier.
 
 Usage: names.py BUILD_FOLDER CTEST. Prints one line a fault; exit code 1 where there is any."""
 

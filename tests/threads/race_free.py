@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """threads.tsan: small runs of every kind of work on several threads, under ThreadSanitizer.
 
-Usage: race_free.py SOURCE-FOLDER BUILD-FOLDER [PROGRAM]    PROGRAM: one that is built already
+Usage: race_free.py SOURCE-FOLDER BUILD-FOLDER [PROGRAM]    PROGRAM: an existing build
 Exit code 77 where the compiler has no ThreadSanitizer.
 """
 

@@ -1,4 +1,5 @@
-"""Every stage: each operation on reals carries NoContraction, and GLSL's own functions are only the exact ones. usage: spirv_check.py ROOT FOLDER-OF-SPV"""
+"""In every stage each operation on reals carries NoContraction, and only exact GLSL functions are used. usage: spirv_check.py ROOT
+FOLDER-OF-SPV"""
 import sys
 
 import stages
