@@ -1,8 +1,7 @@
-"""Prints the CPU seconds of each test of a build, and the sum of each tier. Other work on the machine hardly changes CPU time.
+"""Prints the CPU seconds of each test in a build, and the sum of each tier. Other work on the machine hardly changes CPU time.
 
 Usage: costs.py BUILD_FOLDER [--jobs N] [CTEST-ARGUMENT...]    for instance: costs.py build/release --jobs 2 -L '^quick$'
---jobs N: tests at a time (1). Exits with 1 where a test of the tiers quick and check costs more than its budget: BUDGETS, or its label
-budget_SECONDS."""
+--jobs N: tests at a time (1). Exits with 1 if a test in the tiers quick and check exceeds its budget: BUDGETS, or its label budget_SECONDS."""
 
 import collections
 import concurrent.futures
@@ -15,7 +14,7 @@ import time
 
 TIERS = ("quick", "check", "nightly")
 BUDGETS = {"quick": 15.0, "check": 15.0}  # CPU seconds
-CASE_BUDGET = 2.0  # of a test of the program from outside
+CASE_BUDGET = 2.0  # for a test of the program from outside
 SKIPPED = 77
 
 

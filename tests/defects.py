@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Plants one defect after another in the formulas of frames, maps and parallax, and looks which of their unit tests fail: one, that which is
-meant for it.
+"""Plants one defect after another in the formulas of frames, maps and parallax. Exactly one unit test must fail, the test for this
+defect.
 
 Usage: defects.py BUILD [NAME...]        BUILD: a built preset of Ninja; NAME: defects of the table, all of them if none is given
 
-The changed text lies in a folder of its own that is looked into first; the tests' files that read it are compiled against it and linked to the
-libraries as they are. Nothing of the checkout or the build changes.
+The changed text lies in a separate folder, which comes first on the include path. The test files that read this text are compiled against
+it and linked to the unchanged libraries. The checkout and the build stay unchanged.
 
-Exit code: 0 each fails its own test and no other; 1 not; 77 no build by Ninja here.
+Exit code: 0 each defect fails its test and no other; 1 not; 77 no build by Ninja here.
 """
 
 import pathlib
@@ -20,7 +20,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
-# program: (folder of its tests, the files of it that read the formulas, other files, suites that are run)
+# program: (test folder, its files that read the formulas, other files, suites to run)
 PROGRAMS = {
     "unit_techniques": ("tests/unit/techniques", ("frame_test.cpp", "kernels.isa.cpp"), ("tests/unit/lanes/kernels.cpp",), "frame.*"),
     "unit_raster": ("tests/unit/raster", ("bump_test.cpp", "relief_test.cpp", "fixture.cpp"), (), "bump.*:relief.*"),
@@ -30,7 +30,7 @@ SURFACE, MAPS = "shading/surface/surface.k.h", "core/scene/surface_maps.cpp"
 TURNED_LAST = """surface_frame bumped = axes;
     bumped.b = k_cross(x.surface_axes.n, axes.t);
     x.lobe = lobe_in_frame(m, shape, bumped);"""
-# name: (file, text, in its place, program, the test that fails)
+# name: (file, text, replacement, program, the test that fails)
 DEFECTS = {
     "b_flipped": (SURFACE, "vec3_of(a, n.y * part,", "vec3_of(a, -(n.y * part),", "unit_techniques", "frame.of_a_quaternion_turns_about_x_as_y_says"),
     "c_flipped": (SURFACE, "-(n.x * part)", "n.x * part", "unit_techniques", "frame.of_a_quaternion_turns_about_y_against_x"),
@@ -55,7 +55,7 @@ def commands_of(build, program):
 
 
 class Program:
-    """One of the test programs: how its files are compiled, and how it is linked."""
+    """A test program: compilation of its files, and linking."""
 
     def __init__(self, build, name):
         self.build, self.name = build, name
@@ -79,7 +79,7 @@ class Program:
         subprocess.run([kept[0], f"-I{first}", *kept[1:], "-o", to, "-c", source], cwd=self.build, check=True)
 
     def failing(self, work, first, changed):
-        """Names of its tests that fail where `first` is looked into before the checkout."""
+        """Returns the names of tests that fail when `first` precedes the checkout on the include path."""
         objects = []
         lanes = [line for line in self.own if ".isa.cpp.o -c " in line]
         plain = next(line for line in self.own if ".isa.cpp.o -c " not in line)

@@ -1,4 +1,4 @@
-"""bench/against.py makes ratios of two programs' known times, and bench/instructions/mix.py reads callgrind's counts."""
+"""bench/against.py computes ratios of two programs' known times, and bench/instructions/mix.py reads callgrind's counts."""
 
 import contextlib
 import importlib.util
@@ -20,7 +20,7 @@ def load(*place):
 
 against, mix = load("against.py"), load("instructions", "mix.py")
 
-# Stands for bench_frame: gives the times of TIMES, one workload a call, with a picture's hash.
+# Replaces bench_frame: returns the times of TIMES, one workload a call, with an image hash.
 PROGRAM = """#!{python}
 import json, sys
 times = {times}

@@ -1,4 +1,4 @@
-"""bench/compare.py says of known figures what is known of them."""
+"""bench/compare.py reports the known differences of known figures."""
 
 import contextlib
 import importlib.util
@@ -117,7 +117,7 @@ class CompareTest(unittest.TestCase):
             self.assertIn("compare: ", text)
 
     def test_interval_of_a_median(self):
-        # 11 values: the 2nd and the 10th hold the median with 98.8 %, the 3rd and the 9th with 93.5 %
+        # 11 values: the 2nd and the 10th enclose the median with 98.8 %, the 3rd and the 9th with 93.5 %
         self.assertEqual(compare.median_interval(list(range(1, 12))), (2, 10))
         self.assertEqual(compare.median_interval([7.0]), (7.0, 7.0))
         self.assertEqual(compare.median_interval([1.0, 2.0, 3.0]), (1.0, 3.0))

@@ -1,4 +1,4 @@
-"""bench/instructions/flame.py counts instructions for the functions that asked for them, and draws them as wide as they are."""
+"""bench/instructions/flame.py counts instructions for their callers, and draws functions with proportional widths."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ sys.path.append(str(pathlib.Path(__file__).parents[2] / "bench" / "instructions"
 import flame  # noqa: E402
 
 SVG = "{http://www.w3.org/2000/svg}"
-# What addr2line says of four addresses, from the innermost function outwards: lanes and intrinsics within a kernel, the kernel, a slot alone.
+# Output of addr2line for four addresses, innermost function first: lanes and intrinsics in a kernel, the kernel, a slot alone.
 LINES = """0x0000000000000010
 _mm256_mul_ps
 /usr/lib/gcc/include/avxintrin.h:318

@@ -1,4 +1,4 @@
-"""bench_frame: its JSON hangs together. Usage: frame_test.py BENCH_FRAME FOLDER"""
+"""bench_frame: its JSON is consistent. Usage: frame_test.py BENCH_FRAME FOLDER"""
 
 import json
 import os
@@ -38,7 +38,7 @@ for workload in found["workloads"]:
     assert len(workload["pixels"]) == 16 and int(workload["pixels"], 16), workload
     times[workload["name"]] = workload
 assert {"trivial_1x", "trivial_8x"} <= times.keys(), times.keys()
-# One thread cannot use more CPU time than there was time.
+# The CPU time of one thread cannot exceed the elapsed time.
 assert all(w["cpu_ms"]["median"] < 1.05 * w["wall_ms"]["median"] for w in times.values() if "two" not in w["name"]), times
 rows = {row["what"]: row for row in found["rows"]}
 for what, name, limit in (("constant colour, 1x", "trivial_1x", 4), ("constant colour, 8x", "trivial_8x", 8)):

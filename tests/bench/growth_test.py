@@ -1,4 +1,4 @@
-"""bench/growth.py lays lines through known figures and says which are none."""
+"""bench/growth.py fits lines to known figures and reports figures that form no line."""
 
 import contextlib
 import importlib.util
@@ -39,13 +39,13 @@ class Growth(unittest.TestCase):
         self.assertEqual(list(rows), ["growth_lights", "growth_layers", "growth_threads"])
         for value, wanted in zip(growth.line_through(rows["growth_lights"]), (3.0, 2.0, 0.0)):
             self.assertAlmostEqual(value, wanted)
-        start, slope, bend = growth.line_through(rows["growth_layers"])  # through 1, 4, 9: a ninth off each of them
+        start, slope, bend = growth.line_through(rows["growth_layers"])  # through 1, 4, 9: each is off by a ninth
         self.assertAlmostEqual(bend, 100.0 / 9.0)
         for x, y in rows["growth_layers"]:
             self.assertAlmostEqual(abs(start + slope * x - y) / y, 1.0 / 9.0)
-        self.assertEqual(rows["growth_threads"], [(1.0, 8.0), (2.0, 8.0)])  # no more than there are cores
+        self.assertEqual(rows["growth_threads"], [(1.0, 8.0), (2.0, 8.0)])  # at most one thread a core
         self.assertEqual(growth.line_of("growth_threads", rows["growth_threads"]), (8.0, 0.0, 0.0))
-        # a second thread that does nothing: any line goes through two points, a level one does not
+        # a second thread without effect: any line passes through two points, but not a level line
         start, slope, bend = growth.line_of("growth_threads", [(1.0, 8.0), (2.0, 16.0)])
         self.assertEqual(slope, 0.0)
         self.assertAlmostEqual(bend, 100.0 / 3.0)

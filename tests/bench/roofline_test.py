@@ -1,4 +1,4 @@
-"""bench/roofline.py draws known figures where they belong."""
+"""bench/roofline.py draws known figures at their places."""
 
 import contextlib
 import importlib.util
@@ -54,13 +54,13 @@ class RooflineTest(unittest.TestCase):
         mark = root.find(f"{SVG}circle[@class='kernel']")
         ceiling = root.find(f"{SVG}line[@class='ceiling']")
         y_mark, y_ceiling = float(mark.get("cy")), float(ceiling.get("y1"))
-        self.assertTrue(roofline.TOP < y_ceiling < y_mark < roofline.BOTTOM)  # below the ceiling, and in the picture
-        # The kernel lies half as high as the slope of L2 at its place: 1.25 operations a byte times 32 GB/s are 40 Gop/s, it does 20.
+        self.assertTrue(roofline.TOP < y_ceiling < y_mark < roofline.BOTTOM)  # below the ceiling and inside the chart
+        # The kernel lies at half the height of the L2 slope: 1.25 operations a byte times 32 GB/s are 40 Gop/s, and the kernel does 20.
         slopes = [line for line in root.iter(f"{SVG}line") if line.get("class") == "slope"]
         self.assertEqual(len(slopes), 3)
         x0, x1, y0, y1 = (float(slopes[1].get(key)) for key in ("x1", "x2", "y1", "y2"))
         at_slope = y0 + (y1 - y0) * (float(mark.get("cx")) - x0) / (x1 - x0)
-        # logarithmic: 5 times down to the mark from the ceiling, 2 times from the slope
+        # logarithmic scale: the mark lies 5 times below the ceiling and 2 times below the slope
         self.assertAlmostEqual((y_mark - at_slope) / (y_mark - y_ceiling), 0.6931 / 1.6094, places=2)
 
     def test_instruction_sets_are_those_of_the_figures(self):

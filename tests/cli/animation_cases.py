@@ -1,4 +1,4 @@
-"""Pictures in a row: render --animate and --turntable, compare --sequence."""
+"""Image sequences: render --animate and --turntable, compare --sequence."""
 
 import json
 import struct
@@ -45,7 +45,7 @@ def materials_change_too(bench):
 
 
 def turning():
-    """A triangle that turns about y, by 90 degrees in two seconds."""
+    """Returns a triangle that turns about y by 90 degrees in two seconds."""
     gltf = files.triangle()
     keys = struct.pack("<2f", 0, 2) + struct.pack("<8f", 0, 0, 0, 1, 0, 0.5**0.5, 0, 0.5**0.5)
     gltf["buffers"].append({"uri": files.data_uri(keys), "byteLength": len(keys)})
@@ -89,7 +89,7 @@ def a_turntable_goes_once_around_at_one_distance(bench):
 
 
 def seen_in_file(bench):
-    """What camera_cases.seen() finds in a.pfm, which is there."""
+    """Returns camera_cases.seen() for the existing a.pfm."""
     class Still:
         folder = bench.folder
 
@@ -197,14 +197,14 @@ def rows(bench, test, count=3):
 @case("animation.flicker_is_what_neighbours_differ_by", tier="nightly")
 def flicker_is_what_neighbours_differ_by(bench):
     darker = lambda x, y: (0.1 * x, 0.2 * y, 0.7)
-    rows(bench, lambda i: darker) # wrong, but still
+    rows(bench, lambda i: darker) # wrong, but constant
     still = flickering(bench)
     check(still["flicker"] == 0.0 and still["flip_mean"] > 0.01, f"{still}")
-    rows(bench, lambda i: darker if i == 1 else bright) # right but for one
+    rows(bench, lambda i: darker if i == 1 else bright) # right except for one frame
     one = flickering(bench, ("--fail-flicker", "0.001"), code=1)
     check(one["worst_frame"] == 1 and abs(one["flip_mean"] - one["flip_worst"] / 3) < 1e-9, f"{one}")
     check(one["flicker"] > 0.01 and one["reference_change"] == 0.0 and len(one["by_frame"]) == 3, f"{one}")
-    for i in range(3): # the reference flickers as much: none of it is the test's
+    for i in range(3): # the reference flickers equally: the test adds no flicker
         (bench.folder / f"r{i:02}.pfm").write_bytes((bench.folder / f"t{i:02}.pfm").read_bytes())
     moving = flickering(bench, ("--fail-flicker", "0"))
     check(moving["flicker"] == 0.0 and moving["reference_change"] > 0.01, f"{moving}")
@@ -223,7 +223,7 @@ def rows_that_do_not_match_are_refused(bench):
     (bench.folder / "t01.pfm").unlink()
     refused(4, "t01.pfm", "missing")
     (bench.folder / "r01.pfm").unlink()
-    refused(4, "r01.pfm", "missing") # of both: a gap
+    refused(4, "r01.pfm", "missing") # missing in both: a gap
     rows(bench, lambda i: bright)
     scratch(bench, "t02.pfm", pfm(23, 16, bright))
     refused(3, "t02.pfm", "23x16")

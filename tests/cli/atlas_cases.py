@@ -1,4 +1,4 @@
-"""burnish atlas: where methods break, and that it is held."""
+"""burnish atlas: failures of methods, and their blessed figures."""
 
 import csv
 import io
@@ -14,7 +14,7 @@ from chart_cases import needs_embree
 from chart_page_cases import healthy
 from harness import Skipped, case, check, scratch
 
-FAST = "albedo_by_a_fit" # of two pictures of the tile renderer a step: no reference
+FAST = "albedo_by_a_fit" # two images of the tile renderer a step, no reference
 
 
 @case("atlas.lists_what_breaks", tier="quick")
@@ -56,7 +56,7 @@ def held(bench):
     check(FAST in page and f"url('{FAST}-quick.png')" in page and "not blessed" in page, "the page lacks the entry")
     table = (bench.folder / "t.md").read_text()
     bench.run(*words, "--table", "t.md").expect(0)
-    # what is worse is named, what is better asks for a bless
+    # a worse figure is named, a better figure asks for a bless
     row = next(line for line in table.splitlines() if line.startswith(f"| {FAST} "))
     cells = [cell.strip() for cell in row.split("|")]
     for worst, code, says in ((0.5 * entry["worst"], 1, "is off by"), (2 * entry["worst"], 0, "bless it")):
@@ -64,20 +64,20 @@ def held(bench):
         scratch(bench, "other.md", table.replace(row, " | ".join(changed).strip()))
         done = bench.run(*words, "--table", "other.md").expect(code)
         check(says in done.err and FAST in done.err, done.describe())
-    # a table of another version is said, not compared
+    # a table of another version is reported, not compared
     scratch(bench, "other.md", table.replace("Version 3", "Version 9"))
     done = bench.run(*words, "--table", "other.md").expect(0)
     check("version 9" in done.err and "nothing is compared" in done.err, done.describe())
-    # a change that breaks it
+    # a change that removes the failure
     done = bench.run(*words, "--table", "t.md", "--with", "--dfg table").expect(0)
     check("worst 0.0000" in done.out and "bless it" in done.err, done.describe())
 
 
 @case("atlas.goes_on_where_it_was_stopped", tier="nightly")
 def goes_on(bench):
-    """What is finished is kept in DIR, and a run that was stopped ends with the figures of one that was not."""
+    """Finished entries are kept in DIR. A stopped run ends with the figures of an uninterrupted run."""
     needs_embree(bench)
-    ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in their order
+    ids = (FAST, "rough_metal_loses_light", "separable_tilt") # in table order
     words = ("atlas", *ids, "--quick", "--no-cache")
     code, err = stopped(bench, words, "a", signal.SIGINT)
     check(code == 130 and b"stopped" in err and not (bench.folder / "a/index.html").exists(), f"{code} {err}")
@@ -89,7 +89,7 @@ def goes_on(bench):
 
 
 def stopped(bench, words, folder, by):
-    """Exit code and standard error of an atlas that got a signal once its first entry was finished."""
+    """Returns the exit code and standard error of an atlas that got a signal after its first entry."""
     child = subprocess.Popen([bench.program, *words, "-o", folder], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE)
     begin = time.monotonic()
@@ -107,7 +107,7 @@ def same_figures(bench):
 
 @case("atlas.full_walk_goes_on_after_kill_9", tier="nightly")
 def goes_on_in_full(bench):
-    """33 steps an entry."""
+    """Takes 33 steps an entry."""
     needs_embree(bench)
     words = ("atlas", FAST, "tangents_left")
     check(stopped(bench, words, "a", signal.SIGKILL)[0] == -signal.SIGKILL, "it was over before")
@@ -133,7 +133,7 @@ def page(bench):
         check(browser.value(says(0)).startswith("s = 1.000: roughness 1;"), browser.value(says(0)))
         place = "getComputedStyle(document.querySelectorAll('.panes')[{}].querySelector('.pane')).backgroundPosition".format
         before = browser.value(place(0))
-        browser.press("ArrowLeft", number=37)  # of the first entry, without a focus
+        browser.press("ArrowLeft", number=37)  # on the first entry, without focus
         check(browser.value(says(0)).startswith("s = 0.833:") and browser.value(place(0)) != before, "an arrow key does not go along the path")
         browser.press("n", number=78, text="n")
         check(browser.value("document.activeElement === document.querySelectorAll('.path')[1]"), "N does not go to the next entry")
@@ -165,7 +165,7 @@ def quick(bench):
     check(len(done.out.splitlines()) == len(re.findall(r"^  \w", bench.run("atlas", "--list").out, re.M)), done.describe())
 
 
-# Constants of techniques: words that set one wrong, entries that have to see it, and beginnings of those that may; none: no other may.
+# Wrong constants of techniques: options, entries that must see the defect, and prefixes of entries that may; empty: no other may.
 DEFECTS = {
     "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse"}, ()),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
@@ -187,9 +187,9 @@ for defect, what in DEFECTS.items():
     add_defect(defect, *what)
 
 
-# Words that each entry has to turn red by, said of what breaks and of its cure and not of the truth. Where no option sets wrong the very thing
-# that an entry looks at, they are another picture: that an entry compares what it draws, no more. These are the words of --env-rotation, --roughness,
-# --frame-map, --normal-y, --height-scale, --anisotropy, --zoom and --fov.
+# Options that must turn each entry red. They change the failing picture and its cure, and not the reference. Some options cannot hit the
+# subject of an entry: --env-rotation, --roughness, --frame-map, --normal-y, --height-scale, --anisotropy, --zoom and --fov. They draw
+# another picture, which checks that the entry compares its drawing.
 SEEDED = {
     "--samples 3": "axis_loses_to_the_bent_normal axis_too_long axis_overlaps_too_much axis_at_grazing_angles adaptive_counts_step half_vectors_in_bands threads_for_a_lobe",
     "--samples 8": "mc_fireflies ward_cheap_by_few_samples beckmann_by_few_samples phong_by_few_samples round_by_few_samples "
@@ -239,7 +239,7 @@ def own_defects(bench):
 
 @case("atlas.every_entry_can_fail", tier="nightly")
 def can_fail(bench):
-    """Where all that is drawn is twice as bright as the truth, no entry is held."""
+    """If all drawings are twice as bright as the reference, no entry is held."""
     needs_embree(bench)
     report = json.loads(bench.run("atlas", "--quick", "--with", "--env-exposure 1", "--json", "-", timeout=1100).expect(1).out)
     blind = [e["id"] for e in report["entries"] if e["verdict"] not in ("worse", "cure fails")]
@@ -248,7 +248,7 @@ def can_fail(bench):
 
 @case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="nightly")
 def near_index_one(bench):
-    """Neither by many samples nor by few: there is ever less to reflect, and light goes ever straighter."""
+    """Fails neither with many samples nor with few: reflection vanishes, and light passes ever straighter."""
     needs_embree(bench)
     found = {}
     for index in ("1.5", "1.1", "1.01", "1.001", "1"):
@@ -264,7 +264,7 @@ def near_index_one(bench):
 
 
 def broken_ends(bench):
-    """{entry: words of `burnish render`} where each path ends. Tables that only the atlas makes are left out."""
+    """Returns {entry: words of `burnish render`} at each path's end, without tables that only the atlas makes."""
     ends = {}
     for entry, words, path in re.findall(r"^  (\w+)\n.*\n      burnish render ([^,]*(?:,[^ ]*)*(?: [^ ]+)*?), (\S+=\S+)", bench.run("atlas", "--list").out, re.M):
         words = words.split()

@@ -73,7 +73,7 @@ def report(bench):
     check(area["area"]["mean"] > area["visible_normals"]["mean"] > 0.5, f"{area}")
 
 
-# What is asked for, and what a report of the table has to say of it.
+# Bake options, and the fields that the table's report must have.
 OTHERS = (("inverse", ("--interpolate", "inverse"), {"held": "inverse", "alpha_nodes": "even", "most_alpha": 1.0}),
           ("matrix", ("--interpolate", "matrix"), {"held": "matrix", "basis": "tangent"}),
           ("l3", ("--fit", "l3", "--no-symmetry"), {"fit": "l3", "symmetric": False, "aligned": True, "held": "over alpha"}),
@@ -133,7 +133,7 @@ def wrong(bench):
 
 
 def shown(bench, name):
-    """Width, height and rows of (r, g, b), 8 bits, of a PNG that the program wrote."""
+    """Returns the width, height and rows of (r, g, b), 8 bits, of a PNG by the program."""
     data = (bench.folder / name).read_bytes()
     at, parts, header = 8, b"", None
     while at < len(data):
@@ -158,8 +158,8 @@ def shown(bench, name):
     return width, height, rows
 
 
-# One set of rules: pictures of 8 bits in a folder, the same bytes every time, named in the report, and never over what the command reads
-# or writes; the map itself is what it is without.
+# Rules for all bakers' previews: 8-bit images in a folder, equal bytes every time, named in the report. A preview never overwrites inputs
+# or outputs, and does not change the map.
 @case("bake.previews_of_every_baker_show_what_was_made", "input", tier="nightly")
 def previews(bench):
     scratch(bench, "normal.png", png(8, 8, lambda x, y: (128 + 12 * x, 128 - 9 * y, 220)))
@@ -187,7 +187,7 @@ def previews(bench):
         check({path.name: path.read_bytes() for path in (bench.folder / "seen" / what).iterdir()} == first, f"{what}: other pictures the second time")
         scratch(bench, "file", b"")
         bench.run("bake", what, *words, "-q", "--preview", "file").expect(7).expect_one_line("file")
-    # what they show: a rotation by angle pi v is a hue that goes once around; normals are those of the map; heights that rise to the right
+    # contents: a rotation by angle pi v gives a hue that goes once around; normals equal the map's; heights rise to the right
     width, height, rows = shown(bench, "seen/tpr/grain.png")
     check((width, height) == (256, 256) and all(max(pixel) == 255 and min(pixel) == 0 for row in rows for pixel in row), "hues are not pure")
     reddest = [row[0][0] - max(row[0][1:]) for row in rows]
@@ -199,7 +199,7 @@ def previews(bench):
     check(rows[128][128] == (122, 128, 255), f"{rows[128][128]}: no slope of 30 / 255 a texel of 8, .05 deep, to the right")
     _, _, rows = shown(bench, "seen/environment/irradiance.png")
     check(sum(rows[20][256]) > sum(rows[235][256]) + 30, "the sky is not above")
-    # never over what is read or written
+    # never over inputs or outputs
     scratch(bench, "seen/in/normals.png", png(8, 8, lambda x, y: (128, 128, 255)))
     before = (bench.folder / "seen/in/normals.png").read_bytes()
     bench.run("bake", "quaternion", "seen/in/normals.png", "-o", "no.png", "--preview", "seen/in").expect(2).expect_one_line("--preview")

@@ -1,4 +1,4 @@
-"""Blended surfaces over what lies behind them: files, alpha of pictures, the reference, the device."""
+"""Blended surfaces over their background: files, alpha of images, the reference, the device."""
 
 import json
 
@@ -7,7 +7,7 @@ from model_cases import read_pfm
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
-SHEETS = {  # what the middle of the picture shows
+SHEETS = {  # colours in the middle of the image
     "two_sheets": (0.5, 0.25, 0.25),
     "twelve_sheets": (1 - 0.8**12,) * 3,
     "thin": (0.03,) * 3,
@@ -39,7 +39,7 @@ def samples(bench):
 
 @case("blend.alpha_of_pictures_is_what_does_not_shine_through", tier="nightly")
 def alpha(bench):
-    """White sheets before nothing: alpha is light."""
+    """White sheets over nothing: alpha equals light."""
     for backend in ("tile", "reference"):
         if backend == "reference":
             needs_embree(bench)
@@ -61,7 +61,7 @@ def device(bench):
 @case("blend.shared_samples_and_layers_on_lavapipe_equal_the_tiles", tier="nightly")
 def shared(bench):
     gltf = json.loads(sheets(bench, "two_sheets").read_text())
-    for material in gltf["materials"]:  # lit, so that samples of neighbours are shared within a layer
+    for material in gltf["materials"]:  # lit, so that neighbours share samples within a layer
         del material["extensions"]
         material["pbrMetallicRoughness"].update(metallicFactor=1, roughnessFactor=0.4)
         material["extensions"] = {"KHR_materials_anisotropy": {"anisotropyStrength": 0.8}}

@@ -1,4 +1,4 @@
-"""--brdf: every model that can lie on a surface, under lamps, in mc, in the reference, on a device."""
+"""--brdf: every surface model, under lamps, in mc, in the reference, on a device."""
 
 import json
 import pathlib
@@ -11,13 +11,13 @@ from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
 ONE_LOBE = ("auto", "split_isotropic", "bent_normal", "major_axis", "lobe_line", "filtered_is", "filtered_is_ggx")
-# One sphere that fills the picture, so that no edge is in it; an environment that is soft, since mc takes few samples of it.
+# A sphere that fills the image, so that no edge is visible, and a smooth environment, since mc takes few samples.
 CLOSE = ("builtin:sphere", "--eye", "0,0,0.5", "--fov", "35", "--size", "40x40", "--msaa", "1", "--no-background",
          "--env-size", "64", "--env-samples", "64")
 
 
 def lobes(bench):
-    """{name: whether nothing but lamps meets it} of what --brdf takes, as list models has it."""
+    """Returns {name: True if lamps alone meet the lobe} for the models of --brdf, as list models prints them."""
     found = {}
     for line in bench.run("list", "models").expect(0).out.splitlines():
         if "--brdf" in line:
@@ -54,7 +54,7 @@ def refusals(bench):
     check(bench.left_behind() == [], f"left behind: {bench.left_behind()}")
 
 
-# The models that lie level and those that can be tilted are one where nothing is tilted.
+# Without tilt, level models and tiltable models give the same image.
 @case("brdf.masking_chooses_among_the_models")
 def masking(bench):
     mc = (*CLOSE, "--technique", "mc", "--samples", "4")
@@ -67,7 +67,7 @@ def masking(bench):
     check(len(set(hashes.values())) == 4, f"{hashes}")
 
 
-# A patch of the sphere, over which little changes from one side of a pixel to the other: mc shades its middle, the reference all of it.
+# A patch of the sphere with little change across a pixel: mc shades the pixel's centre, the reference the whole pixel.
 PATCH = ("builtin:sphere", "--eye", "0,0,0.5", "--target", "0.08,0.06,0.173", "--fov", "3", "--size", "24x24", "--msaa", "1",
          "--no-background", "--env-size", "64", "--env-samples", "64", "--env-rotation", "60", "--key-lights", "off", "-q")
 
@@ -77,19 +77,19 @@ def reference_of(bench, name):
 
 
 def against_files(bench, reference, test, variance):
-    """How a picture differs from a reference of known variance."""
+    """Returns the difference between an image and a reference with known variance."""
     done = bench.run("compare", reference, test, "--variance", variance, "--significance", "0.01", "--json", "c.json", "-q")
     check(done.code in (0, 1), done.describe())
     return json.loads((bench.folder / "c.json").read_text())
 
 
 def against_reference(bench, samples, name):
-    """How mc by `name` differs from the reference that is there."""
+    """Returns the difference between mc by `name` and the existing reference."""
     bench.run("render", *PATCH, "--technique", "mc", "--samples", samples, "--brdf", name, "-o", "mc.pfm").expect(0)
     return against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
 
 
-# So many samples that the noise is the reference's, and few.
+# Compares many samples, where the reference's noise dominates, and few samples.
 @case("brdf.mc_agrees_with_the_reference", tier="nightly")
 def agrees(bench):
     needs_embree(bench)
@@ -111,7 +111,7 @@ def devices_agree(bench, *looks):
                        also=[("--brdf", *look) for look in looks]))
 
 
-# Those that share least, and on other days all.
+# Draws the models with the least shared code; the nightly case below draws all.
 @case("brdf.devices_give_the_same_words", tier="nightly")
 def devices(bench):
     devices_agree(bench, ("ashikhmin_shirley",), ("ellipsoid",), ("beckmann", "--energy-compensation"))

@@ -1,4 +1,4 @@
-"""Headless Chromium through its debugging pipe: pages as a reader meets them, with nothing but the standard library."""
+"""Headless Chromium through its debugging pipe: pages as a reader sees them, with the standard library alone."""
 
 import base64
 import json
@@ -17,7 +17,7 @@ TIMEOUT = 60.0  # seconds for one answer
 
 
 class Browser:
-    """`with Browser(folder) as browser`. The folder holds its profile."""
+    """Used as `with Browser(folder) as browser`. The folder holds its profile."""
 
     def __init__(self, folder):
         program = next(filter(None, map(shutil.which, NAMES)), None)
@@ -40,8 +40,8 @@ class Browser:
         os.close(command_out)
         os.close(answers_in)
         self.number, self.buffer, self.session = 0, b"", None
-        self.faults = []    # what the page's console complained about
-        self.requests = []  # addresses that the page asked for
+        self.faults = []    # errors on the page's console
+        self.requests = []  # addresses requested by the page
         target = self.send("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -102,7 +102,7 @@ class Browser:
     def open(self, path):
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self.until("document.readyState === 'complete' && location.protocol === 'file:'")
-        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # before its first frame a page gets no input
+        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # a page gets no input before its first frame
 
     def value(self, expression):
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
@@ -126,7 +126,7 @@ class Browser:
         self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
     def press(self, key, code=None, number=0, text=None):
-        """A real key stroke: what has the focus gets it."""
+        """Presses a real key. The focused element receives it."""
         more = {"text": text} if text else {}
         self.send("Input.dispatchKeyEvent", type="keyDown", key=key, code=code or key, windowsVirtualKeyCode=number, **more)
         self.send("Input.dispatchKeyEvent", type="keyUp", key=key, code=code or key, windowsVirtualKeyCode=number)

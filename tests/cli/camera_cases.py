@@ -1,5 +1,5 @@
-"""Which way the camera looks: automatic framing, --orbit, --zoom, --fov, --target, and what -v says of it. The subject is a cube with a
-colour a face, seen without light."""
+"""Camera directions: automatic framing, --orbit, --zoom, --fov, --target, and their report by -v. The subject is an unlit cube with one
+colour a face."""
 
 import math
 import re
@@ -8,14 +8,14 @@ import struct
 import gltf_files
 from harness import case, check, scratch
 
-# Axis, sign and colour of a face; colours are exact in floats.
+# Axis, sign and colour of a face. Floats hold the colours exactly.
 FACES = {"right": (0, 1, (1, 0, 0)), "left": (0, -1, (0, 1, 1)), "top": (1, 1, (0, 1, 0)), "bottom": (1, -1, (1, 0, 1)),
          "front": (2, 1, (0, 0, 1)), "back": (2, -1, (1, 1, 0))}
 TINY = ("--size", "96x96", "--msaa", "1", "--env-size", "16", "--env-samples", "1", "--no-background", "-o", "a.pfm")
 
 
 def cube(half=0.5, camera=None):
-    """A glTF of the cube about the origin; `camera`: where one stands that looks along -Z."""
+    """Returns a glTF of the cube around the origin; `camera`: position of a camera that looks along -Z."""
     positions, primitives, materials = b"", [], []
     for i, (axis, sign, colour) in enumerate(FACES.values()):
         a, b = (axis + 1) % 3, (axis + 2) % 3
@@ -39,7 +39,7 @@ def cube(half=0.5, camera=None):
 
 
 def seen(bench, *words):
-    """{face: places of its pixels (x right, y down)} of a picture of cube.gltf."""
+    """Returns {face: pixel places (x right, y down)} from an image of cube.gltf."""
     bench.run("render", "cube.gltf", *TINY, *words).expect(0)
     data = (bench.folder / "a.pfm").read_bytes()
     kind, size, _, rows = data.split(b"\n", 3)
@@ -49,7 +49,7 @@ def seen(bench, *words):
     found = {}
     for i, pixel in enumerate(struct.iter_unpack("<3f", rows)):
         if name := names.get(tuple(map(round, pixel))):
-            found.setdefault(name, []).append((i % width, height - 1 - i // width))  # lines go upwards
+            found.setdefault(name, []).append((i % width, height - 1 - i // width))  # rows go upwards
     return found
 
 
@@ -106,7 +106,7 @@ def verbose(bench):
         bench.run("compare", "b.pfm", "a.pfm", "--fail-fraction", "0.002").expect(0)
 
 
-# What is given, and the one warning.
+# Options, and their single warning.
 NO_EFFECT = (
     (("--technique", "split_isotropic", "--anisotropy", "0.5"), "--anisotropy has no effect with --technique split_isotropic"),
     (("--technique", "major_axis", "--seed", "3"), "--seed has no effect with --technique major_axis"),
@@ -134,7 +134,7 @@ def no_effect(bench):
 
 @case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way", tier="nightly")
 def turned_environment(bench):
-    """By each renderer: under an environment at 40 degrees a camera at azimuth 30 sees what one at -10 sees of the turned scene without."""
+    """For each renderer: under an environment at 40 degrees a camera at azimuth 30 sees the view of azimuth -10 on the turned scene."""
     gltf = gltf_files.triangle()
     gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 1.0, "roughnessFactor": 0.3}}]
     gltf["meshes"][0]["primitives"][0]["material"] = 0

@@ -1,4 +1,4 @@
-"""burnish chart: what it measures, what it writes, how it stops and goes on; and what the techniques' errors must show."""
+"""burnish chart: measurements, outputs, stops and restarts, and the expected errors of techniques."""
 
 import csv
 import json
@@ -15,7 +15,7 @@ from harness import Skipped, case, check, scratch
 
 TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
 FEW = (*TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4")
-TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts have it
+TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts render the reference
 FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "nan_pixels", "pareto"}
 
 
@@ -84,7 +84,7 @@ def rows(bench):
         if name.endswith(".svg"):
             xml.dom.minidom.parse(str(bench.folder / "r" / name))
             check(name.replace(".svg", ".png") in names, f"{name} has no picture beside it")
-    # Two things that render says too: the same errors come of the same pictures.
+    # Compares with render: equal images give equal errors.
     bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
     bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)
@@ -125,7 +125,7 @@ def sweeps_any_option(bench):
     for name in ("axis-k-flip-1.svg", "env-rotation-flip-1.png"):
         check((bench.folder / "r" / name).exists(), f"no {name}")
     check(not (bench.folder / "r/tilt-flip-1.svg").exists(), "a chart over vectors")
-    # A row is the picture that render makes of the same options.
+    # A row's image equals an image by render with equal options.
     same = ("builtin:plate", *TINY[:8], "--env-rotation", "90", "--tilt", "15,0")
     bench.run("render", *same, "--technique", "major_axis", "--samples", "4", "--axis-k", "2.5", "-o", "t.exr", "-q").expect(0)
     bench.run("render", *same, *TRUTH, "-o", "ref.exr", "-q").expect(0)
@@ -136,7 +136,7 @@ def sweeps_any_option(bench):
 
 @case("chart.sweeps_what_a_scene_is_read_by", tier="nightly")
 def sweeps_scenes(bench):
-    """Time and materials: each row is the picture of its own scene, and has its own reference."""
+    """Time and materials: each row is the image of its scene, and has its own reference."""
     needs_embree(bench)
     scratch(bench, "turning.gltf", turning())
     seen = ("turning.gltf", "--eye", "0,0,3", "--target", "0,0,0", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
@@ -187,7 +187,7 @@ def wrong(bench):
 
 @case("chart.errors_are_of_the_error_size", tier="nightly")
 def error_size(bench):
-    """Times are of frames of --size, errors of pictures of --error-size: the same errors as where that is the size of both."""
+    """Times are measured at --size, errors at --error-size. Errors equal those of a run where both sizes are --error-size."""
     needs_embree(bench)
     small, large = FEW, ("--size", "1024x576", "--error-size", "64x36", *FEW[2:])
     bench.run("chart", *small, "-o", "small").expect(0)
@@ -204,7 +204,7 @@ def error_size(bench):
 
 @case("chart.noise_of_the_references_falls_with_their_samples", tier="nightly")
 def noise(bench):
-    """Every place tells what its reference's noise is worth; more samples make it less."""
+    """Every place reports its reference's noise. More samples lower the noise."""
     needs_embree(bench)
     told = []
     for samples in ("64", "256", "4096"):
@@ -239,17 +239,17 @@ def again(bench):
     first = (bench.folder / "r/report.json").read_text()
     bench.run(*words).expect(0)
     check((bench.folder / "r/report.json").read_text() == first, "times were measured again")
-    # Another view is another row; rows of before stay.
+    # Another view gives another row; earlier rows stay.
     bench.run("chart", *FEW, "--no-background", "-o", "r").expect(0)
     check(errors_of(rows_of(bench, "r")) != errors_of(json.loads(first)["rows"]), "rows of another picture were taken")
     kept = json.loads((bench.folder / "r/rows.json").read_text())["rows"]
     check(len(kept) == 6, f"{len(kept)} rows kept")
-    # Pictures that were removed come back, with the times of before.
+    # Removed images return, with the earlier times.
     for name in os.listdir(bench.folder / "r/pictures"):
         (bench.folder / "r/pictures" / name).unlink()
     bench.run(*words).expect(0)
     check((bench.folder / "r/report.json").read_text() == first, "removed pictures changed the rows")
-    # A file that holds something else is told, and replaced.
+    # A file with other contents is reported and replaced.
     scratch(bench, "r/rows.json", "a letter")
     done = bench.run(*words).expect(0)
     check("warning" in done.err and "rows.json" in done.err, done.describe())
@@ -270,7 +270,7 @@ def wait_until(child, done, what):
 
 @case("chart.goes_on_after_being_killed", tier="nightly")
 def killed(bench):
-    """The runs asked for at first take minutes on any machine: each of three charts is interrupted once it has kept something of its own."""
+    """The first runs take minutes on any machine. Each of three charts is interrupted once it has kept some result."""
     needs_embree(bench)
     words = ("--size", "320x180", *TINY[2:-2], "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,16", "-o", "r")
     kept = bench.folder / "r/rows.json"
@@ -299,7 +299,7 @@ def killed(bench):
 
 @case("chart.nothing_stale_is_left", tier="nightly")
 def stale(bench):
-    """The folder holds the last report: earlier charts and pictures go, a reader's own files and the times measured before stay."""
+    """The folder holds the last report. Earlier charts and images are removed; a reader's files and earlier times stay."""
     needs_embree(bench)
     bench.run("chart", *FEW, "--sweep", "roughness=0.2,0.4", "-o", "r").expect(0)
     own = ("notes.svg", "time-flip-old.png", "pictures/me.jpg", "pictures/0123456789abcdef.jpg")
@@ -323,7 +323,7 @@ def cpu_seconds(pid):
 
 
 def reference_samples(done):
-    """(all, kept from before) of a chart's one reference."""
+    """Returns (all samples, samples kept from before) for a chart's single reference."""
     line = next(line for line in done.err.splitlines() if line.startswith("reference"))
     found = re.search(r": (\d+) samples?(?: \((\d+) kept\))?", line)
     return int(found[1]), int(found[2] or 0)
@@ -348,7 +348,7 @@ def stopped_reference(bench):
     check(len(parts) == 1, f"{parts}")
     first = reference_samples(bench.run("chart", *words(64, "r"), env=env).expect(0))
     check(first[1] > 0, f"{first}: nothing was kept")
-    # Another folder finds the reference; a damaged one is made anew.
+    # Another folder finds the reference. A damaged reference is rendered again.
     second = reference_samples(bench.run("chart", *words(64, "r2"), env=env).expect(0))
     check(second == (first[0], first[0]), f"{first}, then {second}")
     (cache / "burnish" / parts[0]).write_bytes(b"a letter")
@@ -375,13 +375,12 @@ def cache_limit(bench):
 
 STUDIO, WORKSHOP = "builtin:studio", "workshop_1k.hdr"
 
-# Where the first claim below does not hold, (environment, roughness, anisotropy). FLIP of major_axis and bent_normal: under the studio
-# 0.202 and 0.169, in the workshop 0.175 and 0.155.
+# Cases (environment, roughness, anisotropy) where the first claim below fails: major_axis has a larger FLIP than bent_normal.
 CLAIM_FAILS = {(STUDIO, 0.5, -0.5), (WORKSHOP, 0.5, -0.5)}
 
 
 def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
-    """FLIP by (environment, roughness, anisotropy), then by technique, under a built-in environment and a photographed one."""
+    """Returns FLIP by (environment, roughness, anisotropy), then by technique, under a built-in and a photographed environment."""
     text = lambda values: ",".join(map(str, values))
     bench.run("chart", scene, "--env", STUDIO, "--env", bench.data_file("env/" + WORKSHOP), "--size", "160x90", "--msaa", "4", "--reference-samples", "1024",
               "--runs", "1", "--no-background", "--techniques", text(techniques), "--sweep", f"samples={samples}", "--sweep", f"roughness={text(roughness)}",
@@ -396,9 +395,11 @@ def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
 
 @case("chart.major_axis_is_nearer_than_bent_normal", tier="nightly")
 def claims(bench):
-    """Cocco, Zanni, Chermain 2024: what 16 samples along the axis are worth, over widths and anisotropies. On average they are better than
-    the bent normal; for roughness to 0.5 and anisotropy from 0.5 in every cell, but for the cells above: one that holds again must leave
-    that list. For rougher surfaces there are cells where they are not, and there the samples by density are better than both."""
+    """Cocco, Zanni, Chermain 2024: benefit of 16 samples along the axis, over widths and anisotropies. On average they beat the bent
+    normal.
+    For roughness to 0.5 and anisotropy from 0.5 they do so in every cell except those of CLAIM_FAILS. A cell that holds again must leave
+    that list.
+    On rougher surfaces some cells fail, and there the samples by density beat both."""
     needs_embree(bench)
     cells = grid_of(bench, "builtin:spheres", ("bent_normal", "major_axis", "major_axis_weighted"), 16, (0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9),
                     (-0.9, -0.7, -0.5, 0.0, 0.5, 0.7, 0.9))
@@ -426,8 +427,8 @@ def claims(bench):
 
 @case("chart.equal_samples_are_bounded_by_their_line", tier="nightly")
 def bounds(bench):
-    """Why the first claim fails in some cells: the line is one deviation long, of a lobe without tails, and GGX has tails. The same lobe without
-    tails is no better where it is integrated with 1024 samples, and a longer line is better than the bent normal there too."""
+    """Explains why the first claim fails in some cells. The line is one deviation long, for a lobe without tails, and GGX has tails. The
+    lobe without tails is no better with 1024 samples, and a longer line beats the bent normal there too."""
     needs_embree(bench)
     for env, roughness, anisotropy in sorted(CLAIM_FAILS):
         words = ("builtin:spheres", "--env", env if ":" in env else bench.data_file("env/" + env), "--roughness", str(roughness), "--anisotropy",
@@ -447,8 +448,8 @@ def bounds(bench):
 
 @case("chart.grazing_views_need_samples_by_density", tier="nightly")
 def grazing(bench):
-    """Seen at 8 degrees above a plate, equal samples along the axis are worse than the bent normal from roughness 0.3 on; samples by density
-    are better than both."""
+    """Seen at 8 degrees above a plate, equal samples along the axis are worse than the bent normal from roughness 0.3 on. Samples by
+    density are better than both."""
     needs_embree(bench)
     cells = grid_of(bench, "builtin:plate", ("bent_normal", "major_axis", "major_axis_weighted"), 16, (0.2, 0.3, 0.5), (-0.9, -0.5, 0.5, 0.9),
                     "--eye", "0.9,0.06,0.14", "--target", "0,0,0", "--fov", "14")
@@ -461,14 +462,14 @@ def grazing(bench):
 
 
 def check_samples(bench, names, *words):
-    """More samples along the axis help until 8 at least, and beyond 16 to 32 little changes any more."""
+    """More samples along the axis help up to 8 at least, and change little beyond 16 to 32."""
     bench.run("chart", "builtin:spheres", "--size", "240x135", "--msaa", "4", "--reference-samples", "4096", "--runs", "5", "--techniques",
               "major_axis,major_axis_weighted,filtered_is", "--sweep", "samples=1,2,4,8,16,25,32,64", *words, "-o", "r", timeout=550).expect(0)
     places, faults, cpu = {}, [], {}
     for row in rows_of(bench, "r"):
         places.setdefault(row["env"], {})[row["technique"], row["settings"]["samples"]] = row["flip_mean"]
         cpu.setdefault((row["technique"], row["settings"]["samples"]), []).append(row["cpu_ms_median"])
-    # Filtered importance sampling with 5 x 5 samples is the slower of the two and the farther from the truth.
+    # Filtered importance sampling with 5 x 5 samples is slower and has the larger error.
     slow, fast = min(cpu["filtered_is", 25]), min(cpu["major_axis", 16])
     print(f"CPU time of a frame: filtered_is 5 x 5 {slow:.1f} ms, major_axis 16 {fast:.1f} ms")
     if not slow > fast:
@@ -496,8 +497,8 @@ def samples(bench):
 
 @case("chart.error_of_long_lobes_falls_with_weighted_samples", tier="nightly")
 def samples_of_long_lobes(bench):
-    """Where lobes are long, equal samples on a line of one deviation stop converging to the truth: from 8 on, more of them come closer to a
-    line that is too short. Samples by density keep the tails and keep falling."""
+    """On long lobes, equal samples on a line of one deviation stop converging to the reference: from 8 on they approach a line that is
+    too short. Samples by density keep the tails, and their error keeps falling."""
     needs_embree(bench)
     bench.run("chart", "builtin:spheres", "--size", "240x135", "--msaa", "4", "--reference-samples", "4096", "--runs", "1", "--techniques",
               "major_axis,major_axis_weighted", "--sweep", "samples=1,2,4,8,16,32,64", "--no-background", "--sweep", "roughness=0.3",

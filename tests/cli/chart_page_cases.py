@@ -12,14 +12,14 @@ POINTS = "[...document.querySelectorAll('.place:not([hidden]) svg.chart')].find(
 
 def make_page(bench):
     needs_embree(bench)
-    with_browser = Browser(bench.folder / "browser")  # skips before anything is rendered
+    with_browser = Browser(bench.folder / "browser")  # skips before rendering
     words = ("chart", *TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4,16", "--sweep", "roughness=0.2,0.6",
              "--sweep", "anisotropy=0,0.8", "-o", "r")
     bench.run(*words).expect(0)
-    # Pages are judged at given times, not at what this machine happened to take: points that coincide cover each other.
+    # Pages are judged at fixed times instead of measured ones, since coinciding points hide each other.
     kept = bench.folder / "r/rows.json"
     content = json.loads(kept.read_text())
-    for index, row in enumerate(sorted(content["rows"].values(), key=lambda row: row["flip_mean"])):  # their keys' order changes with the program
+    for index, row in enumerate(sorted(content["rows"].values(), key=lambda row: row["flip_mean"])):  # the order of keys depends on the program
         row["ms"] = [1.3**index * share for share in (1.0, 1.1)]
         row["cpu_ms"] = row["ms"]
     kept.write_text(json.dumps(content))
@@ -36,7 +36,7 @@ def healthy(browser):
 
 
 def point(browser, index):
-    """Centre of a point's mark, scrolled into view, and the row that it stands for."""
+    """Returns the centre of a point's mark, scrolled into view, and the point's row."""
     return browser.value(f"""(() => {{ const p = {POINTS}[{index}]; p.scrollIntoView({{block: 'center'}});
         const b = p.querySelector('.mark').getBoundingClientRect();
         return {{x: b.x + b.width / 2, y: b.y + b.height / 2, row: p.dataset.row}}; }})()""")
@@ -68,7 +68,7 @@ def points(bench):
         check(len(seen) == 4, f"only {seen} answered")
         covers = browser.value("[...document.querySelectorAll('svg.chart text')].filter(t => getComputedStyle(t).pointerEvents !== 'none').length")
         check(covers == 0, f"{covers} words of charts can cover a point")
-        # The same by keyboard alone: one stop of the Tab key a chart, arrows within.
+        # Repeats this by keyboard: one Tab stop a chart, arrow keys inside.
         browser.value(f"{POINTS}[0].focus()")
         browser.until("!tip.hidden")
         from_left = browser.value(f"[...{POINTS}].map(p => [p.querySelector('.mark').getBoundingClientRect().x, p.dataset.row]).sort((a, b) => a[0] - b[0]).map(p => p[1])")
@@ -107,7 +107,7 @@ def wall(bench):
             return browser.value(f"""(() => {{ const b = document.querySelector('.place:not([hidden]) {css}'); b.scrollIntoView({{block: 'center'}});
                 const r = b.getBoundingClientRect(); return [r.x, r.y + r.height / 2, r.width]; }})()""")
 
-        # The slider, with the mouse and with keys.
+        # The slider, by mouse and by keys.
         clip = "getComputedStyle(document.querySelector('.place:not([hidden]) .tile .technique')).clipPath"
         before = browser.value(clip)
         x, y, width = begin("input.split")
@@ -119,7 +119,7 @@ def wall(bench):
         browser.press("ArrowLeft", number=37)
         check(float(browser.value(f"{style}.getPropertyValue('--split')").rstrip("%")) == split - 1, "the slider does not take keys")
 
-        # What is shown, by keys in a picture.
+        # Display modes, by keys on an image.
         browser.value("document.querySelector('.place:not([hidden]) .view').focus()")
         for key, name, visible in (("t", "technique", (True, False)), ("r", "reference", (False, False)), ("e", "error", (True, True)), ("s", "split", (True, False))):
             browser.press(key, text=key)
@@ -134,7 +134,7 @@ def wall(bench):
         browser.press("f", text="f")
         check(browser.value("document.querySelector('.place:not([hidden]) .flicker').getAttribute('aria-pressed')") == "false", "flickers on")
 
-        # All pictures zoom and move together.
+        # All images zoom and move together.
         browser.press("+", text="+")
         browser.press("+", text="+")
         browser.press("ArrowRight", number=39)
@@ -146,7 +146,7 @@ def wall(bench):
         browser.mouse("mouseReleased", x + 0.6 * width, y, button="left", clickCount=1)
         check(browser.value("getComputedStyle(document.querySelector('.place:not([hidden]) .view img')).transform") != transforms[0], "dragging moves nothing")
 
-        # Other samples, other surfaces.
+        # Other sample counts, other surfaces.
         source = "document.querySelectorAll('.place:not([hidden]) .tile')[1].querySelector('.picture').src"
         first = browser.value(source)
         browser.value("(() => { const s = document.querySelector('.place:not([hidden]) .tile select'); s.selectedIndex = 0; s.dispatchEvent(new Event('change')); })()")
@@ -175,7 +175,7 @@ def narrow(bench):
                 const b = s.getBoundingClientRect(); return [...s.querySelectorAll('text')].filter(t => { const r = t.getBoundingClientRect();
                 return r.left < b.left - 1 || r.right > b.right + 1 || r.top < b.top - 1 || r.bottom > b.bottom + 1; }).map(t => t.textContent); })""")
             check(cut == [], f"{width} {scheme}: texts leave their chart: {cut}")
-            # WCAG's contrast of text and marks with what is behind them.
+            # WCAG contrast of texts and marks against their background.
             worst = browser.value("""(() => {
                 const paint = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
                 const light = c => { paint.fillStyle = c; paint.fillRect(0, 0, 1, 1); const v = [...paint.getImageData(0, 0, 1, 1).data].slice(0, 3)
@@ -195,8 +195,8 @@ def narrow(bench):
         healthy(browser)
 
 
-# Pixels of a chart's picture that are not as the browser paints its SVG, outside of all text, whose letters are others. A pixel counts
-# where no pixel of the browser's around it comes near its colour, or the other way round: edges are smoothed differently.
+# Counts pixels where a chart's PNG differs from the browser's SVG painting, except in text, whose letters differ. A pixel counts if no
+# neighbouring pixel in the other image has a similar colour, since edges are smoothed differently.
 UNLIKE = """(async (svg, png, scale) => {
   const load = src => new Promise((done, failed) => { const i = new Image(); i.onload = () => done(i); i.onerror = () => failed(src.slice(0, 60)); i.src = src; });
   const box = document.createElement('div');

@@ -20,7 +20,8 @@ def leaning(x, y):
 
 
 def coated(roughness=0.3, textures=(), metallic=0.0, coat=None, color=dented, **more):
-    """A triangle that the view lies in. textures: of clearcoat, clearcoatRoughness, clearcoatNormal; color: of their texels."""
+    """Returns a triangle that fills the view. textures: of clearcoat, clearcoatRoughness, clearcoatNormal; color: function of their
+    texels."""
     gltf = files.textured("data:image/png;base64," + files.base64.b64encode(files.png(16, 16, color=color)).decode())
     coat = {"clearcoatFactor": 0.9, "clearcoatRoughnessFactor": roughness, **(coat or {}), **{name + "Texture": {"index": 0} for name in textures}}
     extensions = {"KHR_materials_clearcoat": coat, "KHR_materials_anisotropy": {"anisotropyStrength": 0.6}}

@@ -1,4 +1,4 @@
-"""burnish compare: figures, outputs, limits, and an exit code for each way to fail."""
+"""burnish compare: figures, outputs, limits, and an exit code for each kind of failure."""
 
 import base64
 import csv
@@ -16,7 +16,7 @@ NAN, INF = float("nan"), float("inf")
 
 
 def png(width, height, pixel, channels=3, bits=8):
-    """pixel(x, y) gives the channels."""
+    """Returns a PNG. pixel(x, y) gives the channels."""
     form = ">%dB" if bits == 8 else ">%dH"
     rows = b"".join(b"\0" + struct.pack(form % (width * channels), *(v for x in range(width) for v in pixel(x, y)))
                     for y in range(height))
@@ -30,7 +30,7 @@ def png(width, height, pixel, channels=3, bits=8):
 
 
 def pfm(width, height, pixel):
-    """RGB floats; the format begins with the bottom row."""
+    """Returns a PFM of RGB floats, which begins with the bottom row."""
     values = [v for y in reversed(range(height)) for x in range(width) for v in pixel(x, y)]
     return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<%df" % len(values), *values)
 
@@ -44,7 +44,7 @@ def bright(x, y):
 
 
 def pictures(bench):
-    """Pairs of small pictures: 8 bits, and floats."""
+    """Writes pairs of small images: 8 bits, and floats."""
     scratch(bench, "a.png", png(24, 16, ramp))
     scratch(bench, "b.png", png(24, 16, lambda x, y: (8 * x % 256, 8 * y % 256, 128 if x or y else 153)))
     scratch(bench, "a.pfm", pfm(24, 16, bright))
@@ -78,7 +78,7 @@ def equal(bench):
 
 @case("compare.known_pictures_have_their_known_errors", tier="nightly")
 def known(bench):
-    """Means of the FLIP authors' own program; see SOURCES.md beside the pictures."""
+    """Means printed by the FLIP authors' program; see SOURCES.md beside the images."""
     folder = bench.data_file("flip")
     for one, other, mean in (("ldr_ref.png", "ldr_blur.png", 0.098760), ("ldr_ref.png", "ldr_tint.png", 0.263008),
                              ("hdr_ref.exr", "hdr_blur.exr", 0.125888)):
@@ -132,9 +132,9 @@ def limits(bench):
         bench.run("compare", "-q", "a.png", "b.png", option, repr(found[key])).expect(0)
         done = bench.run("compare", "-q", "a.png", "b.png", option, repr(found[key] * 0.99)).expect(1)
         done.expect_one_line("b.png", option)
-        # A limit computes the figure that it needs.
+        # A limit computes its figure.
         bench.run("compare", "-q", "a.png", "b.png", "--metric", "ssim", option, "0").expect(1)
-    bench.run("compare", "-q", "a.png", "b.png").expect(0)  # nothing was to fail
+    bench.run("compare", "-q", "a.png", "b.png").expect(0)  # no limit to fail
     check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
 
 
@@ -160,7 +160,7 @@ def lone_alpha(bench):
             found = json.loads(done.out)
             check(found["max_abs"] == 0 and found["flip_mean"] == 0, f"{found}")
             check(done.err.startswith("note        alpha.png alone has alpha: colours are compared\n"), done.describe())
-    scratch(bench, "narrow.png", png(23, 16, lambda x, y: (*ramp(x, y), 255), channels=4))  # it differs in more than that
+    scratch(bench, "narrow.png", png(23, 16, lambda x, y: (*ramp(x, y), 255), channels=4))  # it differs in size as well
     bench.run("compare", "a.png", "narrow.png").expect(3).expect_one_line("23x16, 4 channels")
     for name in ("r", "t"):  # rows too
         for number in (1, 2):
@@ -195,7 +195,7 @@ def not_finite(bench):
         check(found["nan_pixels"] == 2 and found["flip_mean"] is None and found["mse"] is None, f"{found}")
     check(sorted(p.name for p in bench.folder.glob("[ep].*")) == [], "an error map of NaN")
     done = bench.run("compare", "-q", "a.pfm", "holes.pfm", "--fail-flip", "1", "--fail-max", "1e9")
-    done.expect(6)  # NaN is no difference that a limit could allow
+    done.expect(6)  # no limit can allow NaN
 
 
 @case("compare.page_stands_alone", tier="nightly")
@@ -265,7 +265,7 @@ def error_map(bench):
         rows = zlib.decompress(b"".join(data[m.end():m.end() + struct.unpack(">I", data[m.start() - 4:m.start()])[0]]
                                         for m in re.finditer(b"IDAT", data)))
         check(len(rows) == 8 * 25, f"{len(rows)} bytes of pixels")
-        # Whatever filter the encoder chose, the first pixel of the first row is stored as it is.
+        # Every PNG filter stores the first pixel of the first row unchanged.
         check(rows[1:4] == colour, f"{test}: {rows[1:4]!r}")
     bench.run("compare", "-q", "green.png", "blue.png", "--error-map", "e.pfm").expect(0)
     data = (bench.folder / "e.pfm").read_bytes()
@@ -278,7 +278,7 @@ def z_test(bench):
     scratch(bench, "mean.pfm", pfm(10, 10, lambda x, y: (1, 1, 1)))
     scratch(bench, "near.pfm", pfm(10, 10, lambda x, y: (1.35, 0.8, 1)))
     scratch(bench, "far.pfm", pfm(10, 10, lambda x, y: (1, 1, 1.5 if (x, y) == (2, 3) else 1)))
-    scratch(bench, "variance.pfm", pfm(10, 10, lambda x, y: (0.01, 0.01, 0.01)))  # deviation 0.1
+    scratch(bench, "variance.pfm", pfm(10, 10, lambda x, y: (0.01, 0.01, 0.01)))  # standard deviation 0.1
     found = figures(bench, "mean.pfm", "near.pfm", "--variance", "variance.pfm")
     check(abs(found["z_max"] - 3.5) < 1e-4 and found["z_rejected_fraction"] == 0, f"{found}")
     check(abs(found["z_limit"] - 4.15) < 0.01, f"the limit of 300 tests at 1 %: {found}")
@@ -362,7 +362,7 @@ def unwritable(bench):
     for words in (("--json", "absent/j.json"), ("--html", "absent/p.html"), ("--error-map", "absent/e.png"), ("--error-map", "folder.png")):
         bench.run("compare", "-q", "a.png", "b.png", *words).expect(7).expect_one_line(words[1])
     kept = scratch(bench, "p.html", b"kept")
-    # The page does not fit, the figures do; a failed output counts for more than a failed limit.
+    # The page does not fit, the figures do. A failed output outranks a failed limit.
     done = bench.run("compare", "-q", "a.png", "b.png", "--html", "p.html", "--json", "j.json", "--fail-flip", "0", file_size=1024)
     done.expect(7)
     check(kept.read_bytes() == b"kept", "the page that was there is lost")
@@ -381,7 +381,7 @@ def words(bench):
     more = bench.run("compare", "-v", "a.pfm", "b.pfm").expect(0)
     check("24x16, 3 channels, floats" in more.err, more.describe())
     piped = bench.run("compare", "a.pfm", "b.pfm", "--json", "-").expect(0)
-    json.loads(piped.out)  # nothing else is there
+    json.loads(piped.out)  # nothing else is printed
     check("flip-hdr" in piped.err and "wrote" not in piped.err, piped.describe())
 
 

@@ -1,4 +1,4 @@
-"""Where the program may have little: memory (ulimit -v, control groups), threads, no rights, a root that is read-only."""
+"""The program with few resources: memory (ulimit -v, control groups), threads, no rights, a read-only root."""
 
 import json
 import os
@@ -15,7 +15,7 @@ MIB = 1 << 20
 
 
 def with_little_memory(bench, words, output, limits):
-    """Under ulimit -v: a line and a code, or all that was asked for. Gives what was said where it did not go."""
+    """Runs under ulimit -v. Each run gives an error line and a code, or the whole output. Returns the messages of failed runs."""
     if bench.sanitized:
         raise Skipped("shadow memory reserves terabytes of addresses")
     codes, said = [], []
@@ -23,7 +23,7 @@ def with_little_memory(bench, words, output, limits):
         done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)), timeout=300, check=False)
         if done.returncode == 127 and "shared librar" in done.stderr:
-            continue  # the loader itself had no room
+            continue  # the loader had no memory
         check(done.returncode in (0, 4, 7, 77), f"{limit // MIB} MiB: exit code {done.returncode}: {done.stderr}")
         check((bench.folder / output).exists() == (done.returncode == 0), f"{limit // MIB} MiB: output and exit code do not agree")
         (bench.folder / output).unlink(missing_ok=True)
@@ -49,7 +49,7 @@ def little_memory_all(bench):
 
 @case("confine.a_picture_that_does_not_fit_is_not_called_damaged", tier="nightly")
 def exr_memory(bench):
-    """What OpenEXR says where it gets no memory is not taken for what it says of a damaged file."""
+    """OpenEXR's message for missing memory is not taken for its message for a damaged file."""
     bench.run("render", "builtin:plate", *TINY, "--size", "4000x4000", "-o", "big.exr").expect(0)
     words = ("compare", "big.exr", "big.exr", "--metric", "mse", "--json", "found.json")
     said = with_little_memory(bench, words, "found.json", [m * MIB for m in (300, 900, 960, 1020, 1080, 3000)])
@@ -89,7 +89,7 @@ def in_group(bench, kind, limit, words):
 
 @case("confine.little_memory_of_a_control_group", tier="nightly")
 def memory_group(bench):
-    """What would be killed without a word ends with one, and leaves no half picture."""
+    """Instead of being killed silently, the program prints an error, and leaves no partial image."""
     if bench.sanitized:
         raise Skipped("sanitizers need memory of their own")
     words = ("--threads", "2", "-o", "o.png")
@@ -102,7 +102,7 @@ def memory_group(bench):
     check(not bench.left_behind(), f"left: {bench.left_behind()}")
 
 
-# What makes the output, and the exit codes that are right with few threads: burnish's own loops go on, libraries may not start without theirs.
+# Outputs with their command, and valid exit codes with few threads: burnish's loops go on, while libraries may fail to start.
 PLATE = ("render", "builtin:plate", *TINY[:-3], "-q")
 FEW_THREADS = {
     "o.png": ((*PLATE, "--threads", "4"), (0,)),
@@ -123,7 +123,7 @@ def bytes_of(path):
 
 
 def with_few_threads(bench, names, counts, user):
-    """The same files by `counts` processes of a user of its own, or one line, a code, and nothing."""
+    """Makes equal files by `counts` processes of another user, or one error line, a code, and no file."""
     if os.geteuid() or bench.sanitized:
         raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")
     bench.folder.chmod(0o777)
@@ -137,7 +137,7 @@ def with_few_threads(bench, names, counts, user):
         path = bench.folder / name
         done = bench.run(*words, "-o", name, user=user, env=env)
         if done.code == 77:
-            continue  # the library or the device is not here at all
+            continue  # the library or the device is missing
         done.expect(0)
         whole = bytes_of(path)
         for count in counts:
@@ -199,7 +199,7 @@ def little_memory_of_a_bake(bench):
         done = subprocess.run([bench.program, *words], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit * MIB, limit * MIB)), timeout=120, check=False)
         if done.returncode == 127 and "shared librar" in done.stderr:
-            continue  # the loader itself had no room
+            continue  # the loader had no memory
         check(done.returncode in (0, 4, 7, 77), f"{limit} MiB: exit code {done.returncode}: {done.stderr}")
         check((bench.folder / "levels").exists() == (done.returncode == 0), f"{limit} MiB: output and exit code do not agree")
         check(done.returncode == 0 or len(done.stderr.splitlines()) == 1, f"{limit} MiB: {done.stderr}")
@@ -209,7 +209,7 @@ def little_memory_of_a_bake(bench):
 
 @case("confine.read_only_root_and_no_rights", tier="nightly")
 def read_only_root(bench):
-    """As nobody, as process 1, without a network, with every file system read-only but one small one: as containers are run."""
+    """Runs as nobody, as process 1, without a network, with one small writable file system: like in a container."""
     if os.geteuid():
         raise Skipped("needs root, to become nobody")
     folder = bench.folder / "free"
@@ -228,7 +228,7 @@ def read_only_root(bench):
     outside = str(pathlib.Path(bench.folder).parent / "nobody.png")
     for words, code in ((("render", *TINY, "-o", "o.png", "-o", "o.exr", "--stats", "-"), 0), (("render", *TINY, "-o", outside), 7), (("info",), 0),
                         (("render", *TINY, "-o", "/o.png"), 7), (("compare", "none.png", "none.png"), 4),
-                        (("render", *TINY, "--size", "2000x2000", "-o", "o.pfm"), 7),  # more than the 4 MiB that there are
+                        (("render", *TINY, "--size", "2000x2000", "-o", "o.pfm"), 7),  # more than the available 4 MiB
                         (("chart", *TINY, "-o", "/report"), 7), (("list", "scenes"), 0)):
         done = subprocess.run([*command, bench.program, *words], capture_output=True, text=True, env=env, timeout=300, check=False)
         check(done.returncode == code, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
@@ -240,7 +240,7 @@ def read_only_root(bench):
 
 @case("confine.a_folder_without_rights", tier="nightly")
 def no_rights(bench):
-    """As nobody, in a folder that is root's: what cannot be written is said, and nothing is left."""
+    """Runs as nobody in a folder of root. Failed writes are reported, and nothing is left."""
     if os.geteuid():
         raise Skipped("needs root, to become nobody")
     bench.folder.chmod(0o755)

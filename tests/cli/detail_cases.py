@@ -1,4 +1,4 @@
-"""Detail of surfaces: normal, quaternion and rotation maps by option and by file, frames under them, material folders, OBJ files."""
+"""Surface detail: normal, quaternion and rotation maps by option and by file, shading frames under them, material folders, OBJ files."""
 
 import json
 import math
@@ -18,7 +18,7 @@ METAL = ("--roughness", "0.4", "--anisotropy", "0.8")
 
 
 def bare(**material):
-    """A triangle with texture coordinates and no texture."""
+    """Returns a triangle with texture coordinates and no texture."""
     gltf = files.textured("x.png")
     del gltf["textures"], gltf["images"]
     gltf["materials"] = [{"pbrMetallicRoughness": {"roughnessFactor": 0.5}, "doubleSided": True, **material}]
@@ -26,7 +26,7 @@ def bare(**material):
 
 
 def bumps(x, y):
-    """A normal map that leans all ways, by smooth waves."""
+    """Returns a normal map texel. The map leans all ways, in smooth waves."""
     nx, ny = 0.5 * math.sin(x * 0.7), 0.5 * math.cos(y * 0.9)
     nz = math.sqrt(1 - nx * nx - ny * ny)
     return tuple(int(127.5 + 127.5 * n) for n in (nx, ny, nz))
@@ -60,7 +60,7 @@ def frames(bench):
     check(hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "n.png") == by["gram-schmidt"], "gram-schmidt is not the default")
     for way in by:
         check(hash_of(bench, scene, *VIEW, *METAL, "--frame-map", way) == plain, f"{way} changes what has no map")
-    # without a length, straight down, and what decodes to nearly nothing
+    # zero length, straight down, and texels that decode to nearly zero
     scratch(bench, "odd.png", png(4, 4, lambda x, y: ((128, 128, 128), (128, 128, 0), (127, 128, 0), (128, 128, 255))[(x + y) % 4]))
     for way in by:
         hash_of(bench, scene, *VIEW, *METAL, "--normal-map", "odd.png", "--frame-map", way)
@@ -94,7 +94,7 @@ def quaternions(bench):
     gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "q.exr"}]
     scratch(bench, "own.gltf", files.text(gltf))
     check(hash_of(bench, "own.gltf", *VIEW, *METAL) == hash_of(bench, scene, *VIEW, *METAL, "--quaternion-map", "q.exr"), "another picture by file")
-    # texels that are none are level, and counted
+    # invalid texels become level normals, and are counted
     scratch(bench, "nan.pfm", pfm(4, 4, lambda x, y: (float("nan"), 0, 0) if x == 1 else (0, 0, 0) if x == 2 else (1, 0, 0)))
     done = bench.run("render", scene, *VIEW, *METAL, "--quaternion-map", "nan.pfm", "-o", "r.pfm").expect(0)
     check("8 texels" in done.err, done.describe())
@@ -121,7 +121,7 @@ def rotations(bench):
     check(hash_of(bench, scene, *VIEW, *METAL) not in found, "the rotation is not seen")
     check(hash_of(bench, scene, *VIEW, *METAL, "--rotation-map", "vector.exr", "--rotation-encoding", "double-angle") not in found,
           "encodings are not told apart")
-    # a rotation of 30 degrees after one of 20 is one of 50
+    # a rotation of 30 degrees after one of 20 gives 50
     for name, degrees in (("a", 20), ("b", 50)):
         c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
         bench.run("bake", "tpr", "--expr", f"{c!r}", "--expr", f"{s!r}", "--size", "2x2", "-o", name + ".pfm").expect(0)
@@ -136,7 +136,7 @@ def rotations(bench):
 
 
 def square(turned):
-    """An OBJ file: a square in the plane of x and y whose texture lies `turned` degrees off it."""
+    """Returns an OBJ file: a square in the xy plane whose texture is turned by `turned` degrees."""
     c, s = 0.5 * math.cos(math.radians(turned)), 0.5 * math.sin(math.radians(turned))
     corners = [(x, y) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]
     lines = [f"v {0.3 + 0.6 * x} {0.3 + 0.6 * y} 0" for x, y in corners]
@@ -144,7 +144,7 @@ def square(turned):
     return "\n".join(lines + ["f 1/1 2/2 3/3 4/4", ""]).encode()
 
 
-# However the texture lies on it, the grain is the one asked for; the border of a texel's width is the filter's.
+# For any orientation of the texture coordinates, the grain has the requested direction. The filter blurs a border of one texel.
 @case("detail.straightened_grain_lies_in_one_direction", tier="nightly")
 def straightened(bench):
     drawn = {}
@@ -166,8 +166,8 @@ EYE = (1.2, 0.9, 3.0)
 
 
 def patched_sphere(islands):
-    """An OBJ file: a sphere of six patches, less what lies farthest from the eye. Its texture is of six islands, each turned otherwise, or of one piece,
-    seen from the eye with areas kept (Lambert's azimuthal projection)."""
+    """Returns an OBJ file: a sphere of six patches, without the part farthest from the eye. Its texture has six islands, each turned
+    differently, or one piece, projected from the eye with equal areas (Lambert's azimuthal projection)."""
     n, lines, faces, kept = 24, [], [], []
     length = math.hypot(*EYE)
     e = [c / length for c in EYE]
@@ -195,7 +195,7 @@ def patched_sphere(islands):
     return "\n".join(lines + faces) + "\n"
 
 
-# A technique whose samples lie alike on both ends of the grain, which has no sign: islands turn by any angle.
+# This technique's samples are symmetric along the grain, which has no sign. The islands turn by arbitrary angles.
 @case("detail.a_sphere_of_six_islands_looks_as_one_of_one_piece", tier="nightly")
 def islands(bench):
     words = ("--eye", ",".join(map(str, EYE)), "--target", "0,0,0", "--fov", "40", "--size", "160x160", "--msaa", "4", "--roughness", "0.4", "--anisotropy", "0.8",
@@ -230,7 +230,7 @@ def lean(bench):
     chance = random.Random(7)
 
     def grain(x, y):
-        """Slopes by chance, about as the bell curve has them."""
+        """Returns a texel with random slopes, approximately normally distributed."""
         sx, sy = (0.15 * sum(chance.uniform(-1, 1) for _ in range(3)) for _ in range(2))
         length = math.sqrt(1 + sx * sx + sy * sy)
         return tuple(int(127.5 + 127.5 * n / length + 0.5) for n in (-sx, -sy, 1))
@@ -281,7 +281,7 @@ def folders(bench):
     gltf["images"] = [{"uri": uri} for uri in ("b.png", "mr.png", "n.png", "ao.png")]
     scratch(bench, "own.gltf", files.text(gltf))
     check(hash_of(bench, "own.gltf", *VIEW) == by_folder, "a folder is not the file's own material")
-    (folder / "brass-roughness.png").write_bytes(grey(78, 4))  # all of 8 bits: so is what is made of them
+    (folder / "brass-roughness.png").write_bytes(grey(78, 4))  # all 8 bits, like the combined texture
     scratch(bench, "mr.png", png(4, 4, lambda x, y: (65535, 257 * 78, 65535), bits=16))
     check(hash_of(bench, "own.gltf", *VIEW) == hash_of(bench, scene, *VIEW, "--material", "set") != by_folder, "8 bits say something else")
     (folder / "brass_glow.png").write_bytes(grey(1, 1))
@@ -341,7 +341,7 @@ def obj(bench):
     check(len(set(found.values())) == 1, f"one square looks {len(set(found.values()))} ways: {found}")
     scratch(bench, "turned.obj", QUAD.replace("vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1", "vt 1 0\nvt 1 1\nvt 0 1\nvt 0 0") + "f 1/1 2/2 3/3 4/4\n")
     check(hash_of(bench, "turned.obj", *VIEW, "--normal-map", "n.png") not in found.values(), "texture coordinates do not count")
-    # a polygon with a notch, of which a fan would fill what is outside
+    # a polygon with a notch, where a fan would fill the outside
     scratch(bench, "notch.obj", "v 0 0 0\nv 1 0 0\nv 0.2 0.2 0\nv 0 1 0\nf 2 3 4 1\n")
     scratch(bench, "cut.obj", "v 0 0 0\nv 1 0 0\nv 0.2 0.2 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
     a, b = (bench.figures(name, *VIEW, "--no-background")["pixel_hash"] for name in ("notch.obj", "cut.obj"))
@@ -357,13 +357,13 @@ def obj(bench):
     bench.run("render", "quad.obj", "--limit-accessor-bytes", "100", "-o", "a.png").expect(4).expect_one_line("--limit-accessor-bytes")
 
 
-# The same lobe by the same Fresnel factors, sampled otherwise; with few samples the filter does what more of them would.
+# Equal lobes and Fresnel factors, sampled in two ways. With few samples the filter replaces further ones.
 @case("detail.as_mc_is_monte_carlo_of_its_lobe", tier="nightly")
 def phong(bench):
     words = ("builtin:spheres", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "-q", "--technique")
     bench.run("render", *words, "mc", "--brdf", "ashikhmin_shirley", "--samples", "4096", "-o", "truth.pfm").expect(0)
-    for samples, most in (("2048", 1e-4), ("64", 1e-2), ("16", 3e-2)):  # neighbours share, who see little alike in so small a picture
+    for samples, most in (("2048", 1e-4), ("64", 1e-2), ("16", 3e-2)):  # neighbours share samples, and see little alike in so small an image
         bench.run("render", *words, "as_mc", "--samples", samples, "-o", "t.pfm").expect(0)
         found = off_by(bench, "truth.pfm", "t.pfm")
         check(found["mse"] < most, f"{samples} samples: {found}")
@@ -371,14 +371,14 @@ def phong(bench):
 
 
 def smooth(x, y):
-    """A texel of an environment of 64 x 32 without an edge."""
+    """Returns a texel of a smooth environment with 64 x 32 texels."""
     t, p = math.pi * (y + 0.5) / 32, 2 * math.pi * (x + 0.5) / 64
     a, b, c = math.cos(t), math.sin(t) * math.cos(p), math.sin(t) * math.sin(p)
     return (1 + 0.5 * a + 0.4 * b * c, 1 + 0.6 * a - 0.3 * b, 1.2 + 0.5 * c * a)
 
 
-# Where every pixel sees one place of a plane, so that nothing but the lobe is compared: over a pixel's square the reference takes a mean,
-# techniques one place of each triangle, and a z-test of any curved thing finds that, whatever the lobe.
+# Every pixel sees one place of a plane, which compares the lobe alone. Over a pixel's area the reference takes a mean, and techniques shade
+# one place of each triangle. On curved objects a z-test finds this difference for every lobe.
 @case("detail.phong_lobes_meet_the_reference", tier="nightly")
 def phong_reference(bench):
     needs_embree(bench)
@@ -409,7 +409,7 @@ def phong_reference(bench):
     check(max(off["turned"]) < 0.01 and off["turned"] != off["16"], f"as_mc, turned: {off}")
 
 
-# One sample is what a mirror shows, dimmed by the lobe's albedo, which compensation gives back.
+# One sample equals a mirror, dimmed by the lobe's albedo, which compensation restores.
 @case("detail.one_sample_of_as_mc_is_a_mirror", tier="nightly")
 def one_sample(bench):
     words = ("builtin:teapot", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--key-lights", "off", "--no-background", "-q",
@@ -427,7 +427,7 @@ def phong_tables(bench):
     bench.run("bake", "brdf-lut", "--nu", "100", "--nv", "10", "--size", "9x9", "--azimuth", "linear", "-q", "-o", "a.pfm").expect(0)
     values = struct.unpack("<243f", (bench.folder / "a.pfm").read_bytes()[-972:])
     rows = [[values[3 * (9 * y + x):3 * (9 * y + x) + 2] for x in range(9)] for y in reversed(range(9))]  # the file begins with the bottom row
-    # from the normal there is no azimuth, and an even lobe gives back what it has at both ends
+    # from the normal there is no azimuth, and a symmetric lobe has equal albedo at both ends
     check(max(abs(sum(rows[8][x]) - sum(rows[8][0])) for x in range(9)) < 2e-3, f"{rows[8]}")
     check(all(0 < s + b <= 1.002 for row in rows for s, b in row), "an albedo above 1")
     bench.run("bake", "brdf-lut", "--nu", "10", "--nv", "100", "--size", "9x9", "--azimuth", "linear", "-q", "-o", "b.pfm").expect(0)

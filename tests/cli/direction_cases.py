@@ -1,4 +1,4 @@
-"""burnish bake direction, and maps of directions on scenes: --direction-map."""
+"""burnish bake direction, and direction maps on scenes: --direction-map."""
 
 import math
 import struct
@@ -12,7 +12,7 @@ SMALL = ("--size", "48x48", "--msaa", "1", "--env-size", "16", "--env-samples", 
 
 
 def pixels(data):
-    """(width, height, rows of bytes) of an 8-bit RGB picture whose filters are none, sub, up, average or Paeth."""
+    """Returns (width, height, rows of bytes) of an 8-bit RGB image whose filters are none, sub, up, average or Paeth."""
     at, packed = 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -35,7 +35,7 @@ def pixels(data):
 
 
 def angles(bench, colours, *words):
-    """Degrees that a row of colours becomes, and the blues."""
+    """Returns the degrees baked from a row of colours, and the blue channel."""
     scratch(bench, "p.png", png(len(colours), 1, lambda x, y: colours[x]))
     bench.run("bake", "direction", "p.png", *words, "-o", "d.png").expect(0)
     width, height, (row,) = pixels((bench.folder / "d.png").read_bytes())

@@ -1,4 +1,4 @@
-"""Laws of energy over whole frames: what an even light shows of white metal, and that eye and lamp may change places."""
+"""Energy laws over whole frames: white metal under uniform light, and exchanged places of eye and lamp."""
 
 import itertools
 import math
@@ -9,9 +9,8 @@ from gltf_files import data_uri, png, text
 from harness import case, check, scratch
 from law_cases import ball, lobes, names_of, words_of
 
-# White metal under an even environment of radiance 1, with what microfacets lose given back, is not seen: the picture's mean is 1. Words, what
-# goes, steps, how far the mean may be below 1, and above. A tilted lobe has less of a horizon than its surface, and gives the difference back to
-# nobody.
+# White metal with energy compensation under uniform radiance 1 is invisible: the image's mean is 1. Rows: animated option and other
+# options, allowed deviation below 1, and above. A tilted lobe loses light at its surface's horizon, and nothing returns that light.
 FURNACE_STEPS = 3
 FURNACE = {
     "roughness": ("roughness=0.1:1 --anisotropy 0.6", 0.003, 0.003),
@@ -25,9 +24,9 @@ FURNACE = {
     "frames turned": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map quaternion --horizon off", 0.003, 0.006),
     "frames left": ("roughness=0.2:0.8 --anisotropy 0.6 --normal-map wave.png --frame-map normal-only --horizon off", 0.01, 0.006),
 }
-MODEL_ROWS = ("roughness", "grain", "tilt", "tilt the other way", "frames turned")  # ellipsoids alone can be tilted
-# By `mc` (noise of 1024 samples) and its models. What is given back is what correlated GGX loses by the table: not what separable masking does,
-# nor what the fit says of thin rough lobes. Ward's weights have no bound.
+MODEL_ROWS = ("roughness", "grain", "tilt", "tilt the other way", "frames turned")  # only ellipsoids can be tilted
+# Limits for `mc` (noise of 1024 samples) and its models. Compensation returns the loss of correlated GGX from the table. Separable masking
+# and the fit for thin rough lobes lose another amount. Ward's weights have no bound.
 OF_MC = {
     "": (0.004, 0.006),
     "fit": (0.2, 0.006),
@@ -75,22 +74,22 @@ def furnaces(bench):
     furnace(bench, [(name, None, row) for name in names_of(bench, "techniques") for row in FURNACE] +
             [("mc", name, row) for name in lobes(bench) for row in MODEL_ROWS if not row.startswith("tilt") or name.startswith("ellipsoid")])
 
-# Eye and lamp change places over a brushed metal plate: radiance over the cosine at the lamp stays. Directions (theta, phi) from the normal and
-# the tangent, degrees.
+# Eye and lamp change places over a brushed metal plate: radiance divided by the lamp's cosine stays equal. Directions (theta, phi) from the
+# normal and the tangent, in degrees.
 PLACES = ((35, 20), (45, 190))
-SAME = {"lamp": 1e-5, "key": 0.005}  # of the larger one: rounding; a key light is as large as a texel
-MAPPED = 2e-3  # of normals of maps: their texels are of half floats
-# What light lobes lose between microfacets is given back by the eye's place alone, as a factor 1 + f0 (1 - E) / E of the lobe's albedo E there: the
-# places differ by what E does, as measured, alone ("") and beside another option. The fit has one E for both.
+SAME = {"lamp": 1e-5, "key": 0.005}  # relative: rounding; a key light is as large as a texel
+MAPPED = 2e-3  # for mapped normals, whose texels are half floats
+# Compensation for lights uses the eye's direction alone, as a factor 1 + f0 (1 - E) / E with the lobe's albedo E. Swapped places therefore
+# differ by the change of E: the measured difference alone ("") and with another option. The fit has equal E for both.
 COMPENSATED = {"": 0.0126, "rough": 0.0481, "sharp": 0.0028, "round": 0.0129, "across": 0.0008, "separable": 0.0135, "fit": 0.0000, "tilted": 0.0460,
                "projected": 0.0364, "turned": 0.0364, "left": 0.0368, "widened": 0.0123, "model ggx": 0.0320, "model ggx_aniso_separable": 0.0026,
                "model beckmann": 0.0252, "model ashikhmin_shirley": 0.0435, "model ward": 0.1112, "model ward_cheap": 0.0791,
                "model ellipsoid": 0.0049, "model ellipsoid_correlated": 0.0016}
-AS_MEASURED = 0.05 # of it
-# Where tangents are left, axes are not square: by so much these are one-way, too, and no other.
+AS_MEASURED = 0.05 # tolerance, relative
+# Frames that keep the mesh's tangents are not orthogonal. These rows therefore break reciprocity by this much, and no others do.
 SQUARE = {("lamp", "left", "model ashikhmin_shirley"): 0.4, ("key", "left"): 0.4}
 
-# What lobes and frames are made by; two of them that are ways of one option are no pair.
+# Options of lobes and frames, grouped. Two values of one option make no pair.
 OPTIONS = {
     "rough": ("roughness", "--roughness 0.8"),
     "sharp": ("roughness", "--roughness 0.25"),
@@ -115,7 +114,7 @@ def pairs(options):
 
 
 def all_options(bench):
-    """OPTIONS, techniques, and models, which are mc's: {name: (what it is a way of, words)}."""
+    """Returns options, techniques and mc's models as {name: (group, words)}."""
     more = {**{f"model {m}": ("technique", f"--technique mc --brdf {m}") for m in lobes(bench)},
             **{f"technique {t}": ("technique", f"--technique {t}") for t in names_of(bench, "techniques")}}
     return {**OPTIONS, **more}
@@ -125,11 +124,11 @@ def words_for(options, names):
     return (*USUAL.split(), *(word for name in names for word in options[name][1].split()))
 
 
-BENT = (150, 110, 245)  # a texel of a normal map
+BENT = (150, 110, 245)  # a normal map texel
 
 
 def normal_of(words):
-    """That light's cosine is taken at: of the map, whose bitangent is -z; of the plate itself for lobes that are tilted against it."""
+    """Returns the normal of the light's cosine: the map's normal, whose bitangent is -z, or the plate's normal for tilted lobes."""
     mapped = "--normal-map" in words and "--tilt" not in words and not any(word.startswith("ellipsoid") for word in words)
     x, y, z = (2 * c / 255 - 1 for c in BENT) if mapped else (0.0, 0.0, 1.0)
     length = math.hypot(x, y, z)
@@ -137,13 +136,13 @@ def normal_of(words):
 
 
 def direction(theta, phi):
-    """Over the plate: x along the tangent, y the normal."""
+    """Returns a direction over the plate: x along the tangent, y the normal."""
     t, p = math.radians(theta), math.radians(phi)
     return math.sin(t) * math.cos(p), math.cos(t), math.sin(t) * math.sin(p)
 
 
 def facing(d, away):
-    """A node whose z axis points along d, `away` from the plate."""
+    """Returns a node whose z axis points along d, `away` from the plate."""
     x = (d[2], 0.0, -d[0])
     x = tuple(c / math.hypot(*x) for c in x)
     y = (d[1] * x[2] - d[2] * x[1], d[2] * x[0] - d[0] * x[2], d[0] * x[1] - d[1] * x[0])
@@ -151,7 +150,7 @@ def facing(d, away):
 
 
 def plate(eye, lamp):
-    """A metal plate about the origin, seen from far along `eye`; `lamp`: light from there, or None."""
+    """Returns a metal plate around the origin, seen from far along `eye`; `lamp`: direction of light, or None."""
     corners = [(x, 0.0, z, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 1.0, x, z) for x, z in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
     data = struct.pack("<48f6H", *(v for c in corners for v in c), 0, 1, 2, 0, 2, 3)
     of = lambda at, kind, **more: {"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": 4, "type": kind, **more}
@@ -175,7 +174,7 @@ def plate(eye, lamp):
 
 
 def drawn(bench, *words):
-    """Whether; what does not go together is refused."""
+    """Returns True if the options are accepted; incompatible options are refused."""
     done = bench.run("render", *words, "-q")
     if done.code != 2:
         done.expect(0)
@@ -183,7 +182,7 @@ def drawn(bench, *words):
 
 
 def seen(bench, eye, lamp, words, lamps):
-    """What the plate shows along `eye` of light along `lamp`, over the lamp's cosine; lamps: "lamp" or "key"."""
+    """Returns the plate's radiance along `eye` from light along `lamp`, divided by the lamp's cosine; lamps: "lamp" or "key"."""
     scratch(bench, "plate.gltf", plate(eye, lamp if lamps == "lamp" else None))
     env = "dark.exr" if lamps == "lamp" else key_light(bench, lamp)
     if not drawn(bench, "plate.gltf", "--env", env, "--env-size", "16", "--env-samples", "4", "--size", "4x4", "--msaa", "1", *words, "-o", "s.pfm"):
@@ -192,11 +191,11 @@ def seen(bench, eye, lamp, words, lamps):
     return [v / cosine for v in words_of(bench.folder / "s.pfm")[1][0][:3]]
 
 
-WIDE = 512 # texels of a picture around
+WIDE = 512 # texels of an environment
 
 
 def key_light(bench, lamp):
-    """A picture that is black but for a texel, whose irradiance is the same wherever it is."""
+    """Writes an image that is black except for one texel, whose irradiance is equal at every place."""
     x, y = texel(lamp)
     (bench.folder / "key.exr").write_bytes(exr(WIDE, WIDE // 2, with_texels({(x, y): 3e4 / math.sin(math.pi * (y + 0.5) / (WIDE // 2))}, 0.0)))
     return "key.exr"
@@ -207,13 +206,13 @@ def texel(d):
 
 
 def middle(x, y):
-    """The direction of a texel's middle."""
+    """Returns the direction of a texel's centre."""
     theta, phi = math.pi * (y + 0.5) / (WIDE // 2), 2 * math.pi * ((x + 0.5) / WIDE - 0.5)
     return math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi)
 
 
 def swapped(bench, words, lamps="lamp"):
-    """The largest difference that a change of places makes, of the larger one; None where words do not go together."""
+    """Returns the largest relative difference that exchanging places makes, or None if the options are incompatible."""
     (bench.folder / "dark.exr").write_bytes(exr(16, 8, even(0.0)))
     (bench.folder / "bent.png").write_bytes(png(4, 4, color=lambda *_: BENT))
     a, b = (direction(*place) for place in PLACES)
@@ -228,7 +227,7 @@ def swapped(bench, words, lamps="lamp"):
 
 
 def one_way(names, rounding):
-    """The most that a change of places may make."""
+    """Returns the largest allowed difference of exchanged places."""
     if "compensated" not in names:
         return rounding
     usual = COMPENSATED.get(next((name for name in names if name != "compensated"), ""), COMPENSATED[""])
@@ -236,7 +235,7 @@ def one_way(names, rounding):
 
 
 def change_places(bench, asked, lamps="lamp"):
-    """asked: tuples of names of options."""
+    """asked: tuples of option names."""
     options, off, refused = all_options(bench), [], 0
     for names in asked:
         found = swapped(bench, words_for(options, names), lamps)
@@ -263,28 +262,28 @@ def all_places(bench):
     change_places(bench, [(name,) for name in options if " mc" not in options[name][1]], "key")
 
 
-# What pictures of white metal under an even light lack, of 1, by options of theirs, as measured; of two options the sum. Tilted lobes reflect below the
-# surface, and others mask what they sample by a model that is not that of the albedo they are scaled to.
+# Measured deficit below 1 in images of white metal under uniform light, by option. For two options the deficits add up. Tilted lobes
+# reflect below the surface. The other models' masking differs from the model of the albedo that scales them.
 OFF = {"tilted": 0.0101, "model ggx_aniso_separable": 0.0173, "model ashikhmin_shirley": 0.0025, "model ward": 0.0029, "model ward_cheap": 0.0011,
        "model ellipsoid": 0.0210, "model ellipsoid_correlated": 0.0172}
-# Pairs that are no such sum: random samples have the lobe's own albedo, which the fit is not; what a tilt loses is more of sharp lobes, whose highlight it
-# moves as a whole, and of samples that do not look below.
+# Pairs whose deficits do not add up. Random samples have the lobe's exact albedo, which the fit misses. A tilt costs sharp lobes more,
+# since their whole highlight moves, and costs techniques more whose samples do not reach below the surface.
 OFF_TOGETHER = {
     ("fit", "model ggx_aniso"): 0.0855, ("fit", "technique mc"): 0.0855, ("sharp", "tilted"): 0.0640, ("round", "model ellipsoid"): 0.0302,
     ("tilted", "projected"): 0.0270, ("tilted", "turned"): 0.0267, ("tilted", "technique filtered_is"): 0.0204,
     ("tilted", "technique as_mc"): 0.0189, ("tilted", "left"): 0.0142, ("rough", "model ward_cheap"): 0.0065}
-OFF_BY = 0.004 # as measured, and of rounding
+OFF_BY = 0.004 # tolerance of measurement and rounding
 
 
 @case("energy.an_even_light_hides_white_metal_under_every_pair_of_options", tier="nightly")
 def furnace_pairs(bench):
-    """Models are those of mc; 256 samples of it are enough for a mean over pixels."""
+    """Models are drawn by mc; 256 samples are enough for a mean over pixels."""
     (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
     (bench.folder / "bent.png").write_bytes(png(16, 16, color=lambda x, y, *_: (128 + (30 if x & 4 else -30), 128 + (20 if y & 4 else -20), 250)))
     scratch(bench, "ball.gltf", ball(1.0))
     options, off, pictures, refused = all_options(bench), [], 0, 0
     for names in pairs(options):
-        if "compensated" in names: # all are
+        if "compensated" in names: # all runs are compensated
             continue
         words = words_for(options, names)
         if not drawn(bench, "ball.gltf", "--env", "even.exr", "--env-size", "16", "--env-samples", "16", "--size", "16x16", "--eye", "0.5,1,2.5",

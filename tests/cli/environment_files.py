@@ -1,4 +1,4 @@
-"""Pictures of environments with values of every kind."""
+"""Environment images with values of every kind."""
 
 import math
 import struct
@@ -9,7 +9,8 @@ def attribute(name, kind, data):
 
 
 def exr(width, height, value, names="RGB", attributes=b""):
-    """Uncompressed OpenEXR of floats; value(x, y) gives one for each of the names, by default (r, g, b). attributes: further ones."""
+    """Returns an uncompressed OpenEXR of floats. value(x, y) gives one value for each name, by default (r, g, b). attributes: further
+    ones."""
     names = list(names)
     stored = sorted(range(len(names)), key=lambda i: names[i])
     channels = b"".join(names[i].encode() + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for i in stored) + b"\0"
@@ -35,16 +36,16 @@ def even(value):
 
 
 def with_texels(texels, rest=0.5):
-    """Even but for {(x, y): value}."""
+    """Returns a uniform value function, except for {(x, y): value}."""
     return lambda x, y: (texels.get((x, y), rest),) * 3
 
 
 def hdr(width, height, scanline, lines=""):
-    """Radiance; scanline(y) gives its bytes, plain or as runs. lines: further ones of the header."""
+    """Returns a Radiance file. scanline(y) gives its bytes, plain or as runs. lines: further header lines."""
     return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{lines}\n-Y {height} +X {width}\n".encode() + b"".join(map(scanline, range(height)))
 
 
 def rgbe(value):
-    """Four bytes of a colour."""
+    """Returns the four bytes of a colour."""
     exponent = math.frexp(max(value))[1]
     return bytes([int(v * 256.0 / 2.0 ** exponent) for v in value] + [exponent + 128])

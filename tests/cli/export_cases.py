@@ -1,4 +1,4 @@
-"""burnish export glsl: techniques as files for other engines, compiled alone and compared word for word where the program's own text is."""
+"""burnish export glsl: techniques as files for other engines, compiled alone, and compared word for word in place of the program's text."""
 
 import pathlib
 import re
@@ -88,7 +88,7 @@ def grid(bench):
 
 
 def members(text, struct, to, source):
-    """Statements that fill a struct of the file from one of the program's."""
+    """Returns statements that fill a struct of the file from one of the program."""
     body = re.search(rf"struct burnish_{struct} \{{(.*?)\n\}};", re.sub(r"//[^\n]*", "", text), re.DOTALL)[1]
     lines = []
     for declaration in filter(None, (d.strip() for d in body.split(";"))):
@@ -103,7 +103,7 @@ def members(text, struct, to, source):
 
 
 def in_place(text, name):
-    """GLSL that puts the file's functions where the program's own are called."""
+    """Returns GLSL that calls the file's functions in place of the program's."""
     hooks = ["#define BURNISH_OWN_FETCHES"] + [f"#define burnish_{fetch} {fetch}" for fetch in FETCHES]
     hooks += [f"#define burnish_{cube}(f) {cube}(0)" for cube in ("specular_cube", "box_cube", "whole_cube")]
     hooks += ["#define burnish_grid_sample(f, i) grid_sample(0, i)", "#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)", "#define burnish_fetched cube_sample",
@@ -120,7 +120,7 @@ def in_place(text, name):
 
 
 def own_names(text, name):
-    """Names of the file that no other technique's file has, so that files of all can lie in one shader."""
+    """Returns the text with unique function names, so that the files of all techniques fit in one shader."""
     return re.sub(r"\b(burnish_|own_)", rf"{name}_\1", text)
 
 
@@ -149,7 +149,7 @@ def compare_exported(bench, names, changed=lambda text: text, code=0):
     return parity(bench, *words, also=also, code=code, timeout=600.0)
 
 
-# All in one shader: a driver takes seconds to compile each.
+# Uses one shader for all, since a driver takes seconds to compile each.
 @case("export.files_give_the_program_s_words", tier="nightly")
 def gives_the_program_s_words(bench):
     names = [name for name, _ in TECHNIQUES]

@@ -1,6 +1,6 @@
-// Loaded before a program, fails one of its calls: BN_FAIL=NAME:N fails the N-th call of NAME, and all after it with NAME:N+. Memory is
-// counted from BN_FAIL_BYTES on (65536), so that the calls are the program's own tables and pictures; fsync_folder counts those of folders.
-// Whether the call came is told by the file BN_FAIL_MARK. BN_FAIL_ALWAYS=NAME fails every call of NAME besides.
+// Preloaded before a program, makes one of its calls fail. BN_FAIL=NAME:N fails the N-th call of NAME; NAME:N+ also fails all later ones.
+// Allocations count from BN_FAIL_BYTES on (65536), which selects the program's tables and images. fsync_folder counts calls on folders. The
+// file BN_FAIL_MARK appears when the call fails. With BN_FAIL set, BN_FAIL_ALWAYS=NAME fails every call of another NAME as well.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>

@@ -15,7 +15,7 @@ NIGHT = ("--env", "builtin:night", "--env-size", "16", "--env-samples", "1", "--
 
 
 def quad(corners, eye, pitch=0.0, yfov=0.7, znear=0.01, place=(0, 0, 0)):
-    """A glTF of one unlit green quad at `place`, and of a camera at `eye` that looks down by `pitch`."""
+    """Returns a glTF with one unlit green quad at `place`, and a camera at `eye` that looks down by `pitch`."""
     data = struct.pack("<12f", *(x for corner in corners for x in corner)) + struct.pack("<6H", 0, 1, 2, 0, 2, 3)
     gltf = gltf_files.triangle()
     gltf["buffers"] = [{"byteLength": len(data), "uri": gltf_files.data_uri(data)}]
@@ -34,7 +34,7 @@ def quad(corners, eye, pitch=0.0, yfov=0.7, znear=0.01, place=(0, 0, 0)):
 
 
 def skinned(text):
-    """The same quad as a skin, bent by a joint where its node was."""
+    """Returns this quad as a skin, bent by a joint at its node."""
     gltf = json.loads(text)
     data = struct.pack("<16B", *(0, 0, 0, 0) * 4) + struct.pack("<16f", *(1, 0, 0, 0) * 4)
     gltf["buffers"].append({"byteLength": len(data), "uri": gltf_files.data_uri(data)})
@@ -54,17 +54,17 @@ def floor(half, eye=1.7, pitch=0.15, **more):
 
 
 def floor_is_seen(half, eye, pitch, yfov, aspect, x, y):
-    """Whether the ray through a place, -1 to 1 over the picture with y up, meets the floor."""
+    """Returns True where the ray through a place, -1 to 1 over the image with y up, meets the floor."""
     up, across = y * math.tan(yfov / 2), x * aspect * math.tan(yfov / 2)
     dy, dz = up * math.cos(pitch) - math.sin(pitch), -math.cos(pitch) - up * math.sin(pitch)
     return dy < 0 and max(abs(across), abs(dz)) * eye / -dy < half
 
 
 def wrong_pixels(bench, half, eye, pitch, yfov=0.7):
-    """Pixels of a.pfm that all of their corners say something else of."""
+    """Returns the pixels of a.pfm that contradict all their corners."""
     width, height, values = read_pfm(bench.folder / "a.pfm")
     corner = [[floor_is_seen(half, eye, pitch, yfov, width / height, 2 * x / width - 1, 2 * y / height - 1) for x in range(width + 1)]
-              for y in range(height + 1)]  # rows upwards, as they lie in the file
+              for y in range(height + 1)]  # rows go upwards, as in the file
     wrong = 0
     for y in range(height):
         for x in range(width):
@@ -75,7 +75,7 @@ def wrong_pixels(bench, half, eye, pitch, yfov=0.7):
     return wrong
 
 
-# Half a side, height of the eye, pitch, near plane, size.
+# Half a side, eye height, pitch, near plane, size.
 FLOORS = ((5e4, 1.7, 0.15, 0.01, "640x360"), (1e5, 1.7, 0.15, 0.01, "512x512"), (2e5, 1.0, 0.9, 0.01, "96x96"), (500, 1.7, 0.3, 1e-4, "160x90"),
           (1e7, 2.0, 0.4, 0.01, "97x61"), (3e6, 500.0, 0.2, 1.0, "96x96"), (100, 1.7, 0.2, 0.01, "96x96"))
 
@@ -114,7 +114,7 @@ def places(offset):
 
 @case("geometry.far_from_the_origin_is_as_it_is_near_it")
 def far(bench):
-    """The plate and its camera, moved: the same words, by a camera of the file and by --eye, whose digits floats do not hold."""
+    """Moves the plate and its camera. Pixels stay equal, by a camera in the file and by --eye, whose digits floats do not hold."""
     for backend in (("--backend", "tile"), ("--backend", "reference", "--samples", "4"), ("--backend", "vulkan", "--device", "lavapipe")):
         if backend[1] == "reference":
             needs_embree(bench)

@@ -1,4 +1,4 @@
-"""Calls and allocations that fail, one after the other: never a wrong file under a name, never a crash, an exit code as documented."""
+"""Calls and allocations that fail in turn: never a wrong file under a final name, never a crash, always a documented exit code."""
 
 import json
 import shutil
@@ -9,7 +9,7 @@ TINY = ("--size", "64x48", "--msaa", "1", "--env-size", "16", "--env-samples", "
 REFERENCE = ("render", "--backend", "reference", "--size", "48x32", "--samples", "256", "--env-size", "16", "--env-samples", "16",
              "--threads", "2", "-q")
 CHART = ("chart", *TINY, "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64", "--error-size", "32x24")
-DOCUMENTED = (0, 2, 4, 7, 77)  # and 6 and 70 are faults here
+DOCUMENTED = (0, 2, 4, 7, 77)  # 6 and 70 are faults here
 
 
 def needs_embree(bench):
@@ -25,13 +25,14 @@ def preloaded(bench):
 
 
 class Job:
-    """A command whose files are known: `same` have the same bytes in every run, `made` (patterns) are made anew, so they go before each."""
+    """A command with known files: `same` have equal bytes in every run; `made` (patterns) are made anew, so they are removed before each
+    run."""
 
     def __init__(self, words, same=(), made=()):
         self.words, self.same, self.made = words, same, made
 
 
-# What fails in turn. XDG_CACHE_HOME is the case's folder "own".
+# Jobs whose calls fail in turn. XDG_CACHE_HOME is the case's folder "own".
 RENDER = Job(("render", *TINY, "-o", "o.png"), same=("o.png",))
 PICTURES = Job(("render", *TINY, "-o", "o.exr", "-o", "o.png"), same=("o.exr", "o.png"))
 BAKE = Job(("render", *TINY, "-o", "o.png"), same=("o.png",), made=("own",))
@@ -46,7 +47,7 @@ def remove(path):
 
 
 def check_report(bench, n):
-    """A report is whole or not there; what a chart keeps is JSON."""
+    """Checks that a report is complete or absent, and that a chart's cached rows are JSON."""
     for name in ("report.json", "rows.json"):
         path = bench.folder / "report" / name
         if path.exists():
@@ -56,8 +57,8 @@ def check_report(bench, n):
 
 
 def fail_in_turn(bench, job, calls, steps, every=1, fail_bytes=65536, always=""):
-    """Fails the n-th call for n in `steps` until a run has fewer calls. What is there afterwards is whole or what was there before, and
-    after each `every`-th failure the command, given again, makes the same files. Calls of `always` fail each time besides."""
+    """Fails the n-th call for n in `steps` until a run has fewer calls. Files are then complete or unchanged. After each `every`-th
+    failure the command runs again and makes equal files. Calls of `always` fail each time as well."""
     library = preloaded(bench)
     env = {"XDG_CACHE_HOME": str(bench.folder / "own")}
 
@@ -93,7 +94,7 @@ def fail_in_turn(bench, job, calls, steps, every=1, fail_bytes=65536, always="")
             mark.unlink()
             fired += 1
             came.add(call)
-            if fired % every == 0:  # whatever was kept, it must be good
+            if fired % every == 0:  # files that stayed must be good
                 bench.run(*job.words, env=env).expect(0)
                 for name in job.same:
                     check((bench.folder / name).read_bytes() == whole[name], f"{place}: the next run makes another {name}")
@@ -138,7 +139,7 @@ def memory_calls(bench):
 
 @case("fault.memory_of_libraries_runs_out", tier="nightly")
 def library_memory_calls(bench):
-    """What they ask for as they are loaded, or as they build a tree over the scene."""
+    """Fails memory requests of libraries, when they are loaded or build a tree over the scene."""
     needs_embree(bench)
     fail_in_turn(bench, PICTURES, ("malloc",), range(52, 66), every=100)
     fail_in_turn(bench, KEPT, ("malloc",), range(52, 60), every=100)
@@ -147,7 +148,7 @@ def library_memory_calls(bench):
 
 @case("fault.small_memory_runs_out")
 def small_memory_calls(bench):
-    """Every allocation counts, the first of the program too."""
+    """Counts every allocation, including the program's first."""
     fail_in_turn(bench, RENDER, ("malloc",), (1, 2, 3, 100, 1000, 3000, 5000, 8000), every=100, fail_bytes=1)
 
 

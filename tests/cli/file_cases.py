@@ -1,4 +1,4 @@
-"""Files that are written: nothing of a killed run stands in the way, permissions and links stay, and what is kept in the cache is ours."""
+"""Output files: leftovers of killed runs do no harm, permissions and links stay, and cache files belong to the user."""
 
 import fcntl
 import os
@@ -12,7 +12,7 @@ TEMPORARY = ".o.png.0123456789abcdef.bntmp"
 
 
 def in_new_namespace(bench, *arguments):
-    """As process 1 or 2 of a namespace of its own, as in a container, where pids repeat."""
+    """Runs as process 1 or 2 of a new namespace, like in a container, where pids repeat."""
     command = ["unshare", "--pid", "--fork", "--mount-proc"] + (["--map-root-user"] if os.geteuid() else [])
     try:
         probe = subprocess.run([*command, "true"], capture_output=True, timeout=60, check=False)
@@ -62,7 +62,7 @@ def permissions(bench):
 
 
 def cache_of(bench):
-    """A cache of the case's own with one environment, and that file."""
+    """Returns a new cache for the case with one environment, and its file."""
     cache = bench.folder / "cache"
     bench.run("render", *SMALL, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
     files = sorted((cache / "burnish").glob("environment-*.bnenv"))
@@ -118,7 +118,7 @@ def impossible_names(bench):
     check(bench.left_behind() == ["a.png", "b.png", "file"], f"left: {bench.left_behind()}")
 
 
-# What leads elsewhere, what it leads to, and where a file that is written there lies; None: exit code 7.
+# A link, its target, and the place of the file written through the link; None: exit code 7.
 LINKS = (("l.png", "missing.png", "missing.png"), ("l.png", "sub/missing.png", "sub/missing.png"), ("sub/l.png", "../missing.png", "missing.png"),
          ("l.png", "{}/sub/whole.png", "sub/whole.png"), ("l.png", "m.png", "sub/end.png"), ("l.png", "gone/missing.png", None),
          ("l.png", "l.png", None), ("l.png", "sub", None), ("l.png", "there.png", "there.png"))
@@ -167,7 +167,7 @@ def links_of_sets(bench):
 
 @case("file.folders_that_cannot_be")
 def impossible_folders(bench):
-    """Each command that makes a folder says what is wrong with its name."""
+    """Each command that makes a folder reports the fault of its name."""
     (bench.folder / "circle").symlink_to("circle")
     (bench.folder / "nowhere").symlink_to("missing")
     scratch(bench, "file", b"")
@@ -189,7 +189,7 @@ def impossible_folders(bench):
 
 @case("file.a_lost_checkpoint_does_not_lose_the_picture", "program", "input")
 def lost_checkpoint(bench):
-    """No file may be as large as the checkpoint; the picture is smaller."""
+    """No file may be as large as the checkpoint; the image is smaller."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
     words = ("render", "--backend", "reference", "--size", "48x32", "--samples", "64", "--env-size", "64", "--env-samples", "32")

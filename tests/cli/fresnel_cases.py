@@ -8,13 +8,13 @@ from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
 GOLD = {"eta": [0.143, 0.375, 1.44], "k": [3.98, 2.39, 1.60]}
-# A grazing view, in which reflectances by the laws differ most.
+# A grazing view, where the laws' reflectances differ most.
 CLOSE = ("--eye", "0.85,0.3,0.28", "--target", "0,0.3,0", "--fov", "8", "--size", "24x24", "--msaa", "1", "--no-background",
          "--env-size", "64", "--env-samples", "64")
 
 
 def triangle_of(conductor=None, metallic=1.0, color=0.4, **more):
-    """A triangle that the view lies in, of a rough material."""
+    """Returns a triangle that fills the view, with a rough material."""
     gltf = files.triangle()
     gltf["meshes"][0]["primitives"][0]["material"] = 0
     material = {"pbrMetallicRoughness": {"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [color, color, color, 1]}, **more}
@@ -33,7 +33,7 @@ def faults(bench):
                               (dict(GOLD, eta=[1, -1, 1]), (at + "/conductor/eta/1",)), (dict(GOLD, k=[1, 2, 1e9]), (at + "/conductor/k/2",))):
         refuse(bench, scratch(bench, "bad.gltf", files.text(triangle_of(conductor))), needles=places)
     refuse(bench, scratch(bench, "bad.gltf", files.text(triangle_of(extras={"burnish": 3}))), needles=(at,))
-    for others in ("words", 7, ["a"], {"burn": 1}, {"burnish": {}}, {"conductor": "gold"}): # of other programs
+    for others in ("words", 7, ["a"], {"burn": 1}, {"burnish": {}}, {"conductor": "gold"}): # extras of other programs
         bench.run("render", scratch(bench, "good.gltf", files.text(triangle_of(extras=others))), *CLOSE, "--technique", "bent_normal").expect(0)
     bench.run("render", "--fresnel", "exact").expect(2).expect_one_line("--fresnel", "schlick", "conductor", "dielectric")
 

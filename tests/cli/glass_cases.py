@@ -12,7 +12,7 @@ PLACE = "/materials/0/extensions/KHR_materials_"
 
 
 def glass(factor=1.0, ior=1.5, texture=False, roughness=0.4, **more):
-    """A triangle that the view lies in."""
+    """Returns a triangle that fills the view."""
     gltf = files.textured("data:image/png;base64," + files.base64.b64encode(files.png(4, 4)).decode())
     transmission = {"transmissionFactor": factor, **({"transmissionTexture": {"index": 0}} if texture else {})}
     extensions = {"KHR_materials_transmission": transmission, "KHR_materials_ior": {"ior": ior},

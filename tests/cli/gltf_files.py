@@ -15,7 +15,7 @@ def data_uri(data):
 
 
 def triangle(positions=POSITIONS, indices=INDICES):
-    """A scene of one triangle, as a dictionary."""
+    """Returns a scene with one triangle, as a dictionary."""
     return {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -35,7 +35,7 @@ def triangle(positions=POSITIONS, indices=INDICES):
 
 
 def textured(image_uri):
-    """The triangle with a base colour texture."""
+    """Returns the triangle with a base colour texture."""
     uvs = struct.pack("<6f", 0, 0, 1, 0, 0, 1)
     gltf = triangle()
     gltf["meshes"][0]["primitives"][0]["material"] = 0
@@ -54,7 +54,7 @@ def text(gltf):
 
 
 def glb(gltf, binary=POSITIONS + INDICES):
-    """The binary container, with the first buffer as its chunk."""
+    """Returns the binary container, with the first buffer as its chunk."""
     gltf = copy.deepcopy(gltf)
     gltf["buffers"][0] = {"byteLength": len(binary)}
     body = json.dumps(gltf).encode()
@@ -65,7 +65,8 @@ def glb(gltf, binary=POSITIONS + INDICES):
 
 
 def png(width, height, rows=None, color=None):
-    """An RGB picture, of one colour or of color(x, y); `rows` fewer than `height` make a header that promises more than the file holds."""
+    """Returns an RGB image with one colour or color(x, y). If `rows` is less than `height`, the header promises more than the file
+    holds."""
     if color:
         raw = b"".join(b"\0" + b"".join(bytes(color(x, y)) for x in range(width)) for y in range(height))
     else:

@@ -1,4 +1,4 @@
-"""Runs the program and looks at what it says and leaves behind."""
+"""Runs the program and checks its messages and files."""
 
 import json
 import os
@@ -14,7 +14,7 @@ CASES = {}  # name -> (function, labels)
 
 
 class Skipped(Exception):
-    """The case cannot be run on this machine; the text says why."""
+    """The case cannot run on this machine; the text gives the reason."""
 
 
 class Failed(Exception):
@@ -22,8 +22,9 @@ class Failed(Exception):
 
 
 def case(name, *labels, tier="check", budget=None):
-    """Registers a test area.claim_in_words of a tier: quick, check or nightly. budget: CPU seconds that it may take, if not those of its tier
-    (tests/costs.py). The label `input` marks tests that the sanitizer build runs too, `compilers` tests that need another build's program."""
+    """Registers a test area.claim_in_words of a tier: quick, check or nightly. budget: CPU seconds that the test may take, if not the
+    tier's (tests/costs.py). The label `input` marks tests for the sanitizer build, `compilers` marks tests that need another build's
+    program."""
 
     def register(function):
         CASES[name] = (function, (tier, *labels, *([f"budget_{budget}"] if budget else [])))
@@ -38,7 +39,7 @@ def check(condition, text):
 
 
 def data_files(roots, folder, suffixes):
-    """{name below the folder: path} of the test data's files with one of the suffixes, each name once, by name."""
+    """Returns {name below the folder: path} of the test data's files with one of the suffixes, sorted by name, each name once."""
     found = {}
     for root in roots:
         for path in (root / folder).rglob("*"):
@@ -48,7 +49,7 @@ def data_files(roots, folder, suffixes):
 
 
 def words_of(name):
-    """A file's name as test names are written."""
+    """Returns a file's name in the form of test names."""
     return re.sub(r"[^a-z0-9]+", "_", name.lower())
 
 
@@ -67,7 +68,7 @@ class Completed:
         return self
 
     def expect_one_line(self, *needles):
-        """Exactly one line on stderr, which begins as errors do and names the needles."""
+        """Expects exactly one error line on stderr, which contains the needles."""
         lines = self.err.splitlines()
         check(len(lines) == 1 and self.err.endswith("\n"), f"expected one line on stderr\n{self.describe()}")
         check(lines[0].startswith("burnish: "), f"the line does not begin with 'burnish: '\n{self.describe()}")
@@ -77,12 +78,12 @@ class Completed:
 
 
 class Bench:
-    """What a case works with: the program, a folder of its own, the test data: tests/data, and what lies beside the checkout."""
+    """Environment of a case: the program, a new folder, and the test data (tests/data and an optional second folder)."""
 
     def __init__(self, program, compare_program, data, folder, sanitized):
         self.program, self.compare_program = program, compare_program
         self.data, self.sanitized = data, sanitized
-        self.cache = pathlib.Path(folder) / "cache"  # shared by all cases, so that an environment is baked once
+        self.cache = pathlib.Path(folder) / "cache"  # all cases share it, so each environment is baked once
 
     def open(self, name):
         self.folder = self.cache.parent / name
@@ -90,7 +91,8 @@ class Bench:
         self.folder.mkdir(parents=True)
 
     def data_file(self, path):
-        """A file or folder of the test data. What only lies beside the checkout is absent elsewhere: only nightly cases may ask for it."""
+        """Returns the path of a test data file or folder. Files of the optional folder may be missing, so nightly cases alone may ask
+        for them."""
         for root in self.data:
             if (root / path).exists():
                 return root / path
@@ -101,15 +103,15 @@ class Bench:
         env["XDG_CACHE_HOME"] = str(self.cache)
         env["ASAN_OPTIONS"] = "allocator_may_return_null=1:hard_rss_limit_mb=4096:intercept_tls_get_addr=0:" + env.get("ASAN_OPTIONS", "")
         env["UBSAN_OPTIONS"] = "print_stacktrace=1"
-        if self.sanitized:  # Vulkan's drivers leak, and they are not what is looked at
+        if self.sanitized:  # Vulkan drivers leak and are not under test
             env["VK_DRIVER_FILES"] = env["VK_ICD_FILENAMES"] = str(self.cache / "none")
-            env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers look at
+            env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers check
         env.update(extra)
         return env
 
     def run(self, *arguments, program=None, env=None, file_size=None, user=None, processes=None, timeout=120.0):
-        """Runs the program in the case's folder. `file_size`: no file may grow beyond these bytes. `processes`: the user has so many at most,
-        and threads count."""
+        """Runs the program in the case's folder. `file_size`: largest file in bytes. `processes`: largest number of the user's
+        processes, including threads."""
         command = [program or self.program, *map(str, arguments)]
 
         def limit():
@@ -122,7 +124,7 @@ class Bench:
                 resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes))
 
         with open(self.folder / ".stdout", "w+b") as out, open(self.folder / ".stderr", "w+b") as err:
-            # A limit on file sizes holds for these two as well, so the program gets pipes then.
+            # A limit on file sizes applies to these two files as well, so the program gets pipes then.
             piped = file_size is not None
             begin = time.monotonic()
             child = subprocess.Popen(command, cwd=self.folder, env=self.environment(env or {}), preexec_fn=limit,
@@ -142,7 +144,7 @@ class Bench:
 
     @staticmethod
     def wait(child, begin, timeout):
-        """wait4 gives the memory of this very child."""
+        """Waits by wait4, which reports this child's memory."""
         while True:
             pid, status, usage = os.wait4(child.pid, os.WNOHANG)
             if pid:
@@ -156,7 +158,7 @@ class Bench:
             time.sleep(0.005)
 
     def figures(self, *arguments, code=0, **options):
-        """Renders and gives the --stats."""
+        """Renders, and returns the --stats."""
         done = self.run("render", *arguments, "--stats", "-", **options).expect(code)
         try:
             return json.loads(done.out)
@@ -167,7 +169,7 @@ class Bench:
         return sorted(path.name for path in self.folder.rglob("*"))
 
 
-# A picture small enough for hundreds of runs: the environment is a coarse bake, read from the cache after the first.
+# An image small enough for hundreds of runs. The environment is a coarse bake, cached after the first run.
 SMALL = ("--size", "160x120", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
 
 

@@ -1,4 +1,4 @@
-"""Files made to harm: they cost a line and an exit code, never the machine's memory, another file or the terminal."""
+"""Hostile files: they cost one line and an exit code, never the machine's memory, another file or the terminal."""
 
 import pathlib
 import re
@@ -16,7 +16,7 @@ TILE = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "
 
 
 def scaled(scale=1.0, camera=None, matrix=None):
-    """The triangle as large as is asked for, seen by a camera of the file where one is given."""
+    """Returns the triangle scaled by `scale`, seen by the file's camera if one is given."""
     positions = struct.pack("<9f", *(scale * x for x in (-1, 0, 0, 1, 0, 0, 0, 1, 0)))
     gltf = files.triangle(positions=positions)
     gltf["accessors"][0].update(min=[-scale, 0, 0], max=[scale, scale, 0])
@@ -37,7 +37,7 @@ def perspective(near, yfov=1.0):
     return {"type": "perspective", "perspective": {"yfov": yfov, "znear": near}}
 
 
-# Scenes at the edges of what floats hold, and how each is looked at.
+# Scenes at the limits of floats, each with its view.
 DEGENERATE = {
     **{f"scale_{scale:g}": (scaled(scale), ()) for scale in (1e-38, 1e-30, 1e-18, 1e-9, 1e9, 1e16, 1e18, 1e20, 1e30, 3e38)},
     **{f"orthographic_{half:g}": (scaled(camera=orthographic(half)), ()) for half in (0.0, -1.0, 1e-30, 1e16, 1e18, 1e30, 3e38)},
@@ -108,7 +108,7 @@ def repaired_environment(bench):
 
 @case("hostile.what_maps_and_bakes_needed_is_said")
 def repaired_maps(bench):
-    """Of pictures of floats that hold none, and of scenes, whatever reads them."""
+    """Covers float images with invalid values, and scenes, for every reader."""
     pixels = [0.5] * (8 * 8 * 3)
     pixels[5], pixels[30], pixels[31] = float("nan"), float("inf"), float("nan")
     scratch(bench, "bad.pfm", b"PF\n8 8\n-1.0\n" + struct.pack(f"<{len(pixels)}f", *pixels))
@@ -234,7 +234,7 @@ def header_bombs(bench):
 
 @case("hostile.offsets_that_lead_out_of_the_file", "input")
 def offsets(bench):
-    """An OpenEXR picture whose lines lie before its first byte, or far behind the last: its library added up what made 3 of -1 and 4."""
+    """An OpenEXR image whose lines lie before its first byte, or far behind the last. OpenEXR adds offsets unchecked: -1 and 4 give 3."""
     whole = (pathlib.Path(__file__).parent.parent / "fuzz/corpus/exr/lines_before_the_file.exr").read_bytes()
     at = whole.index(b"\xff" * 8 + b"\xff" * 8)
     for offset in (-1, -4, -8, -4096, -(1 << 40), -(1 << 63), (1 << 63) - 1, len(whole) + 1):
@@ -246,7 +246,7 @@ def offsets(bench):
 
 @case("hostile.headers_that_scale_by_nothing", "input")
 def scales(bench):
-    """Pictures whose samples are divided by 0, or multiplied by 0 or by what is no number."""
+    """Images whose samples are divided by 0, or multiplied by 0 or by NaN."""
     pixels = struct.pack("<48f", *[0.5] * 48)
     for scale in (b"0", b"-0.0", b"nan", b"-inf", b"1e400", b"1e-400", b"x", b"1x", b"1" * 100):
         scratch(bench, "bad.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels)
@@ -292,7 +292,7 @@ def names(bench):
     gltf["cameras"] = [{"name": EVIL, **orthographic(1.0)}]
     gltf["scenes"][0]["nodes"].append(1)
     scratch(bench, "scene.gltf", files.text(gltf))
-    path = bench.folder / "sc\udcff\x1bene.gltf"  # no UTF-8
+    path = bench.folder / "sc\udcff\x1bene.gltf"  # not UTF-8
     path.write_text(files.text(gltf))
     scratch(bench, "evil\x9b\u202e\x1b.gltf", files.text(gltf))
     pages = ["p.svg"] + (["r/report.html"] if "reference" in bench.run("info").expect(0).out else [])
@@ -311,7 +311,7 @@ def names(bench):
             check(all(c >= " " or c == "\n" for c in text) and "\x7f" not in text and "\x9b" not in text and "\u202e" not in text and "\ufffd" not in text,
                   f"a control character comes through\n{done.describe()!r}")
     for name in pages:
-        text = (bench.folder / name).read_text(encoding="utf-8")  # fails where it is no UTF-8
+        text = (bench.folder / name).read_text(encoding="utf-8")  # fails on invalid UTF-8
         check("\x1b" not in text and "<b>&name" not in text, f"{name} holds the name as it is")
         if name.endswith((".svg", ".xml")):
             xml.dom.minidom.parse(str(bench.folder / name))
@@ -320,7 +320,7 @@ def names(bench):
 
 @case("hostile.names_of_materials_make_names_of_files", "input")
 def file_names(bench):
-    """Of `bake mip --preview`: below the folder, each once, and none longer than a file's name may be."""
+    """For `bake mip --preview`: names lie below the folder, are unique, and are never too long."""
     scratch(bench, "wood.png", files.png(4, 4, color=lambda x, y: (120 + 4 * x, 120 + 4 * y, 240)))
     names = ("../../up", "/tmp/down", "a/b", "a_b", "A\0b", "..", "", "x" * 300, "x" * 300, "\u00e9" * 300, EVIL)
     gltf = files.textured("wood.png")

@@ -1,4 +1,4 @@
-"""Scenes that bring their light as a cube of images (EXT_lights_image_based)."""
+"""Scenes with light as a cube of images (EXT_lights_image_based)."""
 
 import base64
 import copy
@@ -17,7 +17,7 @@ AWAY = {"+x": (1, 0, 0), "-x": (-1, 0, 0), "+y": (0.001, 1, 0), "-y": (0.001, -1
 
 
 def lit(image="data:image/png;base64,", size=8, faces=None):
-    """A triangle with a light of six images."""
+    """Returns a triangle with a light of six images."""
     gltf = files.triangle()
     uris = faces or [image + base64.b64encode(files.png(size, size, color=lambda x, y, c=c: [255 * k for k in c])).decode() for c in COLOURS.values()]
     gltf["images"] = [{"uri": uri} for uri in uris]
@@ -33,7 +33,7 @@ def light(gltf):
 
 
 def seen(bench, towards, *words):
-    """The colour of the sky in a direction, from far beside the scene."""
+    """Returns the sky's colour in a direction, from far beside the scene."""
     eye = (50.0, 70.0, 300.0)
     target = [e + d for e, d in zip(eye, AWAY[towards])]
     at = ("--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)), "--fov", "5")
@@ -70,7 +70,7 @@ def taken(bench):
     gltf = lit()
     light(gltf)["rotation"], light(gltf)["intensity"] = [0, 0.5 ** 0.5, 0, 0.5 ** 0.5], 3
     scratch(bench, "turned.gltf", files.text(gltf))
-    found = seen(bench, "-z", "turned.gltf")  # a quarter about +Y, counter-clockwise from above
+    found = seen(bench, "-z", "turned.gltf")  # a quarter turn about +Y, counter-clockwise from above
     check(near(found, (3, 0, 0)), f"turned and three times as bright it is {found}")
     rgba = b"\x89PNG\r\n\x1a\n"
     for kind, data in ((b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 6, 0, 0, 0)), (b"IDAT", zlib.compress((b"\0" + b"\xff\xff\0\x33" * 8) * 8)), (b"IEND", b"")):

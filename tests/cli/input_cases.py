@@ -1,4 +1,4 @@
-"""Bad input: one line that names the file, exit code 4, nothing left behind, soon and without much memory."""
+"""Bad input: one line that names the file, exit code 4, nothing left behind, quickly and with little memory."""
 
 import os
 import struct
@@ -6,13 +6,13 @@ import struct
 import gltf_files as files
 from harness import GIB, SMALL, Failed, Skipped, case, check, data_files, scratch, words_of
 
-SECONDS = 10.0  # a run on bad input may take, at most
+SECONDS = 10.0  # maximum time of a run on bad input
 SCENES = (".gltf", ".glb")
 PICTURES = (".exr", ".hdr", ".png", ".jpg")
 
 
 def refuse(bench, scene, *extra, needles=(), env=None, code=4, **options):
-    """Renders and expects the refusal of `env` where given, else of `scene`."""
+    """Renders, and expects the refusal of `env` where given, else of `scene`."""
     before = set(bench.left_behind())
     what = ("--env", env) if env else ()
     small = ("--size", "64x48", "--msaa", "1") + (() if env else SMALL[4:])
@@ -27,12 +27,12 @@ def refuse(bench, scene, *extra, needles=(), env=None, code=4, **options):
 
 
 def accept(bench, scene, *extra):
-    """The file without its fault must load, or its refusal would show nothing."""
+    """Loads the file without its fault; otherwise the refusal would prove nothing."""
     return bench.run("render", scene, *SMALL, "-o", "accepted.png", *extra).expect(0)
 
 
 def add_data_cases(data):
-    """One case for each malformed file of the test data."""
+    """Adds one case for each malformed file in the test data."""
     for name, path in data_files(data, "malformed", SCENES + PICTURES).items():
 
         def run(bench, path=path):
@@ -71,7 +71,7 @@ def empty_file(bench):
 
 @case("input.noise_is_refused", "input")
 def noise(bench):
-    """Bytes of a fixed generator under every name."""
+    """Reads bytes from a fixed generator under every name."""
     state, data = 12345, bytearray()
     for _ in range(4096):
         state = (state * 1103515245 + 12345) & 0x7FFFFFFF
@@ -94,7 +94,7 @@ def unreadable_file(bench):
     path.chmod(0)
     user = None
     if os.geteuid() == 0:
-        user = 65534  # root reads everything: nobody must run it
+        user = 65534  # root reads everything, so another user must run it
         bench.folder.chmod(0o777)
         try:
             bench.run("--version", user=user).expect(0)

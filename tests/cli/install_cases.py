@@ -1,4 +1,4 @@
-"""What an installed program finds, and that OpenImageIO, which brings some 250 shared libraries, is loaded only for pictures that need it."""
+"""Files that an installed program finds. OpenImageIO, with some 250 shared libraries, is loaded only for images that need it."""
 
 import pathlib
 import shutil
@@ -12,7 +12,7 @@ MODULE = "burnish_openimageio.so"
 
 @case("install.copy_reads_and_writes_pictures", "input")
 def installed(bench):
-    """Installed outside of the build tree, whose module would be found too."""
+    """Installs outside the build tree, whose module would otherwise be found."""
     cmake = shutil.which("cmake")
     if not cmake:
         raise Skipped("no cmake")
@@ -33,7 +33,7 @@ def installed(bench):
 
 @case("install.library_is_found_and_draws_the_same")
 def library(bench):
-    """Another program, built against the installed tree by find_package alone, draws what `burnish render` draws."""
+    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
     cmake = shutil.which("cmake")
     if not cmake:
         raise Skipped("no cmake")
@@ -60,7 +60,7 @@ def library(bench):
 
 @case("install.without_the_module_png_still_works", "input")
 def without_module(bench):
-    """A program alone still renders what is built in to PNG, and says in one line what it cannot."""
+    """A program alone still renders built-in scenes to PNG, and reports other formats in one line."""
     bench.run("render", *SMALL, "-o", "a.exr", "-o", "a.hdr").expect(0)
     with tempfile.TemporaryDirectory(prefix="burnish-alone-") as folder:
         program = pathlib.Path(shutil.copy(bench.program, folder))
@@ -79,7 +79,7 @@ def without_module(bench):
 
 
 def loaded(bench, *arguments):
-    """The dynamic loader's account of the files that a run loads."""
+    """Returns the dynamic loader's list of loaded files."""
     bench.run(*arguments, env={"LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(bench.folder / "loader")}).expect(0)
     accounts = list(bench.folder.glob("loader.*"))
     text = "".join(account.read_text("utf-8", "replace") for account in accounts)
@@ -92,7 +92,7 @@ def loaded(bench, *arguments):
 
 @case("install.png_loads_no_image_library")
 def png_loads_none(bench):
-    bench.run("render", *SMALL).expect(0)  # the environment is in the cache from here on
+    bench.run("render", *SMALL).expect(0)  # puts the environment in the cache
     for arguments in (("list", "techniques"), ("info",), ("render", *SMALL, "-o", "a.png")):
         account = loaded(bench, *arguments)
         for name in ("OpenImageIO", MODULE):

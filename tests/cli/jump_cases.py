@@ -1,5 +1,5 @@
-"""Laws of steps: along options, through the points where there might be a jump, pictures change no faster than the reference does, and no step
-stands out of its row. What breaks either stands in BREACHES, with how far, and is printed with how far it goes now."""
+"""Laws of steps: along options, through points where a jump might occur, images change no faster than the reference, and no step exceeds
+its row. BREACHES holds the violations with their size. Their present size is printed."""
 
 import csv
 import io
@@ -10,10 +10,10 @@ from chart_cases import needs_embree
 from harness import case, check
 from law_cases import LIGHT, SIDE, lobes, names_of
 
-MORE, NOISE = 1.5, 2e-4  # a step may be so many times as large as the reference's, or as the median of its row, and so much more
+MORE, NOISE = 1.5, 2e-4  # a step may exceed the reference's step, or its row's median, by this factor plus this amount
 
-# Options through their special points, in steps so small that pictures differ by little: what goes, words besides, the pictures. An amount is
-# what follows a trial's name (core/scene/builtin/trials.cpp).
+# Options that move through their special points, in steps with little change between images: animated option, other options, number of
+# images. An amount follows a trial's name (core/scene/builtin/trials.cpp).
 PATHS = {
     "anisotropy through 0": ("anisotropy=-0.005:0.005", "builtin:sphere --roughness 0.4", 11),
     "anisotropy to 1": ("anisotropy=0.99:1", "builtin:sphere --roughness 0.4", 11),
@@ -27,18 +27,19 @@ PATHS = {
     "eye across a plane of symmetry": ("eye=-0.005,0.25,0.6:0.005,0.25,0.6", "builtin:sphere --target 0,0,0 --roughness 0.4 --anisotropy 0.8", 11),
     "distance": ("zoom=0.995:1.005", "builtin:sphere --roughness 0.4 --anisotropy 0.5", 11),
 }
-# What ends where lobes change ever faster: no step of it is usual, and those of the reference are beside it in its own row, too.
+# Paths that end where lobes change ever faster. No step is typical there, so a row's limit also includes the reference's steps.
 ENDS = {"anisotropy to 1", "roughness to 0", "roughness to 0 by lamps"}
-# Of some techniques alone, which the reference knows nothing of: only their own row is beside them.
+# Options of single techniques, unknown to the reference. Their limit is their own row alone.
 OWN_PATHS = {
     "axis-k": ("axis-k=0.995:1.005", "builtin:sphere --roughness 0.4 --anisotropy 0.8", 11, "major_axis"),
     "axis-beta": ("axis-beta=2.2:2.4", "builtin:sphere --roughness 0.4 --anisotropy 0.8", 11, "major_axis"),
     "axis-beta to 0": ("axis-beta=0.01:0", "builtin:sphere --roughness 0.4 --anisotropy 0.8", 11, "major_axis"),
 }
-# Of every model that --brdf takes, by mc.
+# Paths for every model of --brdf, by mc.
 MODEL_PATHS = ("anisotropy through 0", "roughness to 0", "roughness to 1", "tilt through 0")
-SINKING = "builtin:sinking-lamp --env builtin:night --eye 0,-0.3,0.4 --target 0,0,0 --fov 20"  # without the lamp itself
-# Of every way of area lights. A lamp touches the plate's plane with its lower edge, and leaves with its upper one, in steps of a two-hundredth of its height.
+SINKING = "builtin:sinking-lamp --env builtin:night --eye 0,-0.3,0.4 --target 0,0,0 --fov 20"  # without the lamp's surface
+# Paths for every area light method. A lamp touches the plate's plane with its lower edge and leaves with its upper edge, in steps of 1/200
+# of the height.
 AREA_PATHS = {
     "anisotropy through 0 by lamps": ("anisotropy=-0.005:0.005", "builtin:lights --roughness 0.4", 11),
     "roughness to 0 by lamps": ("roughness=0.01:0", "builtin:lights --anisotropy 0.6", 11),
@@ -50,13 +51,16 @@ SHORT = (("lobe_line", "anisotropy through 0"), ("bent_normal", "anisotropy thro
          ("major_axis_adaptive", "roughness where counts change"), ("split_isotropic", "environment through a whole turn"),
          ("filtered_is_ggx", "tilt through 0"))
 
-SPREAD = 1.05  # a breach may grow so many times; one that shrinks may stay in the table
+SPREAD = 1.05  # a breach may grow by this factor; a smaller breach may stay in the table
 
-# (technique, model or way; path): the largest step over what is allowed, as it was found, beside the reference's at its place and beside its own row's
-# median; 0: it holds. Where eta changes its sign the lobe's axes swap, and with them the pattern of samples: noise, which more samples lessen, and the
-# ends of lines. Near a roughness of 0 the reference's lobe is narrower than anything that is seen by it and its pictures are one, while levels of a cube
-# go on evenly to their finest. An eta of 1 makes lines of samples long faster than the lobe, whose other width is kept from nothing. split_isotropic
-# leaves the usual lobe of lights and the albedo of untilted ones in a step of a thousandth. Cosines leave light of a lamp that is down, where it is dark.
+# (technique, model or method; path): the largest step divided by the allowed step, against the reference and against the row's median; 0:
+# within the limit.
+# - Where eta changes its sign the lobe's axes swap, and with them the sample pattern (noise, which more samples reduce) and line ends.
+# - Near roughness 0 the reference's lobe is narrower than all visible detail and its images stay equal, while cube levels continue evenly
+# to the finest.
+# - At eta 1 lines of samples grow faster than the lobe, whose other width has no lower limit.
+# - split_isotropic leaves the untilted GGX lobe for lights and albedo in a step of a thousandth.
+# - Transformed cosines leave light from a lamp below the horizon, where it is dark.
 BREACHES = {
     ("auto", "anisotropy through 0"): (2.29, 0),
     ("auto", "anisotropy to 1"): (4.56, 2.95),
@@ -137,11 +141,11 @@ BREACHES = {
     ("ellipsoid_correlated", "roughness to 1"): (1.37, 0),
 }
 KEPT = pathlib.Path(__file__).parent / "reference_steps.txt"
-SAMPLES = 4096  # of the reference, a pixel
+SAMPLES = 4096  # of the reference, per pixel
 
 
 def moved(bench, path, words, name):
-    """A row of pictures NAME%02d.pfm."""
+    """Draws a row of images NAME%02d.pfm."""
     along, own, count = path
     scene, *own = own.split()
     words = (*LIGHT, *own, *words, *SIDE)
@@ -151,12 +155,12 @@ def moved(bench, path, words, name):
             bench.run("render", f"{scene}={first + (last - first) * i / (count - 1):.6f}", *words, "-o", f"{name}{i:02d}.pfm").expect(0)
     else:
         bench.run("render", scene, *words, "--animate", along, "--steps", str(count), "-o", f"{name}%02d.pfm").expect(0)
-    for left in range(count, 100):  # of a longer row
+    for left in range(count, 100):  # from a longer row
         (bench.folder / f"{name}{left:02d}.pfm").unlink(missing_ok=True)
 
 
 def steps_of(bench, path, words):
-    """Mean HDR-FLIP between neighbours."""
+    """Returns the mean HDR-FLIP between neighbours."""
     moved(bench, path, words, "s")
     rows = list(csv.DictReader(io.StringIO(bench.run("compare", "--sequence", "s%02d.pfm", "s%02d.pfm", "-q", "--csv", "-").expect(0).out)))[1:]
     return [float(row["change"]) for row in rows]
@@ -167,19 +171,19 @@ def reference_steps(bench, path, lobe):
 
 
 def without_swaps(s):
-    """Where eta changes its sign the axes of the reference's samples swap, and one step is their noise, which more samples lessen (.0157 by 256 a pixel,
-    .0063 by 4096, .0040 by 16384, beside .0017): of three neighbours the median counts."""
+    """Replaces each step by the median of three neighbours. Where eta changes its sign the reference's sample axes swap, and one step is
+    noise. More samples reduce this noise (see the notebook)."""
     return [s[0], *(sorted(s[i - 1:i + 2])[1] for i in range(1, len(s) - 1)), s[-1]]
 
 
 def kept_steps():
-    """{(path, lobe): the reference's steps}."""
+    """Returns {(path, lobe): the reference's steps}."""
     rows = [[part.strip() for part in line.split("|")] for line in KEPT.read_text().splitlines()]
     return {(path, lobe): without_swaps(list(map(float, steps.split()))) for path, lobe, steps in rows}
 
 
 def excess(bench, key, path, words, reference):
-    """The largest step over what is allowed beside the reference's at its place, and beside its own row's median: above 1 is a breach."""
+    """Returns the largest step divided by the allowed step, against the reference and against the row's median. Above 1 is a breach."""
     steps = steps_of(bench, path, words)
     usual = sorted(steps)[len(steps) // 2]
     beside = reference if key[1] in ENDS else [0.0] * len(steps)
@@ -202,7 +206,7 @@ def held(bench, asked):
 
 
 def lobe_of(technique, path):
-    return "ashikhmin_shirley" if technique == "as_mc" and not path.startswith("tilt") else ""  # which has no tilt
+    return "ashikhmin_shirley" if technique == "as_mc" and not path.startswith("tilt") else ""  # tilt does not exist there
 
 
 def by_technique(bench, some=None):
@@ -252,7 +256,7 @@ def sinking_lamps(bench):
 
 @case("laws.steps_of_the_reference_are_those_that_are_kept", tier="nightly")
 def reference_is_kept(bench):
-    """BN_BLESS=1 keeps what is found."""
+    """BN_BLESS=1 keeps the steps found."""
     needs_embree(bench)
     rows = {(key[1], lobe): path for key, (path, _, lobe) in {**by_technique(bench), **by_model(bench), **by_way(bench, AREA_PATHS)}.items()
             if key[1] not in OWN_PATHS}

@@ -1,4 +1,4 @@
-"""Key lights of environments: the option, what is said about them, and pictures of environments that are hardly any."""
+"""Key lights of environments: the option, its messages, and degenerate environments."""
 
 import json
 import pathlib
@@ -34,7 +34,7 @@ def as_many(bench):
 
 @case("key_lights.are_none_in_the_studio")
 def none_in_the_studio(bench):
-    """Whose picture does not change."""
+    """The studio's image does not change."""
     hashes = set()
     for words in ((), ("--key-lights", "off")):
         found = bench.figures(*SMALL, *words)
@@ -66,7 +66,7 @@ def nothing_else(bench):
 
 @case("key_lights.of_poor_environments_do_no_harm", "input")
 def poor_environments(bench):
-    """Black, even, one bright texel, one pixel: pictures without NaN, and the light is there."""
+    """Black, uniform, one bright texel, one pixel: images without NaN that keep the light."""
     pictures = {"black": (32, 16, even(0.0)), "even": (32, 16, even(1.0)), "texel": (64, 32, with_texels({(20, 10): 1e6}, 0.0)),
                 "bright_texel": (64, 32, with_texels({(20, 10): 1e6}, 0.5)), "dot": (1, 1, even(2.0)), "all_bright": (32, 16, even(1e9))}
     for name, (width, height, value) in pictures.items():
@@ -131,7 +131,7 @@ def same_on_every_road(bench):
 
 @case("key_lights.lower_the_error_under_suns", tier="nightly")
 def lower_the_error(bench):
-    """The small table of bench/lab/key_lights.py: under suns the mean error with key lights is at most .85 times that without."""
+    """The small table of bench/lab/key_lights.py: under suns, key lights lower the mean error to at most .85 times."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
     done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
@@ -147,7 +147,7 @@ def lower_the_error(bench):
 
 
 def made_up_report(flips, cpu=1.0):
-    """As `burnish chart` writes it, of two places; flips: by technique, a number a place."""
+    """Returns a report in the format of `burnish chart`, with two places; flips: by technique, a number a place."""
     return {"rows": [{"scene": "s", "env": env, "technique": technique, "flip_mean": flip, "cpu_ms_median": cpu * (samples or 1),
                       "settings": {"samples": samples, "roughness": 0.5, "anisotropy": 0.8}}
                      for technique, found in flips.items()
@@ -157,7 +157,7 @@ def made_up_report(flips, cpu=1.0):
 
 @case("key_lights.table_of_aims_is_counted_by_places")
 def table_of_aims(_):
-    """bench/lab/aims.py on reports that are made up."""
+    """Runs bench/lab/aims.py on invented reports."""
     sys.path.append(str(ROOT / "bench/lab"))
     import aims  # noqa: PLC0415
     flips = {"lobe_line": (0.02, 0.05), "major_axis_weighted": (0.1, 0.1), "bent_normal": (0.06, 0.04), "split_isotropic": (0.2, 0.2)}
@@ -175,7 +175,7 @@ def table_of_aims(_):
 
 @case("key_lights.aims_are_measured_by_one_command", tier="nightly")
 def aims_are_measured(bench):
-    """Its short form, four places, where lobe_line is to be the best."""
+    """Runs the short form, four places, where lobe_line must be the best."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
     done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],

@@ -1,4 +1,4 @@
-"""Jobs that are killed (kill -9) at random moments and started again: nothing is lost, the same bits come out, nothing is left lying."""
+"""Jobs that are killed (kill -9) at random moments and started again: no loss, equal bits, no leftovers."""
 
 import json
 import random
@@ -23,9 +23,9 @@ def seconds_of(bench, words, env=None):
 
 
 def kill_at_random(bench, words, kills, seed, longest, env=None, after=lambda: None, enough=lambda: True):
-    """Starts the command until it was killed so often, and `enough` is true. `after` looks at what is there. It lives for `longest` seconds at
-    most; whoever shares the machine may have gone or come since these were measured: a run that ends by itself tells how long one takes now,
-    and while it is not enough they live longer."""
+    """Starts the command until it was killed `kills` times and `enough` is true. `after` checks the files. A run lives for at most
+    `longest` seconds. The machine's load changes, so a run that ends by itself tells the present duration, and runs then live longer
+    until there are enough kills."""
     chance = random.Random(seed)
     killed = 0
     for _ in range(20 * kills):
@@ -51,7 +51,7 @@ def temporary(names):
 
 
 def killed_reference(bench, kills):
-    """Some rounds of samples, the state written after each."""
+    """Renders some rounds of samples, with the state written after each."""
     needs_embree(bench)
     words = (*REFERENCE[:-1], "--samples", "8192", "--env", "builtin:sky")
     begin = time.monotonic()
@@ -76,7 +76,7 @@ def references_long(bench):
 
 
 def killed_charts(bench, kills):
-    """The errors of a chart, its pictures and its reference; times differ from run to run."""
+    """Compares a chart's errors, images and reference; times differ from run to run."""
     needs_embree(bench)
     chart = (*CHART, "--sweep", "roughness=0.2,0.5")
     env = lambda name: {"XDG_CACHE_HOME": str(bench.folder / name)}
@@ -144,10 +144,10 @@ def bakes_long(bench):
 
 
 def killed_reports(bench, words, kills):
-    """`race` and `parity` write once, at the end: whole or nothing, and what they keep of pipelines does no harm to the next run."""
-    own = kills > 10  # a cache of its own, so that pipelines are compiled and written again and again
+    """`race` and `parity` write once, at the end, completely or not at all. Cached pipelines do no harm to the next run."""
+    own = kills > 10  # a separate cache, so that pipelines are compiled and written repeatedly
     env = {"XDG_CACHE_HOME": str(bench.folder / "cache")} if own else {}
-    env["GALLIVM_PERF"] = "nopt"  # pipelines are not optimised longer than pictures repay
+    env["GALLIVM_PERF"] = "nopt"  # optimising pipelines would take longer than drawing
     words = (*words, "--json", "found.json")
     begin = time.monotonic()
     done = bench.run(*words, env=env, timeout=500.0)
@@ -213,7 +213,7 @@ def renders_long(bench):
     killed_renders(bench, 60)
 
 
-# Jobs by name: the words, and what they write (a file or a folder), which is the same in every run. {} is a name before its ending.
+# Jobs by name: the words, and their output (a file or a folder), equal in every run. {} is a name before its suffix.
 JOBS = {
     "tables": (("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4", "-q", "-o", "{}.ltc"), ("{}.ltc",)),
     "trainings": (("train", "mip", "--steps", "12", "--size", "1x4", "-q", "-o", "{}.mipnet"), ("{}.mipnet",)),
@@ -224,8 +224,8 @@ JOBS = {
 
 
 def killed_job(bench, name, kills):
-    """What stands under a name after a kill is whole; the command, given again, makes the same bytes as one that was never killed, and
-    leaves nothing else."""
+    """A file under its final name is complete after a kill. The command, given again, makes the bytes of an uninterrupted run and leaves
+    nothing else."""
     if name == "atlases":
         needs_embree(bench)
     words, made = JOBS[name]
@@ -261,8 +261,8 @@ for job in JOBS:
 
 
 def sets_of_textures(bench, rounds, formats):
-    """Three commands at once make one new folder; a fourth is killed meanwhile, at some moment. At each moment the folder is not there or
-    holds all files; in the end it does, all three have succeeded, and nothing else is left."""
+    """Three commands make one new folder together, and a fourth is killed at some moment. At each moment the folder is missing or
+    complete. In the end all three have succeeded, and nothing else is left."""
     chance = random.Random(29)
     for form in formats:
         words = ("bake", "mip", "builtin:roofs=1", "--threads", "1", "--format", form, "-q", "-o")
@@ -278,7 +278,7 @@ def sets_of_textures(bench, rounds, formats):
                 check({path.name for path in folder.iterdir() if path not in temporary_paths(folder)} == set(whole), f"{form}: not all files")
             codes = [child.wait(timeout=120) for child in children[1:]]
             check(codes == [0, 0, 0], f"{form}, round {i}: exit codes {codes}")
-            bench.run(*words, folder.name).expect(0)  # sweeps what the killed one has left
+            bench.run(*words, folder.name).expect(0)  # removes the killed run's leftovers
             check({path.name: path.read_bytes() for path in folder.iterdir()} == whole, f"{form}, round {i}: other files")
     left = temporary(bench.left_behind())
     check(not left, f"left: {left}")
@@ -289,7 +289,7 @@ def temporary_paths(folder):
 
 
 def killed_sets(bench, kills):
-    """One alone that is killed leaves all files or no folder."""
+    """A single killed command leaves all files or no folder."""
     words = ("bake", "mip", "builtin:roofs=1", "--threads", "1", "--format", "png-levels", "-q", "-o")
     longest = seconds_of(bench, (*words, "whole"))
     names = {path.name for path in (bench.folder / "whole").iterdir()}

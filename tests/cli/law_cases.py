@@ -1,4 +1,4 @@
-"""Laws that every technique is held to: mirrored and scaled scenes give mirrored and scaled pictures, what theory says falls does."""
+"""Laws for every technique: mirrored and scaled scenes give mirrored and scaled images, and theory's decreases hold."""
 
 import array
 import csv
@@ -16,7 +16,7 @@ SIDE = ("--size", "64x64", "-q")
 
 
 def in_two_tiers(claim, law, some):
-    """law(bench, techniques): of some techniques in check, of all nightly."""
+    """Registers law(bench, techniques) for some techniques in check, and for all nightly."""
     case(f"laws.{claim}", budget=20)(lambda bench: law(bench, some))
     case(f"laws.{claim}_by_any_technique", tier="nightly")(lambda bench: law(bench, names_of(bench, "techniques")))
 
@@ -26,12 +26,12 @@ def names_of(bench, what):
 
 
 def lobes(bench):
-    """Models that --brdf takes and that have an albedo."""
+    """Returns the models of --brdf that have an albedo."""
     return [line.split()[0] for line in bench.run("list", "models").expect(0).out.splitlines() if "--brdf" in line and "heidrich" not in line]
 
 
 def words_of(path):
-    """Width, rows of floats from the bottom, of a .pfm."""
+    """Returns the width and the rows of floats, from the bottom, of a .pfm."""
     data = path.read_bytes()
     width, height = map(int, data.split(b"\n")[1].split())
     values = array.array("f", data[-12 * width * height:])
@@ -49,18 +49,18 @@ def flip(bench, a, b):
 
 
 def differing(one, other):
-    """Words of two pictures that differ, and by how much of theirs at most."""
+    """Returns the number of words that differ between two images, and their largest relative difference."""
     pairs = [(a, b) for x, y in zip(one, other, strict=True) for a, b in zip(x, y, strict=True) if a != b]
     return len(pairs), max((abs(a - b) / max(abs(a), abs(b)) for a, b in pairs), default=0.0)
 
 
-# Its squares and products with eta = 1/2 are floats: the deviations of slope are 3/16 and 1/16.
+# Its squares and products with eta = 1/2 are exact floats: the slope deviations are 3/16 and 1/16.
 EXACT = "0.4204482138156891"
 
 
 def turned_grain(bench, techniques):
-    """A grain along +t and -t is the same words; so is eta along the tangent as -eta where the tangent is turned a quarter clockwise, unless squared
-    widths are rounded: one of both is the other and a difference. (Counter-clockwise the lobe's axis points the other way, and samples with it.)"""
+    """A grain along +t and -t gives equal words. So does eta along the tangent and -eta with the tangent turned a quarter clockwise,
+    unless squared widths are rounded. (Counter-clockwise the lobe's axis points the other way, and samples with it.)"""
     for name, x in (("t", 255), ("minus_t", 0)):  # 128 is 0
         (bench.folder / f"{name}.png").write_bytes(png(4, 4, color=lambda *_, x=x: (x, 128, 255)))
     for name, tangent in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, -1.0, 0.0))):
@@ -83,13 +83,13 @@ def turned_grain(bench, techniques):
 in_two_tiers("grains_have_no_sign", turned_grain, ("auto", "major_axis_weighted"))
 
 
-# HDR-FLIP to its mirror image: rounding; what lies elsewhere in the four pixels of a quad, which have samples of their own; random samples.
+# HDR-FLIP to the mirror image: rounding; places within a quad's four pixels, which have separate samples; random samples.
 MIRRORED = {"auto": 0.005, "lobe_line": 0.005, "mc": 0.003, "as_mc": 0.006}
 
 
 def mirrored(bench, techniques):
-    """A sphere without lights, seen along the plane that its environment is symmetric about, by one sample a pixel: more lie in no mirrored places.
-    Words are not equal: triangles' corners are in another order."""
+    """Draws a sphere without lights, seen along its environment's symmetry plane, with one sample a pixel: more samples lie in no
+    mirrored places. Words are not equal, since triangles' corners come in another order."""
     def value(x, y):
         away = abs(x - 31.5)
         return (0.2 + 0.02 * away, 0.3 + 0.02 * y, 2.0 if 4 < away < 9 and y < 12 else 0.1)
@@ -114,7 +114,7 @@ in_two_tiers("mirrors_of_scenes_are_mirrors_of_pictures", mirrored, ("auto", "be
 
 @case("laws.radiance_has_no_scale", tier="nightly")
 def radiance(bench):
-    """Equal words, scaled by what the environment is."""
+    """Words are equal after scaling the environment."""
     for name in names_of(bench, "techniques"):
         drawn = lambda ev: picture(bench, "a", "builtin:plate", *LIGHT, "--roughness", "0.4", "--technique", name, "--env-exposure", ev)[1]
         usual = drawn("0")
@@ -123,7 +123,7 @@ def radiance(bench):
 
 
 def brushed(corners, index):
-    """A glTF file of one brushed mesh; a corner: place, normal, tangent and its sign, texture coordinates."""
+    """Returns a glTF file with one brushed mesh; a corner: position, normal, tangent with sign, texture coordinates."""
     data, index = struct.pack(f"<{12 * len(corners)}f", *(v for c in corners for v in c)), struct.pack(f"<{len(index)}H", *index)
     of = lambda at, kind, **more: {"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": len(corners), "type": kind, **more}
     return text({
@@ -139,7 +139,7 @@ def brushed(corners, index):
 
 
 def ball(scale):
-    """A sphere with its meridians as grain, of that radius."""
+    """Returns a sphere with this radius and with its meridians as grain."""
     corners, faces = [], []
     for j in range(13):
         for i in range(25):
@@ -154,7 +154,7 @@ def ball(scale):
 
 
 def scaled(bench, techniques):
-    """By powers of two equal words; by others but for rounding."""
+    """Scales by powers of two give equal words; others differ by rounding."""
     for name in techniques:
         def drawn(label, scale, place=(0.5, 1.0, 2.5), *words):
             scratch(bench, "ball.gltf", ball(scale))
@@ -169,7 +169,7 @@ def scaled(bench, techniques):
             drawn("b", scale)
             found = flip(bench, "a", "b")
             check(found < 0.002, f"{name}: FLIP {found} at {scale}")
-        # from as far as the narrowest view sees it well, a million away
+        # from a distance of a million, where the narrowest view still sees the object well
         for label, scale in (("a", 1.0), ("b", 1e6 / 1500)):
             width, rows = drawn(label, scale, (300.0, 560.0, 1359.0), "--fov", "0.1")
         check(len({v for row in rows for v in row}) > 3000, "there is nothing to be seen from afar")
@@ -182,7 +182,7 @@ in_two_tiers("scenes_have_no_scale", scaled, ("auto", "mc"))
 
 
 def white_ball(bench, *words):
-    """Mean of a picture of white metal under an even light."""
+    """Returns the mean of an image with white metal under uniform light."""
     (bench.folder / "even.exr").write_bytes(exr(16, 8, lambda *_: (1.0, 1.0, 1.0)))
     scratch(bench, "ball.gltf", ball(1.0))
     values = [v for row in picture(bench, "m", "ball.gltf", "--env", "even.exr", *LIGHT[2:], "--eye", "0.5,1,2.5", "--target", "0,0,0", *words)[1]
@@ -191,8 +191,7 @@ def white_ball(bench, *words):
 
 
 def monotone(bench, techniques):
-    """What theory says falls, falls: what metal gives back of light that it reflects once, as it grows rougher; and what it gives back as it
-    reflects less."""
+    """Theory's decreases hold: a metal's single-scattering reflection as it grows rougher, and its reflection as its reflectance falls."""
     for name in techniques:
         many = ("--samples", "1024") if name.endswith("mc") else ()
         for what, of in (("roughness", (0.1, 0.3, 0.5, 0.7, 0.9, 1.0)), ("f0", ("1,1,1", ".8,.8,.8", ".5,.5,.5", ".2,.2,.2", "0,0,0"))):

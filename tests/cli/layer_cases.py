@@ -1,4 +1,4 @@
-"""Layers of pictures, and pixels that are tonemapped before they are averaged."""
+"""Layers of images, and pixels whose parts are tonemapped before they are averaged."""
 
 import json
 import struct
@@ -15,7 +15,7 @@ ALL = "depth,normal,albedo,roughness,tangent,anisotropy,metalness,lod,object-id,
 
 
 def exr_channels(path):
-    """{channel: rows of floats} of a file of ours: scan lines of floats, sixteen a chunk, ZIP."""
+    """Returns {channel: rows of floats} of a file by the program: scan lines of floats, sixteen a chunk, ZIP."""
     data = path.read_bytes()
     at, attributes = 8, {}
     while data[at]:
@@ -87,7 +87,7 @@ def names(bench):
 
 @case("layers.are_the_same_bytes_by_vulkan")
 def twins(bench):
-    """So are the pictures of samples tonemapped each by itself, and those of samples shared between pixels (auto)."""
+    """Also compares images whose samples are tonemapped separately, and images whose samples are shared between pixels (auto)."""
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):
         for backend in ("tile", "vulkan"):
             drawn_by(bench, ("--aov", ALL, "--resolve", "display", "-o", f"{backend}.exr", "-o", f"{backend}.png"), backend, scene, *more)
@@ -124,7 +124,8 @@ def resolve(bench):
 
 
 def lone_plane(repeats=1.0, **material):
-    """A square of 2 by 2 metres that fills the picture of an orthographic camera right above it, its maps `repeats` times each way."""
+    """Returns a square of 2 by 2 metres that fills the image of an orthographic camera above it, with maps repeated `repeats` times each
+    way."""
     gltf = bare(**material)
     corners = ((-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1))
     columns = ([c for x, y in corners for c in (x, y, 0)], [0, 0, 1] * 6, [c * repeats for x, y in corners for c in ((x + 1) / 2, (1 - y) / 2)])
@@ -143,7 +144,7 @@ def lone_plane(repeats=1.0, **material):
 
 
 def texels_of(path):
-    """Rows of (red, green, blue), [0,255], of a PNG of 8 bits without interlacing."""
+    """Returns rows of (red, green, blue), [0,255], of an 8-bit PNG without interlacing."""
     data, at, packed = path.read_bytes(), 8, b""
     while at < len(data):
         size, kind = struct.unpack_from(">I4s", data, at)
@@ -169,7 +170,7 @@ def shown(bench):
     scratch(bench, "n.png", png(64, 64, bumps))
     drawn = ("--size", "64x64", "--env-size", "32", "--env-samples", "16", "--msaa", "1", "-q")
     looks = {}
-    for repeats in (1, 2, 4, 8):  # levels 0, 1, 2, 3, at the centres of texels
+    for repeats in (1, 2, 4, 8):  # levels 0, 1, 2, 3, at texel centres
         scratch(bench, "p.gltf", files.text(lone_plane(repeats)))
         bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "--aov", "lod", "-o", "p.png", "-o", "p.tif").expect(2).expect_one_line("--aov")
         bench.run("render", "p.gltf", "--normal-map", "n.png", *drawn, "--show", "lod", "-o", "p.png").expect(0)
@@ -179,7 +180,7 @@ def shown(bench):
         looks[repeats] = {texel for row in texels_of(bench.folder / "p.png") for texel in row}
         check(len(looks[repeats]) == 1, f"one level has {len(looks[repeats])} colours")
     check(len(set.union(*looks.values())) == 4, f"levels have the same colours: {looks}")
-    # normals are those of the map; the lobe of a grain along x is wide to the right, turned by 90 degrees upwards, by 45 both ways
+    # normals equal the map's; a lobe with grain along x is wide to the right, turned by 90 degrees upwards, by 45 degrees both ways
     scratch(bench, "flat.png", png(4, 4, lambda x, y: (128 + 76, 128, 128 + 101)))
     bench.run("render", "p.gltf", "--normal-map", "flat.png", *drawn, "--show", "normal", "-o", "n.out.png").expect(0)
     found = texels_of(bench.folder / "n.out.png")[32][32]
@@ -193,7 +194,7 @@ def shown(bench):
     check(axes["right"][0] > 1.5 * axes["right"][1] and axes["up"][1] > 1.5 * axes["up"][0], f"{axes}")
     check(axes["right"][:2] == axes["up"][1::-1] and abs(axes["right"][2] - 128) <= 1 and axes["between"][2] > 200, f"{axes}")
     check(abs(axes["between"][0] - axes["between"][1]) <= 1, f"{axes}")
-    # the picture's hash is of its light
+    # the image's hash covers its light
     light, false = (bench.figures("g.gltf", *drawn, *words)["pixel_hash"] for words in ((), ("--show", "tensor", "-o", "h.png")))
     check(light == false, "--show changes the hash")
     done = bench.run("render", "g.gltf", *drawn[:-1], "--show", "normal", "--exposure", "1", "-o", "w.png").expect(0)
@@ -223,7 +224,7 @@ def refused(bench):
 
 @case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="nightly")
 def specular_aa(bench):
-    """Still, against the reference; by Vulkan it is the same picture."""
+    """Compares a still image with the reference; Vulkan draws the same image."""
     view = ("builtin:bumps", "--horizon", "off", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
     done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "truth.exr")
     if done.code == 77:

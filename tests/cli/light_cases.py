@@ -1,4 +1,4 @@
-"""Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights; and what is wrong with some."""
+"""Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights, and their errors."""
 
 import math
 import struct
@@ -114,7 +114,7 @@ def wrong(bench):
 
 
 def xxh64(data):
-    """xxHash64 with seed 0, as tables end with."""
+    """xxHash64 with seed 0, the hash at the end of tables."""
     p, mask = (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5), (1 << 64) - 1
     turn = lambda x, n: (x << n | x >> (64 - n)) & mask
     mix = lambda acc, lane: turn((acc + lane * p[1]) & mask, 31) * p[0] & mask
@@ -181,7 +181,7 @@ def own(bench):
 
 
 def ball_over_plane(ball):
-    """A diffuse floor of 4 x 4 m, and a ball of radius 0.4 m that hovers over it."""
+    """Returns a diffuse floor of 4 x 4 m, and a ball of radius 0.4 m above it."""
     floor = [(-2, 0, -2), (-2, 0, 2), (2, 0, 2), (2, 0, -2)]
     at = [(math.pi * j / 24, math.pi * i / 24) for j in range(25) for i in range(49)]
     round_ = [(0.4 * math.sin(t) * math.cos(p), 0.6 + 0.4 * math.cos(t), -0.4 * math.sin(t) * math.sin(p)) for t, p in at]

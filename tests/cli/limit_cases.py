@@ -1,4 +1,4 @@
-"""Every limit on input refuses what is above it, names itself, and can be raised by its option."""
+"""Every limit on input refuses larger input, names itself, and can be raised by its option."""
 
 import gltf_files as files
 from harness import case, scratch
@@ -36,7 +36,7 @@ def json_depth(bench):
 
 @case("limit.bottomless_json_is_refused", "input")
 def json_bottomless(bench):
-    """Nesting that would end the stack of a recursive parser."""
+    """Nesting that would overflow the stack of a recursive parser."""
     refuse(bench, scratch(bench, "bottomless.gltf", "[" * 3000000))
     refuse(bench, scratch(bench, "objects.gltf", '{"a":' * 500000))
 

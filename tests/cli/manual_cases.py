@@ -1,4 +1,4 @@
-"""The manual page and the completions: every option is in them, and the shells at hand take them."""
+"""The manual page and the completions contain every option, and installed shells accept them."""
 
 import re
 import shutil
@@ -10,7 +10,7 @@ COMMANDS = ("render", "compare", "chart", "profile", "parity", "race", "list", "
 
 
 def options_of(bench, command):
-    """Long names of a subcommand's options, as its help lists them."""
+    """Returns the long names of a subcommand's options, from its help."""
     text = bench.run(command, "--help").expect(0).out
     return set(re.findall(r"^  (?:-\w,)?(--[a-z][a-z0-9-]*)", text, re.M)) - {"--help"}
 
@@ -40,7 +40,7 @@ def every_option(bench):
 
 
 def completed(script, *words):
-    """What bash offers for the last of the words."""
+    """Returns bash's completions of the last word."""
     program = script + '\nCOMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _burnish; printf "%s\\n" "${COMPREPLY[@]}"'
     done = subprocess.run(["bash", "-c", program, "bash", "burnish", *words], capture_output=True, text=True, timeout=60)
     check(done.returncode == 0 and done.stderr == "", f"bash: {done.stderr}")
@@ -64,7 +64,7 @@ def bash(bench):
 
 @case("usage.zsh_and_fish_take_their_completions")
 def other_shells(bench):
-    """Where they are installed: both read the text, and fish offers what bash does."""
+    """Tests installed shells: both read the text, and fish offers bash's completions."""
     shells = [shell for shell in ("zsh", "fish") if shutil.which(shell)]
     if not shells:
         raise Skipped("neither zsh nor fish")

@@ -1,4 +1,4 @@
-"""The pages of apps/manual: reference pages are the program's, commands run as they are written, links and pictures are there."""
+"""The pages of apps/manual: reference pages match the program, commands run as written, links and images exist."""
 
 import pathlib
 import re
@@ -24,7 +24,7 @@ def lab_program(bench):
 
 @case("manual.reference_pages_are_the_program_s")
 def reference(bench):
-    """apps/manual/make --reference writes them anew."""
+    """apps/manual/make --reference rewrites them."""
     text = (ROOT / "apps/cli/commands.def").read_text()
     names = re.findall(r"^BN_(LAB_)?COMMAND\((\w+)", text, re.M)
     check(len(names) > 10, f"only {len(names)} subcommands were seen")
@@ -45,7 +45,7 @@ def reference(bench):
 
 @case("manual.reference_names_every_option")
 def options(bench):
-    """Each row of --help is a row of the page, and an unknown subcommand is a mistake."""
+    """Each row of --help is a row of the page, and an unknown subcommand is an error."""
     for name in ("render", "compare", "bake", "plot", "info"):
         page = bench.run("manual", "markdown", name).expect(0).out
         check(page.startswith(f"# burnish {name}\n"), page[:200])
@@ -57,7 +57,7 @@ def options(bench):
 
 @case("manual.links_and_pictures_are_there")
 def links(bench):
-    """Of the manual and the front page. Every picture is shown by a page, and none is large."""
+    """Checks the manual and the front page. A page shows every image, and no image is large."""
     wrong, shown = [], set()
     everything = [*pages.pages(), *sorted((MANUAL / "reference").glob("*.md")), ROOT / "apps/README.md", ROOT / "apps/promises.md"]
     for page in everything:
@@ -84,14 +84,14 @@ def library_page(bench):
 
 @case("manual.pages_hold_no_dates_and_no_times")
 def no_dates(bench):
-    """Those are the laboratory's: bench/lab."""
+    """Dates and times belong in bench/lab."""
     dated = re.compile(r"\b20\d\d-\d\d-\d\d\b|\b\d+(\.\d+)? (ms|µs|CPU seconds|CPU minutes)\b")
     wrong = [f"{page.relative_to(ROOT)}: {found[0]}" for page in pages.pages() for found in dated.finditer(page.read_text())]
     check(not wrong, "\n".join(wrong))
 
 
 def run_page(bench, page):
-    """Faults of a page's commands, which run one after another in a folder of their own."""
+    """Returns the faults of a page's commands, which run in sequence in a new folder."""
     folder = bench.folder / page.stem
     folder.mkdir()
     for name, data in pages.STAND_INS.items():

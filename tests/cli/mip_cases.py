@@ -22,7 +22,7 @@ from reference_cases import needs_embree
 
 SMALL = ("--size", "64x48", "--msaa", "1", "--env-size", "64", "--env-samples", "32", "--samples", "4", "--technique", "mc")
 LOBES = ("baseline", "covariance", "leadr", "ssgt", "kappa", "mipnet")
-SEARCHED = (*LOBES, "teacher")  # of small maps: teacher takes half a minute for a million texels
+SEARCHED = (*LOBES, "teacher")  # for small maps: teacher takes half a minute for a million texels
 VIEW = ("--eye", "0.3,0.3,1.2", "--target", "0.3,0.3,0", "--fov", "40", "--size", "40x40", "--msaa", "1", "--env-size", "64", "--env-samples", "32")
 
 
@@ -31,7 +31,7 @@ def named(bench):
 
 
 def grain(side, steep, seed=7):
-    """A picture of normals by chance, about as the bell curve has them."""
+    """Returns an image of random normals, approximately normally distributed."""
     chance = random.Random(seed)
 
     def texel(x, y):
@@ -60,7 +60,7 @@ def pictures(bench):
     wide, narrow = (hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", "kappa", "--mip-kappa", kappa) for kappa in ("2", "0"))
     check(len({wide, narrow, by["kappa"]}) == 3, "kappa is not looked at")
     check(hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", "kappa", "--mip-kappa", "0.7") == by["kappa"], "kappa 0.7 is not the default")
-    for name in names:  # overrides leave the lobes of the maps aside, what normals differ by stays
+    for name in names:  # overrides replace the maps' lobes and keep the spread of normals
         hash_of(bench, "builtin:bumps", *SMALL, "--mip-filter", name, "--roughness", "0.3", "--anisotropy", "0.5")
     done = bench.run("render", "builtin:bumps", *SMALL, "--mip-filter", "ssgt", "--mip-kappa", "1", "-o", "a.pfm").expect(0)
     check("--mip-kappa has no effect with --mip-filter ssgt" in done.err, done.describe())
@@ -75,7 +75,7 @@ def devices(bench):
 
 @case("mip.a_tilted_map_turns_no_lobe")
 def tilted(bench):
-    """One normal everywhere: no filter widens anything, and lobes lie as --frame-map quaternion has them."""
+    """With one normal everywhere no filter widens a lobe, and lobes lie as in --frame-map quaternion."""
     scratch(bench, "bare.gltf", files.text(bare(extensions={"KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 0.4}})))
     scratch(bench, "n.png", png(64, 64, lambda x, y: (200, 170, 228)))
     words = ("bare.gltf", *VIEW, "--normal-map", "n.png", "-q")
@@ -116,7 +116,7 @@ def roughness(bench):
     by = {name: hash_of(bench, "rough.gltf", *VIEW, "--mip-filter", name) for name in ("box", "lean", "baseline", "covariance", "kappa")}
     check(by["lean"] == by["box"] and by["kappa"] == by["covariance"], f"{by}")
     check(len({by["box"], by["baseline"], by["covariance"]}) == 3, f"{by}")
-    # the root of mean squares of alpha: .0246 and .7441 make .5264, alpha_lin .7256
+    # root mean square of alpha: .0246 and .7441 give .5264, alpha_lin .7256
     words = ("rough.gltf", *VIEW, "--technique", "mc", "--samples", "64", "-q")
     bench.run("render", *words, "--mip-filter", "covariance", "-o", "a.pfm").expect(0)
     bench.run("render", *words, "--roughness", "0.7256", "-o", "b.pfm").expect(0)
@@ -157,7 +157,7 @@ def baked(bench):
           "a file does not keep its gains")
     check(hash_of(bench, *words, "--mip-filter", "kappa", "--mip-pyramid", "lit.mip") == hash_of(bench, *words, "--mip-filter", "kappa") != gained,
           "gains are not off by themselves")
-    for file, more in (("kappa.mip", ()), ("lit.mip", ("--brdf", "beckmann"))): # without gains, and with those of other lobes
+    for file, more in (("kappa.mip", ()), ("lit.mip", ("--brdf", "beckmann"))): # without gains, and with gains of other lobes
         bench.run("render", *words, "--mip-filter", "kappa", "--mip-gain", "on", "--mip-pyramid", file, *more, "-o", "m.pfm").expect(4)
     done = bench.run("render", *words, "--mip-pyramid", "kappa.mip", "--mip-gain", "on", "-o", "m.pfm").expect(0)
     check("--mip-gain has no effect with --mip-pyramid" in done.err, done.describe())
@@ -176,7 +176,7 @@ def baked(bench):
         check(hash_of(bench, "builtin:bumps", *SMALL, *more, "--mip-pyramid", "mixed.mip") == mixed, "a scene whose materials have filters of their own")
     seen = sorted(path.name for path in (bench.folder / "seen").iterdir())
     check("hammered_copper_normal_01.png" in seen and "vinyl_lobe_10.png" in seen, f"{seen}")
-    # what does not fit
+    # files that do not fit
     good = (bench.folder / "kappa.mip").read_bytes()
     scratch(bench, "short.mip", good[:-9])
     scratch(bench, "damaged.mip", good[:100] + bytes([good[100] ^ 1]) + good[101:])
@@ -212,7 +212,7 @@ def kept(bench):
     name.touch()
     again, same = drawn("set", "--mip-filter", "teacher")
     check(first == plain == again and same == one, "what is kept draws another picture")
-    for data in (whole[:-40], whole[:200] + b"\1" + whole[201:], b""):  # damaged: made anew
+    for data in (whole[:-40], whole[:200] + b"\1" + whole[201:], b""):  # damaged files are replaced
         name.write_bytes(data)
         check(drawn("set", "--mip-filter", "teacher") == (first, one), "a damaged file stays")
     for folder, words in (("set", ("--mip-kappa", "1")), ("set", ("--brdf", "beckmann")), ("other", ()), ("set", ("--mip-filter", "mipnet", "--fallback", "off"))):
@@ -222,7 +222,7 @@ def kept(bench):
         check(len(one) == len(before) + 1, f"{folder} {look}: {sorted(one)}")
         check(drawn(folder, *look, "--no-cache")[0] == found, f"{folder} {look}: what is kept draws another picture")
     check(drawn("set", "--mip-filter", "kappa")[1] == one, "levels that are made at once are kept")
-    swapped = sorted(one)[:2]  # a file of something else under this name
+    swapped = sorted(one)[:2]  # a file with other contents under this name
     one_bytes, two_bytes = (path.read_bytes() for path in swapped)
     swapped[0].write_bytes(two_bytes), swapped[1].write_bytes(one_bytes)
     check(drawn("set", "--mip-filter", "teacher")[0] == first, "levels of other maps are taken")
@@ -275,7 +275,7 @@ def fallbacks(bench):
 
 
 def tiles_of(exr):
-    """Of an OpenEXR file: side of its tiles, how its levels are made (1: mip levels, rounded down)."""
+    """Returns an OpenEXR file's tile side and level mode (1: mip levels, rounded down)."""
     at = exr.index(b"tiles\0tiledesc\0") + len(b"tiles\0tiledesc\0") + 4
     width, height, mode = struct.unpack("<IIB", exr[at:at + 9])
     return width, height, mode
@@ -301,7 +301,7 @@ def textures(bench):
     check(there == sorted(f"{stem}_{part}.exr" for part in parts), f"{there}")
     for name in there:
         check(tiles_of((bench.folder / "exr-mip" / name).read_bytes()) == (64, 64, 1), f"{name} has no mip levels")
-    # level 0 is what the maps say, read back by the program itself
+    # level 0 equals the maps, read back by the program
     seen = ("builtin:sphere", *SMALL, "--roughness", "0.4")
     bench.run("render", *seen, "--normal-map", "set/x_normal.png", "-q", "-o", "maps.pfm").expect(0)
     bench.run("render", *seen, "-q", "-o", "level.pfm").expect(0)
@@ -312,7 +312,7 @@ def textures(bench):
     bench.run(*words, "--format", "png-levels", "--threads", "1", "-q", "-o", "again").expect(0)
     for path in (bench.folder / "again").iterdir():
         check(path.read_bytes() == (bench.folder / "png-levels" / path.name).read_bytes(), f"threads change {path.name}")
-    # nothing, or what was there, where the disk is full half-way
+    # after a full disk the output is missing or unchanged
     full = bench.run(*words, "--format", "exr-mip", "-q", "-o", "full", file_size=600).expect(7)
     check(full.err.startswith("burnish: ") and not (bench.folder / "full").exists(), full.describe())
     before = {path.name: path.read_bytes() for path in (bench.folder / "exr-mip").iterdir()}
@@ -363,7 +363,7 @@ def otherwise(bench):
 
 @case("mip.normals_of_levels_are_as_fine_as_floats")
 def fine_normals(bench):
-    """A plane from above, a pixel a texel of level 1: the normals that frames have are those of the pyramid's file."""
+    """A plane from above with one pixel a texel of level 1: the frames' normals equal the pyramid file's."""
     scratch(bench, "p.gltf", files.text(lone_plane()))
     (bench.folder / "set").mkdir()
     (bench.folder / "set/n_normal.png").write_bytes(png(128, 128, bumps))
@@ -375,14 +375,14 @@ def fine_normals(bench):
         off = 0.0
         for i, (nx, ny, *_) in enumerate(struct.iter_unpack("<5f", held[:20 * 64 * 64])):
             off = max(off, abs(seen["N.X"][i // 64][i % 64] - nx), abs(seen["N.Y"][i // 64][i % 64] - ny))
-        check(off < 4e-6, f"{name}: {off}")  # in one half 4.9e-4
+        check(off < 4e-6, f"{name}: {off}")  # with a single half 4.9e-4
 
 
 DARK = ("--env-exposure", "-32", "--env-size", "32", "--env-samples", "16", "--no-background", "-q")
 
 
 def suns(gltf, count, anywhere=False):
-    """Directional lights from above, the more the nearer to straight above, as cosines weigh them, or evenly down to 84 degrees."""
+    """Adds directional lights from above, cosine-weighted, or evenly down to 84 degrees."""
     gltf["extensionsUsed"] = ["KHR_lights_punctual"]
     gltf["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3.0}]}}
     for i in range(count):
@@ -421,8 +421,8 @@ def protocols(bench):
 
 @case("mip.levels_reflect_as_much_as_their_texels")
 def gains(bench):
-    """Matt bumps of many texels from above under lamps from everywhere above: the mean of a picture, with gains of levels and without, beside the
-    truth's."""
+    """Matte bumps of many texels, seen from above, under lamps from everywhere above. Compares image means with and without level gains
+    with the reference's."""
     needs_embree(bench)
     chance = random.Random(5)
     lean = [[(chance.gauss(0, 0.5), chance.gauss(0, 0.5)) for _ in range(16)] for _ in range(16)]
@@ -454,7 +454,7 @@ def gains(bench):
 
 @case("mip.coupled_colours_halve_the_error_of_colour")
 def coupled(bench):
-    """Two colours on ridges of metal, level ones and steep ones, seen from above under many lamps: the mean colour, red over blue."""
+    """Two colours on metal ridges, flat and steep ones, seen from above under many lamps: the mean colour, red over blue."""
     needs_embree(bench)
     gltf = lone_plane(8, normalTexture={"index": 0}, pbrMetallicRoughness={"roughnessFactor": 0.55, "metallicFactor": 1, "baseColorTexture": {"index": 1}})
     gltf["textures"], gltf["images"] = [{"source": 0}, {"source": 1}], [{"uri": "n.png"}, {"uri": "c.png"}]
@@ -474,7 +474,7 @@ def coupled(bench):
     by = {name: ratio("a.pfm", "--mip-filter", "kappa", "--couple", name) for name in ("none", "albedo")}
     check(abs(by["albedo"] - truth) < 0.5 * abs(by["none"] - truth), f"{truth} {by}")
     check(hash_of(bench, "foil.gltf", *DARK[:-1], "--size", "128x128", "--color-kernel", "kaiser") != hash_of(bench, "foil.gltf", *DARK[:-1], "--size", "128x128"), "--color-kernel is not looked at")
-    # colours that lie otherwise, and frames without normals
+    # colours with other texture coordinates, and frames without normals
     gltf = lone_plane(normalTexture={"index": 0}, pbrMetallicRoughness={"baseColorTexture": {"index": 0, "texCoord": 1}})
     gltf["materials"][0]["name"] = "askew"
     gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]

@@ -1,4 +1,4 @@
-"""Files of `burnish bake mip`: whole pyramids, base colours, metalness and heights too."""
+"""Files of `burnish bake mip`: whole pyramids, with base colours, metalness and heights."""
 
 import random
 import re
@@ -17,7 +17,7 @@ MASK = 2**64 - 1
 
 
 def xxh64(data, seed):
-    """xxHash64 as its specification has it."""
+    """xxHash64 as specified."""
     p1, p2, p3, p4, p5 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
 
     def turned(x, by):
@@ -59,7 +59,7 @@ def sealed(body):
 
 
 def maps_of(file):
-    """{part: (kernel, hash of normals, where its halves begin, where they end)}, as pyramid_file.h has it."""
+    """Returns {part: (kernel, hash of normals, where its halves begin, where they end)}, in the layout of pyramid_file.h."""
     version, materials, count, zero = struct.unpack_from("<4I", file, 8)
     check((file[:8], version, zero) == (b"bnmip01\n", 4, 0), f"{file[:24]}")
     at, found = 24, {}
@@ -80,7 +80,7 @@ def maps_of(file):
 
 
 def whole(bench, name, **other):
-    """A folder of all maps, of which the given ones are others."""
+    """Writes a folder with all maps; `other` replaces the given ones."""
     folder = bench.folder / name
     folder.mkdir()
 
@@ -118,7 +118,7 @@ def files_hold(bench):
             check(hash_of(bench, *seen, "--mip-filter", "kappa", *look, *more, "--mip-pyramid", name) == made, f"{look} {more}: other pixels")
             check(hash_of(bench, *seen, *more, "--mip-pyramid", name) == made, f"{look} {more}: a file does not say how colours are averaged")
         hashes.append(hash_of(bench, *seen, "--mip-pyramid", name))
-        for part, (*_, begin, end) in maps.items():  # what is in the file is what is drawn
+        for part, (*_, begin, end) in maps.items():  # drawing uses the file's contents
             scratch(bench, "spoilt.mip", sealed(good[:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + good[end:-8]))
             check(hash_of(bench, *seen, "--mip-pyramid", "spoilt.mip") != hashes[-1], f"{look}: {part} are not looked at")
     check(len(set(hashes)) == len(LOOKS), f"{hashes}")
@@ -126,7 +126,7 @@ def files_hold(bench):
         bench.run("render", *seen, "--mip-filter", "kappa", *look, "--mip-pyramid", name, "-o", "x.pfm").expect(4).expect_one_line("base colours")
     done = bench.run("render", *seen, "--couple", "albedo", "--color-kernel", "kaiser", "--mip-pyramid", "0.mip", "-o", "a.pfm").expect(0)
     check(all(f"{option} has no effect with --mip-pyramid" in done.err for option in ("--couple", "--color-kernel")), done.describe())
-    # other maps, an older file, and numbers that are none
+    # other maps, an older file, and invalid numbers
     for name, part, texel in (("basecolor", "base colours", lambda x, y: (250, 120, 41)), ("metallic", "metalness", lambda x, y: (3,)),
                               ("height", "heights", lambda x, y: (3 * x,)), ("normal", "hash", lambda x, y: bumps(x + 1, y))):
         whole(bench, name, **{name: texel})
@@ -137,7 +137,7 @@ def files_hold(bench):
                              ("channels", begin - 8, b"\2"), ("levels of", begin - 16, b"\0"), ("is cut off", 16, b"\4"), ("bytes too many", 16, b"\2")):
         scratch(bench, "bad.mip", sealed(good[:at] + data + good[at + len(data):-8]))
         bench.run("render", *seen, "--mip-pyramid", "bad.mip", "-o", "x.pfm").expect(4).expect_one_line(needle)
-    # what is made of these maps by its hash, and has other sides or channels
+    # files with the hash of these maps, but other sides or channels
     at, material = 24, struct.pack("<3I", 1, 1, 0)
     width, height, levels = struct.unpack_from("<3I", good, at + 20)
     end = at + 56 + 4 * levels + 20 * sum(max(1, width >> k) * max(1, height >> k) for k in range(1, levels + 1))
@@ -153,7 +153,7 @@ def files_hold(bench):
 
 @case("mip.numbers_of_files_lie_in_their_ranges", "input")
 def ranges(bench):
-    """Under a hash that is right: kappa, gains, lobes and texels of maps that no bake writes."""
+    """With a right hash: kappa, gains, lobes and texels outside the range of any bake."""
     whole(bench, "set")
     seen = ("builtin:sphere", *SMALL, "--material", "set")
     for name, filter_ in (("kappa.mip", "kappa"), ("leadr.mip", "leadr")):
@@ -207,11 +207,11 @@ def kept(bench):
             *_, begin, end = maps_of(there[name])[part]
             name.write_bytes(sealed(there[name][:begin] + struct.pack("<H", 0x3400) * ((end - begin) // 2) + there[name][end:-8]))
             check(drawn("set", *look)[0] != first, f"{look}: {part} of the cache are not looked at")
-            name.write_bytes(there[name][:-9])  # damaged: made anew
+            name.write_bytes(there[name][:-9])  # damaged files are replaced
             check(drawn("set", *look) == (first, there), f"{look}: a damaged file stays")
     other, more = drawn("other", *look)
     check(other != first and len(more) == len(there) + 1, "another map of base colours")
-    name, swapped = sorted(more)[:2]  # a file of something else under this name
+    name, swapped = sorted(more)[:2]  # a file with other contents under this name
     data = more[name], more[swapped]
     name.write_bytes(data[1]), swapped.write_bytes(data[0])
     for folder, found in (("set", first), ("other", other)):
@@ -248,7 +248,7 @@ def one_texel(bench):
 
 
 def flipped(bench, name, words, flips, codes):
-    """One bit after another of the file is another one: a picture, or one line and a code."""
+    """Flips one bit of the file after another. Each gives an image, or one line and a code."""
     chance, good = random.Random(17), (bench.folder / name).read_bytes()
     for _ in range(flips):
         at, bit = chance.randrange(len(good)), chance.randrange(8)
@@ -261,7 +261,7 @@ def flipped(bench, name, words, flips, codes):
 
 @case("mip.flipped_bits_are_refused_or_read", tier="nightly")
 def flips(bench):
-    """200 of a pyramid file, 50 of a picture of each format; those of files without a hash may go unseen."""
+    """Flips 200 bits of a pyramid file, 50 of an image in each format. In files without a hash a flip may go unnoticed."""
     bench.run("bake", "mip", "builtin:roofs=1", "-q", "-o", "p.mip").expect(0)
     render = ("render", "builtin:roofs=1", *SMALL, "-q", "-o", "x.pfm")
     flipped(bench, "p.mip", (*render, "--mip-pyramid", "flipp.mip"), 200, (4,))
@@ -274,7 +274,7 @@ def flips(bench):
 
 @case("mip.names_of_files_may_be_any")
 def hostile_names(bench):
-    """Names of folders and of materials, by the formats that make files of them; by another locale, too."""
+    """Names of folders and materials, in the formats that name files after them, and in another locale."""
     gltf = bare(normalTexture={"index": 0})
     gltf["textures"], gltf["images"] = [{"source": 0}], [{"uri": "n.png"}]
     scratch(bench, "n.png", png(16, 16, bumps))

@@ -1,4 +1,4 @@
-"""Mean light of far surfaces with strong normal maps, by each mip filter, beside the reference that reads all texels."""
+"""Mean light of far surfaces with strong normal maps, by each mip filter, against the reference that reads all texels."""
 
 import base64
 import json
@@ -13,7 +13,7 @@ from reference_cases import needs_embree
 
 SIDE = 64  # texels
 FILTERS = ("box", "lean", "baseline", "covariance", "leadr", "ssgt", "kappa", "mipnet")
-VIEWS = {60: (0.0, 1.73, 1.0), 30: (0.7, 1.0, 1.58), 12: (-1.2, 0.42, 1.58)}  # by degrees of the eye over the plate
+VIEWS = {60: (0.0, 1.73, 1.0), 30: (0.7, 1.0, 1.58), 12: (-1.2, 0.42, 1.58)}  # by the eye's elevation over the plate, in degrees
 FAR = ("--target", "0,0,0", "--fov", "14", "--env-size", "128", "--env-samples", "256", "--no-background", "--frame-map", "quaternion", "-q")
 
 
@@ -24,7 +24,7 @@ def chance(x, y, salt):
 
 
 def hammered(cells):
-    """Bowls about scattered points, which meet in ridges."""
+    """Bowls around scattered points, which meet in ridges."""
     def slope(u, v):
         x, y, best, found = u * cells, v * cells, 9.0, (0.0, 0.0)
         for cy in range(int(y) - 1, int(y) + 2):
@@ -38,7 +38,7 @@ def hammered(cells):
 
 
 def knurled(diamonds):
-    """Pyramids in diamonds: four slopes."""
+    """Diamond-shaped pyramids, which have four slopes."""
     def slope(u, v):
         a, b = (0.8 if ((u + side * v) * diamonds) % 1 < 0.5 else -0.8 for side in (1, -1))
         return 0.5 * (a + b), 0.5 * (b - a)
@@ -56,7 +56,7 @@ def woven(threads):
 
 
 def scratched(rows):
-    """Grooves along u of random length and depth."""
+    """Grooves along u with random length and depth."""
     def slope(u, v):
         row = int(v * rows)
         along = ((u + chance(row, 0, 11)) % 1) * 2
@@ -75,7 +75,7 @@ def code_of(sx, sy):
 
 
 def far_plate(bench, kind, size, **material):
-    """A metal plate whose map lies 64 times each way: its name."""
+    """Writes a metal plate whose map repeats 64 times each way, and returns its name."""
     make, name = KINDS[kind][0](size), f"{kind}{size}"
     scratch(bench, name + ".png", png(SIDE, SIDE, lambda i, j: code_of(*make((i + 0.5) / SIDE, (j + 0.5) / SIDE))))
     columns = ((3, (-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1)), (3, (0, 1, 0) * 4), (4, (1, 0, 0, 1) * 4), (2, (0, 64, 64, 64, 64, 0, 0, 0)))
@@ -99,7 +99,7 @@ def far_plate(bench, kind, size, **material):
 
 
 def horizon(bench, on):
-    """Words that let a normal map show what lies below its surface, or not, whatever a frame does by itself."""
+    """Returns options that turn the horizon of normal maps on or off, for every frame."""
     choice = "--horizon NAME" in bench.run("render", "--help").expect(0).out
     return ("--horizon", "on" if on else "off") if choice else ("--horizon",) if on else ()
 
@@ -126,7 +126,7 @@ def furnace(bench):
 
 
 def light_is_kept(bench, kind):
-    """Constant light: the mean of each filter's picture beside the reference's, one size and one eye, with the horizon and without."""
+    """Constant light: each filter's mean against the reference's, at one size and for one eye, with the horizon and without."""
     needs_embree(bench)
     name, white = far_plate(bench, kind, KINDS[kind][1][0]), furnace(bench)
     for on in (False, True):
@@ -158,8 +158,8 @@ def far_scratched(bench):
 
 
 def light_is_that_of_texels(bench, kind, most_of_sun=0.12):
-    """The whole table of a kind: both sizes, all filters, three eyes. Constant light is kept from each eye. Of two environments with small
-    lights the mean over eyes is: a sun shows from one eye what sixteen groups of normals leave out."""
+    """The whole table of a kind: both sizes, all filters, three eyes. Constant light is kept for each eye. For two environments with
+    small lights the mean over eyes is kept: from one eye a sun shows details that sixteen groups of normals omit."""
     needs_embree(bench)
     white, far_off = furnace(bench), []
     for size in KINDS[kind][1]:

@@ -1,4 +1,4 @@
-"""Mip filters over a zoom out: how pictures change from one to the next."""
+"""Mip filters over a zoom out: changes from one image to the next."""
 
 import json
 import struct
@@ -12,7 +12,7 @@ from reference_cases import needs_embree
 
 
 def wide_floor(repeats):
-    """A metal floor of 40 by 40 metres, its texture so many times each way."""
+    """Returns a metal floor of 40 by 40 metres, its texture repeated `repeats` times each way."""
     gltf = bare(pbrMetallicRoughness={"metallicFactor": 1, "roughnessFactor": 0.1, "baseColorFactor": [0.9, 0.8, 0.7, 1]})
     corners = ((-20, 20), (20, 20), (20, -20), (-20, 20), (20, -20), (-20, -20))
     columns = ([c for x, z in corners for c in (x, 0, z)], [0, 1, 0] * len(corners),
@@ -30,8 +30,8 @@ def wide_floor(repeats):
 
 
 def flickers(bench, steps, samples):
-    """How much pictures of a zoom out over rough grain change from one to the next, as a share of what the truth's do: filters of lobes keep to
-    one and a half times that, lean and box to twice."""
+    """Returns the changes between images of a zoom out over rough grain, relative to the reference's changes. Lobe filters stay within
+    one and a half times, lean and box within twice."""
     needs_embree(bench)
     scratch(bench, "floor.gltf", files.text(wide_floor(24)))
     scratch(bench, "fine.png", grain(128, 0.3))

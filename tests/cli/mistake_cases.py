@@ -1,9 +1,9 @@
-"""Typical mistakes: each is answered with one line that tells what helps, and nothing is written. The case leaves the table of them as
-mistakes.md in its folder below build/release/tests/cli."""
+"""Typical mistakes: each is answered with one helpful line, and nothing is written. The case leaves their table as mistakes.md in its
+folder below build/release/tests/cli."""
 
 from harness import case, check, scratch
 
-# What is typed, the exit code, what the line must say.
+# Typed words, exit code, and text that the message must contain.
 MISTAKES = (
     ("rendr", 2, "did you mean 'render'?"),
     ("teapot", 2, "the built-in scene is called builtin:teapot"),

@@ -1,4 +1,4 @@
-"""Every model of the test data renders: no NaN, something to see, the same pixels from scalar code."""
+"""Every model of the test data renders: no NaN, a visible object, equal pixels from scalar code."""
 
 import struct
 
@@ -6,7 +6,7 @@ from harness import SMALL, case, check, data_files, words_of
 
 
 def read_pfm(path):
-    """Rows of floats, as they lie in the file."""
+    """Returns rows of floats in file order."""
     with open(path, "rb") as file:
         kind, size, scale = file.readline().strip(), file.readline().split(), float(file.readline())
         width, height = int(size[0]), int(size[1])

@@ -1,4 +1,4 @@
-"""What is written is complete, repeatable and holds nothing volatile; what cannot be written is said and leaves no trace."""
+"""Outputs are complete, repeatable and without volatile data. Failed outputs are reported and leave no trace."""
 
 import json
 import os
@@ -57,7 +57,7 @@ def stats(bench):
 
 
 def tiff_pixels(path):
-    """Of a TIFF file of ours, 8 bits RGBA: its pixels, each as (r, g, b, a)."""
+    """Returns the pixels of a TIFF file by the program, 8 bits RGBA, each as (r, g, b, a)."""
     data = path.read_bytes()
     fields = {}
     for i in range(int.from_bytes(data[8:10], "little")):
@@ -79,7 +79,7 @@ def alpha(bench):
     check(pixels[32 * 64 + 32][3] == 255, f"the middle is {pixels[32 * 64 + 32]}")
     edge = {pixel[3] for pixel in pixels} - {0, 255}
     check(len(edge) >= 5 and all(min(abs(a - 255 * k / 8) for k in range(9)) < 1 for a in edge), f"edges are {sorted(edge)}")
-    for y in range(1, 63):  # a rough sphere: its edge is no darker than what lies inside, if alpha is taken out of it
+    for y in range(1, 63):  # a rough sphere: without alpha the edge is as bright as the inside
         row = pixels[64 * y : 64 * y + 64]
         inside = [x for x in range(64) if row[x][3] == 255]
         if inside and 0 < row[inside[0] - 1][3] < 255:
@@ -105,7 +105,7 @@ def reference_alpha(bench):
     check(len({a[3] for a in reference}) == 5, "a pixel has four samples")
     found = json.loads(bench.run("compare", "r.exr", "t.exr", "--json", "-").expect(0).out)
     check(found["flip_mean"] < 0.1, f"{found}")
-    # with a background the option of samples still does nothing, and is told
+    # with a background the sample option has no effect, and a warning says so
     done = bench.run("render", "builtin:sphere", "--size", "16x16", "--env-size", "32", "--backend", "reference", "--samples", "4", "--msaa", "4").expect(0)
     check("--msaa has no effect" in done.err, done.describe())
 
@@ -188,7 +188,7 @@ def file_size_limit(bench):
 
 @case("output.full_disk_keeps_what_was_there", "input")
 def full_disk(bench):
-    """A disk of 64 KB in a mount namespace of its own, which ends with the shell."""
+    """A disk of 64 KB in a separate mount namespace, which ends with the shell."""
     disk = bench.folder / "disk"
     disk.mkdir()
     probe = ["unshare", "--mount"] + (["--map-root-user"] if os.geteuid() else []) + ["sh", "-c"]
@@ -262,7 +262,7 @@ def failed_run(bench):
 
 @case("output.devices_are_written_into")
 def devices(bench):
-    """Through names that a fault could not harm: links of the case's own folder, and /proc."""
+    """Uses names that a fault could not harm: links in the case's folder, and /proc."""
     done = bench.run("render", *SMALL, "--quiet", "--stats", "/proc/self/fd/1").expect(0)
     check('"pixel_hash"' in done.out, done.describe())
     for name in ("stats", "trace"):
@@ -276,7 +276,7 @@ def devices(bench):
 
 @case("output.cache_is_optional")
 def cache(bench):
-    """A cache folder that cannot be written, or holds rubbish, never stops a render."""
+    """A cache folder that is not writable, or holds rubbish, never stops a render."""
     elsewhere = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
     first = bench.figures(*SMALL, env=elsewhere)
     again = bench.figures(*SMALL, env=elsewhere)
@@ -295,7 +295,7 @@ def cache(bench):
 
 @case("output.locales_change_no_byte")
 def locales(bench):
-    """Numbers are read and written with a point where the user's are written with a comma."""
+    """Numbers are read and written with a point, even if the user's locale has a comma."""
     folder = bench.folder / "locales"
     folder.mkdir()
     try:

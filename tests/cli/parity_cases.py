@@ -1,4 +1,4 @@
-"""The Vulkan renderer against the tile renderer, bit by bit, and that `burnish parity` sees what it is there to see."""
+"""The Vulkan renderer against the tile renderer, bit by bit; `burnish parity` detects planted defects."""
 
 import csv
 import json
@@ -17,8 +17,8 @@ OF_IDS = [*STAGES, "layers"]  # of --pipeline ids
 
 
 def parity(bench, *arguments, also=(), code=0, timeout=540.0, device="lavapipe", optimised=False):
-    """Runs the command and gives its JSON; skips where the device or Vulkan is absent. also: option lists of more looks, for which a driver
-    compiles nothing again. optimised: with what lavapipe's compiler optimises, which takes a third longer than pictures of tests repay."""
+    """Runs the command and returns its JSON; skips without the device or Vulkan. also: option lists of more looks, for which a driver
+    compiles nothing again. optimised: with lavapipe's optimisation, which takes longer than the tests' images repay."""
     looks = [word for look in also for word in ("--also", " ".join(map(str, look)))]
     done = bench.run("parity", *arguments, *looks, "--device", device, *COARSE, "--json", "parity.json", timeout=timeout,
                      env={} if optimised else {"GALLIVM_PERF": "nopt"})
@@ -44,14 +44,14 @@ def check_equal(report):
 
 
 def packages_are_there():
-    """What apps/packages.txt installs for these tests."""
+    """Returns True if the packages of apps/packages.txt for these tests are installed."""
     drivers = pathlib.Path("/usr/share/vulkan/icd.d")
     return shutil.which("glslc") and drivers.is_dir() and any(drivers.glob("lvp_icd*.json"))
 
 
 @case("parity.a_device_is_there", tier="nightly")
 def a_device_is_there(bench):
-    """Where the packages are, no test may be skipped for want of a device."""
+    """With the packages, no test may be skipped for lack of a device."""
     if not packages_are_there():
         raise Skipped("no glslc or no driver of Mesa's: groups build and test of apps/packages.txt")
     info = json.loads(bench.run("info", "--json").expect(0).out)
@@ -62,7 +62,7 @@ def a_device_is_there(bench):
 
 @case("parity.render_gives_the_same_hash", tier="nightly")
 def render_gives_the_same_hash(bench):
-    """What render draws, without parity's records."""
+    """Compares render without parity's records."""
     def pixel_hash(*options):
         done = bench.run("render", *options, *COARSE, "-o", "a.exr", "--stats", "s.json", "-q")
         if done.code == 77:
@@ -92,7 +92,7 @@ def every_technique(bench):
     check("<table>" in (bench.folder / "parity.html").read_text(), "no table in the page")
 
 
-# Two techniques in one frame, and samples shared across edges of triangles, of surfaces, of pictures with odd sides.
+# Two techniques in one frame; samples shared across edges of triangles, surfaces and images with odd sides.
 @case("parity.automatic_technique_is_equal", tier="nightly")
 def automatic_technique(bench):
     report = parity(bench, "builtin:spheres", "builtin:plate", "--size", "95x63", "--technique",
@@ -107,7 +107,7 @@ def small_picture(bench):
     check_equal(report)
 
 
-# Key lights: discs and needles, tilted lobes, mirrors, samples that are shared.
+# Key lights: discs and needles, tilted lobes, mirrors, shared samples.
 @case("parity.light_of_suns_is_equal", tier="nightly")
 def light_of_suns(bench):
     check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",
@@ -140,7 +140,7 @@ def options_agree(bench, *sets):
     check(len(report["rows"]) == 2 * 11 * (1 + len(sets)), f"{len(report['rows'])} rows")
 
 
-# Each option once.
+# Tests each option once.
 @case("parity.options_of_shading_are_equal", tier="nightly")
 def options_of_shading(bench):
     options_agree(bench, ("--masking", "separable", "--tilt", "20,-10"), ("--anisotropy", "0.7", "--roughness", "0.3", "--dfg", "fit"),
@@ -167,7 +167,7 @@ CAUSES = {"equal", "visibility", "interpolants", "material inputs", "shaded colo
 
 
 def check_looks_the_same(report):
-    """Mean FLIP as promised, and every pixel that differs explained by a stage."""
+    """Mean FLIP is within its promise, and a stage explains every differing pixel."""
     for row in report["rows"]:
         name = f"{row['scene']} {row['technique']} {row['msaa']}x {row['sampler']}"
         check(row["error"] is None and 0 < row["flip_mean"] < 0.002, f"{name}: {row['error']}, mean FLIP {row['flip_mean']}")
@@ -179,7 +179,7 @@ def check_looks_the_same(report):
         explained = sum(c["pixels"] for stage, c in causes.items() if stage != "equal")
         check(explained == row["pixels_differ"] > 0, f"{name}: {explained} of {row['pixels_differ']} pixels are explained")
         check(abs(sum(c["flip"] for c in causes.values()) - row["flip_mean"]) < 1e-6, f"{name}: shares of FLIP do not add up")
-        # the renderer shades where the other does, but for pixels that are partly hidden
+        # both renderers shade equal places, except in partly hidden pixels
         elsewhere = sum(causes[stage]["pixels"] for stage in ("visibility", "interpolants") if stage in causes)
         check(elsewhere <= 0.02 * row["pixels_differ"], f"{name}: {causes}")
 
@@ -193,7 +193,7 @@ def forward_looks_the_same(bench):
     check("pixels differ first by" in (bench.folder / "parity.html").read_text(), "the page does not say why pixels differ")
 
 
-# A fragment of this pipeline does not see its neighbours' samples, which lobe_line and as_mc share, and auto where metal is brushed.
+# A fragment of this pipeline does not see its neighbours' samples. lobe_line and as_mc share them, and auto does on brushed metal.
 ALONE = "split_isotropic,bent_normal,major_axis,major_axis_adaptive,major_axis_weighted,filtered_is,filtered_is_ggx,mc"
 
 
@@ -209,7 +209,7 @@ def forward_without_neighbours(bench):
     for row in report["rows"]:
         flip = {cause["stage"]: cause["flip"] for cause in row["causes"]}
         check(max(flip, key=flip.get) == "shaded colour" and 0.002 < row["flip_mean"] < 0.1, f"{row['technique']}: {flip}")
-    # It is noise, which many samples take away, where there may be many.
+    # The difference is noise that vanishes with many samples, if the technique can take many.
     parity(bench, "builtin:plate", "--size", "48x32", "--technique", "as_mc", "--samples", "16384", "--msaa", "1", "--pipeline", "forward",
            "--sampler", "native")
 
@@ -242,7 +242,7 @@ def writes_over_no_model(bench):
 
 @case("parity.wide_pictures_are_equal", tier="nightly")
 def wide_pictures(bench):
-    """What no single buffer of the device could hold is drawn in bands; 16384 pixels are the widest that it takes."""
+    """Images larger than a single device buffer are drawn in bands; 16384 pixels are the largest width."""
     def pixel_hash(*options):
         done = bench.run("render", "builtin:teapot", "--technique", "bent_normal", *options, *COARSE, "-o", "a.exr", "--stats", "s.json", "-q", timeout=240.0)
         if done.code == 77:
@@ -266,7 +266,7 @@ def forward_is_valid(bench, technique, i):
 
 @case("parity.validation_layer_is_silent", tier="nightly")
 def validation_layer_is_silent(bench):
-    """Every technique, every number of samples, the passes that record stages, and one technique by each pipeline and sampler."""
+    """Every technique, every sample count, the passes that record stages, and one technique by each pipeline and sampler."""
     techniques = set()
     for extra in (("--msaa", "1,4"), ("--msaa", "2,8,16", "--technique", "mc"),
                   ("--msaa", "4", "--technique", "bent_normal", "--pipeline", "forward", "--sampler", "native")):
@@ -285,7 +285,7 @@ def validation_by_every_technique(bench):
         forward_is_valid(bench, technique, i)
 
 
-# Looks differ, and each is compared with its own.
+# Looks differ, and each is compared with itself.
 @case("parity.looks_are_drawn_each", tier="nightly")
 def looks(bench):
     report = parity(bench, "builtin:plate", "--size", "32x24", "--msaa", "1", "--technique", "bent_normal", "--roughness", "0.3",
@@ -329,7 +329,7 @@ def race_rows(bench):
         raise Skipped(done.err.strip())
     done.expect(0)
     check("split_isotropic" in done.out and "geometric mean" in done.out and "split_isotropic" not in done.err, done.describe())
-    figures = [line for line in done.out.splitlines() if not line.startswith("abacus:")]  # which names every device that there is
+    figures = [line for line in done.out.splitlines() if not line.startswith("abacus:")]  # this line names every available device
     check(max(map(len, figures)) <= 100, f"lines are longer than 100 columns\n{done.describe()}")
     report = json.loads((bench.folder / "race.json").read_text())
     lines = list(csv.DictReader((bench.folder / "race.csv").open(newline="")))
@@ -357,7 +357,7 @@ def race_goes_on(bench):
 
 
 def lean_rows(bench, *arguments, code=0, timeout=540.0):
-    """Rows of a race against the lean shader."""
+    """Returns the rows of a race against the lean shader."""
     done = bench.run("race", *arguments, "--runs", "1", "--shaders", "lean", "--devices", "lavapipe", *COARSE, "--json", "race.json", timeout=timeout)
     if done.code == 77 and not (bench.folder / "race.json").exists():
         raise Skipped(done.err.strip())
@@ -379,23 +379,23 @@ def lean_draws(bench):
 
 @case("race.lean_draws_the_same_everywhere", tier="nightly")
 def lean_draws_all(bench):
-    """But for lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
+    """Except lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
     alone = ",".join(("split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "filtered_is", "filtered_is_ggx", "mc"))
     small = lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "480x270", "--techniques", alone, "--msaa", "1")
     check_lean(small, 24)
-    # triangles of spheres are smaller than pixels there
+    # spheres have triangles smaller than pixels there
     check_lean(lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "1920x1080", "--techniques", alone, "--msaa", "4",
                          timeout=3000.0), 24)
 
 
-# Of the lean shader: the file, what is replaced in it, the technique that must then draw another picture.
+# Defects of the lean shader: file, text, replacement, technique that must then draw another image.
 LEAN_DEFECTS = (("techniques.glsl", "reflect(-s.v, bent)", "reflect(-s.v, s.n)", "bent_normal"),
                 ("techniques.glsl", "min(sqrt(radius), 1.0)", "min(radius, 1.0)", "major_axis_weighted"),
                 ("lean.vert", "normal = in_normal;", "normal = vec3(in_normal.xy, 1.0);", "split_isotropic"))
 
 
 def lean_with(bench, replaced, name):
-    """Whether the lean shader, so changed, is said to draw the same."""
+    """Compiles the lean shader with replacements (file, old text, new text). Returns the folder of its stages."""
     if not shutil.which("glslc"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
@@ -431,7 +431,7 @@ def sees_all_lean_defects(bench):
 
 @case("race.lean_refuses_what_it_does_not_draw", tier="nightly")
 def lean_refuses(bench):
-    """By row, the others being raced; a picture that it draws wrongly there is none."""
+    """Refuses by row and races the other rows. An image that it would draw wrongly is not drawn."""
     row, = lean_rows(bench, "builtin:sphere", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("punctual lights" in row["error"] and "ratio" not in row, f"{row}")
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
@@ -444,11 +444,11 @@ def lean_refuses(bench):
     bench.run("parity", "--pipeline", "lean").expect(2).expect_one_line("--pipeline")
 
 
-# What `parity` must catch. Each defect: files of the shading text, what is replaced in them, samples a pixel, the first stage that must
-# differ, and where the defect is to be in one shader only, that one.
+# Defects that `parity` must catch. Columns: edits (shading file, old text, new text), samples a pixel, stages that may differ first, and
+# the single shader with the defect, if not all.
 MIRROR = "2 * (frame.center_x >> 8) - 1 - "
 DEFECTS = {
-    # drawn mirrored and read mirrored: samples on left edges fall to the other triangle, all else stays
+    # drawn mirrored and read mirrored: samples on left edges fall to the other triangle, and nothing else changes
     "top_left_rule": ([("stages/visibility.vert", "vec4(x, y, ", "vec4(-x, y, "),
                        ("stages/visibility.frag", "px = int(gl_FragCoord.x)", f"px = {MIRROR}int(gl_FragCoord.x)"),
                        ("stages/gather.comp", "ivec2(pixel % frame.width", f"ivec2({MIRROR}pixel % frame.width")], "1", {"visibility"}),
@@ -466,7 +466,7 @@ DEFECTS = {
 }
 
 
-# The same of area lights, by the stage that lights.
+# Defects of area lights, in the stage that lights.
 LTC_TABLE = "lights/ltc_table.k.h"
 AREA_DEFECTS = {"a_mirror_that_is_not_undone": (LTC_TABLE, "return vec3_of(p.sign_x * x, p.sign_y * y, v.z);", "return vec3_of(x, p.sign_y * y, v.z);"),
                 "a_quadrant_that_is_not_mirrored": (LTC_TABLE, "p.sign_y = select(eye.y < lit(0.0), lit(-1.0), lit(1.0));", "p.sign_y = lit(1.0);"),
@@ -474,7 +474,7 @@ AREA_DEFECTS = {"a_mirror_that_is_not_undone": (LTC_TABLE, "return vec3_of(p.sig
 
 
 def compile_stages(source, folder, only=None):
-    """Every shader of stages.txt, or one of them, from the shading text below `source`."""
+    """Compiles every shader of stages.txt, or one of them, from the shading text below `source`."""
     for line in (ROOT / "raster/vulkan/stages.txt").read_text().splitlines():
         if not re.match("[a-z]", line):
             continue
@@ -491,7 +491,7 @@ def compare_changed(bench, replacements, msaa, code, only=None, size="128x96", d
     source, shaders = bench.folder / "source", bench.folder / "shaders"
     shutil.copytree(ROOT / "shading", source / "shading", ignore=shutil.ignore_patterns("bake"))
     (source / "core/scene").mkdir(parents=True)
-    for table in (ROOT / "core/scene").glob("*.def"): # of what records hold
+    for table in (ROOT / "core/scene").glob("*.def"): # tables that define the records
         shutil.copy(table, source / "core/scene")
     shaders.mkdir()
     for file, old, new in replacements:
@@ -512,7 +512,7 @@ def sees_nothing_where_nothing_is(bench):
 def add_defect(name, replacements, msaa, stages, only=None):
     @case(f"parity.sees_a_defect.{name}", tier="nightly")
     def sees(bench):
-        # few samples lie on an edge: small pictures may have none
+        # few samples lie on an edge, so small images may have none
         report = compare_changed(bench, replacements, msaa, 1, only, "320x240" if name == "top_left_rule" else "128x96")
         first = [row["first_difference"] for row in report["rows"]]
         first = min((f for f in first if f), key=OF_IDS.index, default=None)

@@ -33,7 +33,7 @@ def tables(bench):
             found = hash_of(bench, *words, *[word for name in given for word in ("--as-table", name)])
             check(found == own, f"{samples} samples: {given} draw another picture")
         check(hash_of(bench, *words, "--as-tables", "off") != own, "tables make no difference")
-    # the document's own kinds: what they cost is said, and is not much
+    # the document's file formats: their error is reported and small
     words = (*LOBE, "--anisotropy", "0.6", "--samples", "64")
     bench.run("render", *words, "-q", "-o", "own.pfm").expect(0)
     for name, needle, most in (("h.png", "8 bits leave", 3e-3), ("even.exr", "", 1e-5)):
@@ -43,11 +43,11 @@ def tables(bench):
         check(0 < found["mse"] < most, f"{name}: {found}")
     done = bench.run("render", *LOBE, "--anisotropy", "0.6", "--samples", "65", "--as-table", "both/h.exr", "-o", "t.pfm").expect(0)
     check("256x256 texels do not hold 65 samples" in done.err, done.describe())
-    # of another lobe, or of none
+    # tables for another lobe, or without a lobe
     for anisotropy in ("0.5", "0"):
         for name in ("both/h.exr", "a.pfm", "h.png"):
             bench.run("render", *LOBE, "--anisotropy", anisotropy, "--as-table", name, "-q", "-o", "no.pfm").expect(4).expect_one_line(name, "nu")
-    # by other techniques where the lobe is compensated by its own albedo
+    # by other techniques, where the lobe's albedo compensates the energy loss
     words = (*LOBE, "--technique", "mc", "--samples", "8", "--brdf", "ashikhmin_shirley", "--energy-compensation")
     words = tuple(word for i, word in enumerate(words) if word != "as_mc" and not (word == "--technique" and words[i + 1] == "as_mc"))
     check(hash_of(bench, *words, "--anisotropy", "0.6", "--as-table", "a.pfm") == hash_of(bench, *words, "--anisotropy", "0.6"),
@@ -106,7 +106,7 @@ def pixels(bench, name):
 
 
 def ball(columns, rows):
-    """A sphere of a material that is no metal, with coordinates and normals."""
+    """Returns a dielectric sphere with texture coordinates and normals."""
     lines, faces = [], []
     for j in range(rows + 1):
         for i in range(columns + 1):
@@ -121,8 +121,8 @@ def ball(columns, rows):
     return "\n".join(lines + faces) + "\n"
 
 
-# Under light of 1 from everywhere a white surface shows what both parts give back: never more than they get, at grazing angles less than
-# Lambert's. Compensated it is all of it, by a table of the lobe's albedo or, where roughness varies, by 89 of its samples.
+# Under radiance 1 from everywhere a white surface reflects the sum of both parts: at most 1, and at grazing angles less than Lambert. With
+# compensation it reflects 1, by an albedo table or, where roughness varies, by 89 samples.
 @case("phong.diffuse_part_and_lobe_give_back_what_they_get", tier="nightly")
 def furnace(bench):
     scratch(bench, "even.pfm", pfm(8, 4, lambda x, y: (1, 1, 1)))
@@ -148,7 +148,7 @@ def furnace(bench):
     check(min(shown["0.04,0.04,0.04", "lambert", ()]) > min(shown["0.04,0.04,0.04", "ashikhmin-shirley", ()]) + 0.05, "both diffuse parts are one")
 
 
-# A plane at one angle under smooth light: the tile renderer's means are the reference's.
+# A plane at one angle under smooth light: the tile renderer's means equal the reference's.
 @case("phong.the_diffuse_part_meets_the_reference", tier="nightly")
 def diffuse_reference(bench):
     needs_embree(bench)
@@ -186,7 +186,7 @@ def directional(bench):
     bench.run("bake", "tpr", "--expr", "0", "1", "--size", "2x2", "-o", "quarter.exr").expect(0)
     bench.run("render", scene, *VIEW, "--f0", "1,1,1", "--roughness-map", "w.png", "--rotation-map", "quarter.exr", "-q", "-o", "t.pfm").expect(0)
     check(off_by(bench, "across.pfm", "t.pfm")["mse"] < 1e-5, "a rotation does not turn it")
-    # by file, with the metalness that the material's texture has
+    # by file, with the metalness of the material's texture
     gltf = bare(pbrMetallicRoughness={"metallicRoughnessTexture": {"index": 1}},
                 extras={"burnish": {"directionalRoughnessTexture": {"index": 0, "encoding": "widths"}}})
     gltf["textures"], gltf["images"] = [{"source": 0}, {"source": 1}], [{"uri": "w.png"}, {"uri": "metal.png"}]

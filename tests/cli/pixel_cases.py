@@ -1,4 +1,4 @@
-"""The promise: pixels are a function of version, scene and options alone."""
+"""The promise: pixels depend on version, scene and options alone."""
 
 import colorsys
 import json
@@ -129,7 +129,7 @@ def other_build(bench):
     check(len(set(builds.values())) == 2, f"these are not two compilers: {builds}")
     for scene in scenes:
         for isa in ((), ("--isa", "scalar")):
-            # --no-cache: the bake itself is compared, too.
+            # --no-cache: compares the bake as well.
             hashes = {program: hash_of(bench, scene, "--no-cache", *isa, program=program) for program in builds}
             check(len(set(hashes.values())) == 1, f"{scene} {isa}: {[(builds[p], h) for p, h in hashes.items()]}")
     print(f"{len(scenes)} scenes, equal pixels from {' and '.join(builds.values())}")
@@ -137,7 +137,7 @@ def other_build(bench):
 
 @case("pixels.brushing_sets_in_without_a_step")
 def brushing_sets_in(bench):
-    """What is brushed is drawn by another technique than what is not; the least of it must not show."""
+    """Brushed surfaces are drawn by another technique than others. The transition must not show."""
     both = ("auto", "lobe_line")
     for scene, msaa, techniques in (("builtin:spheres", "1", both), ("builtin:spheres", "8", both), ("builtin:plate", "1", ("auto",))): # a map
         for roughness in ("0.15", "0.4", "0.7"):
@@ -153,7 +153,7 @@ def brushing_sets_in(bench):
 
 @case("pixels.lines_that_turn_fast_leave_no_dots")
 def no_dots(bench):
-    """Where fragments of a quad share too little of what their samples found, quads show: their error correlates more at two pixels than at one."""
+    """If a quad's fragments share too few of their samples, quads show: their error correlates more at two pixels than at one."""
     needs_embree(bench)
     from lobe_line import pattern, read_pfm
 

@@ -8,7 +8,7 @@ from harness import case, check
 
 
 def discs(bench, *words):
-    """{family: [(x, y)]} of the dots of `plot axis`."""
+    """Returns {family: [(x, y)]} of the dots of `plot axis`."""
     bench.run("plot", "axis", *words, "-o", "a.svg").expect(0)
     text = (bench.folder / "a.svg").read_text()
     xml.dom.minidom.parseString(text)
@@ -18,7 +18,7 @@ def discs(bench, *words):
     return found
 
 
-# A panel is 300 px wide and shows slopes to 1.5 times k deviations; the middle of the first one lies at (174, 190).
+# A panel is 300 px wide and shows slopes to 1.5 times k deviations. The centre of the first panel is at (174, 190).
 @case("plot.seen_along_the_normal_everything_is_symmetric")
 def symmetric(bench):
     found = discs(bench, "--eye", "0,0", "--samples", "5")
@@ -36,11 +36,11 @@ def clamped(bench):
     far = sorted(x for x, y in found["c4"] if x < 324 and y < 340)
     samples = sorted(x for x, y in found["c2"] if x < 324 and y < 340)
     check(len(far) == 2 and min(samples) > far[0] + 20 and max(samples) < far[1] + 1, f"samples at {samples} between {far}")
-    beyond = [x for x, y in found["c4"] if x > 672 and y < 340] # of the mirrored ones, the one below the horizon is not shown
+    beyond = [x for x, y in found["c4"] if x > 672 and y < 340] # one mirrored point lies below the horizon and is not shown
     check(len(beyond) == 1, f"{beyond}")
 
 
-# What appendices A to D give: (eye, roughness, anisotropy, width, radius) for 16 samples.
+# Results of appendices A to D: (eye, roughness, anisotropy, width, radius) for 16 samples.
 WIDTHS = (((0.5, 0.3, 0.8), "0.5", "0.8", 0.11974987, 0.07918166), ((0.6, -0.2, 0.1), "0.4", "0.5", 0.04737105, 0.03401382),
           ((0.7, 0.0, 0.4), "0.5", "0.6", 0.14275683, 0.07331634))
 
@@ -55,7 +55,7 @@ def width(bench):
 
 
 def lobe(bench, *words):
-    """What a figure says of a lobe: the peak and where it is, the value along the mirror direction and where that is; and the figure."""
+    """Returns a figure's lobe data: the peak and its place, the value in the mirror direction and its place; and the figure."""
     bench.run("plot", "lobe", *words, "-o", "l.svg", "-q").expect(0)
     text = (bench.folder / "l.svg").read_text()
     xml.dom.minidom.parseString(text)
@@ -70,14 +70,14 @@ def peaks(bench):
     drawn = 0
     for name in names:
         done = bench.run("plot", "lobe", "--brdf", name, "-o", "l.svg")
-        if done.code == 2: # a model that lies on no surface
+        if done.code == 2: # a model that is not a surface lobe
             continue
         drawn += 1
         peak, theta, _, mirrored, off, _, _ = lobe(bench, "--brdf", name, "--anisotropy", "0", "--eye", "0,0")
         if name == "heidrich_seidel": # threads are bright all the way around
             check(abs(mirrored - 1) < 1e-4 and peak < 1 + 1e-6, f"{name}: {peak} {mirrored}")
             continue
-        # alpha is 1/4: D / 4, or what stands for it, is 4 / pi, of Ashikhmin's Phong (17 / 16) / 2 as much
+        # alpha is 1/4: D / 4, or its replacement, is 4 / pi; for Ashikhmin's Phong (17 / 16) / 2 of that
         value = 17 / (8 * math.pi) if name == "ashikhmin_shirley" else 4 / math.pi
         check(theta < 0.01 and off < 0.01 and abs(peak / value - 1) < 1e-4, f"{name}: {peak} at {theta}, not {value}")
     check(drawn >= 9, f"{drawn} of {names}")
@@ -98,7 +98,7 @@ def densities(bench):
     bench.run("plot", "axis", "--roughness", "0.9", "-o", "a.svg", "-q").expect(0)
     number = r'"([-\d.]+)"'
     cells = [[float(v) for v in c] for c in re.findall(rf'<rect x={number} y={number} width={number} height={number} fill="rgb', (bench.folder / "a.svg").read_text())]
-    for middle in (498, 822): # of microfacet normals and of reflected directions, 150 px around
+    for middle in (498, 822): # microfacet normals and reflected directions, 150 px around
         rows = {}
         for x, y, width, height in cells:
             if abs(x - middle) < 151 and y < 341:
@@ -134,7 +134,7 @@ def sides(bench, *words):
 
 @case("plot.a_bent_normal_looks_to_the_wrong_side_and_the_axis_does_not")
 def sides_of_techniques(bench):
-    for eta, rotation in (("0", "45"), ("0.8", "0"), ("0.8", "90")): # nothing is bent, or along parallels or meridians
+    for eta, rotation in (("0", "45"), ("0.8", "0"), ("0.8", "90")): # no bending, or along parallels or meridians
         bent, axis = sides(bench, "--roughness", "0.4", "--anisotropy", eta, "--rotation", rotation)
         check(bent < 1 and axis < 1, f"{eta}: {bent} and {axis}")
     bent, axis = sides(bench, "--roughness", "0.4", "--anisotropy", "0.8")
@@ -151,7 +151,7 @@ def same(bench):
 
 
 def distances(bench, *words):
-    """{title: L1} of the panels of `plot ltc`."""
+    """Returns {title: L1} of the panels of `plot ltc`."""
     bench.run("plot", "ltc", *words, "-o", "c.svg", "-q", timeout=300).expect(0)
     return re.findall(r">([^<>]*), L1 ([0-9.]+)(: a lune)?<", (bench.folder / "c.svg").read_text())
 
@@ -187,7 +187,7 @@ def wrong(bench):
 
 
 def rotation(x, y, z):
-    """Rx Ry Rz of the ellipsoid's angles, by rows."""
+    """Returns Rx Ry Rz of the ellipsoid's angles, by rows."""
     def product(a, b):
         return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
 
@@ -196,7 +196,7 @@ def rotation(x, y, z):
 
 
 def mean_normal(ax, ay, angles, rows=160):
-    """Integral of the distribution times normals, a sum in double precision apart from the program: equation 1."""
+    """Returns the integral of the distribution times normals, a double-precision sum independent of the program: equation 1."""
     turn = rotation(*angles)
     length = math.sqrt((ax * turn[0][2])**2 + (ay * turn[1][2])**2 + turn[2][2]**2)
     mean = [0.0, 0.0, 0.0]

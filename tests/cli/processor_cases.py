@@ -1,4 +1,4 @@
-"""Processors that the program is not compiled for, as qemu plays them."""
+"""Processors for which the program is not compiled, emulated by qemu."""
 
 import json
 import pathlib
@@ -30,7 +30,7 @@ def too_old(bench):
 
 @case("processor.library_is_refused_below_x86_64_v2")
 def library_refused(bench):
-    """By the dynamic loader, with a message: no crash."""
+    """The dynamic loader refuses with a message and without a crash."""
     qemu, python = emulator(), shutil.which("python3")
     library = next(pathlib.Path(bench.program).parent.glob("raster/session/libburnish.so.*.*.*"), None)
     if not library or not python:

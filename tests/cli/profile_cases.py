@@ -1,4 +1,4 @@
-"""burnish profile: the figures hang together, and looking does not change the picture."""
+"""burnish profile: the figures are consistent, and profiling does not change the image."""
 
 import json
 import xml.etree.ElementTree as tree
@@ -22,7 +22,7 @@ def figures(bench):
     check(0.97 < share < 1.001, f"the shares add up to {share}")
     for s in found["stages"]:
         check(abs(s["share"] - s["ms"] / found["busy_ms"]) < 1e-9, f"share of {s}")
-    # On one thread the stages are the frame; the clock of the whole was not made of theirs.
+    # On one thread the stages make up the frame; the whole has a separate clock.
     check(abs(found["waiting_ms"]) < 0.15 * found["busy_ms"], f"{found['waiting_ms']} ms of {found['busy_ms']} are in no stage")
     kernels = sum(k["ms"] for k in found["kernels"])
     check(found["kernels"] and abs(kernels - times["shade"]) < 1e-6, f"kernels take {kernels} ms, shade {times['shade']}")

@@ -1,4 +1,4 @@
-"""Work that takes longer than the progress interval says what it does: BURNISH_PROGRESS_SECONDS makes it short here."""
+"""Work longer than the progress interval reports its progress: BURNISH_PROGRESS_SECONDS makes the interval short here."""
 
 import re
 
@@ -19,7 +19,7 @@ TOLD = (
 
 
 def lines_of(done):
-    """Lines of progress: "bake, mip, levels of ...: 3 s", "chart: 12 %, 4 s left"."""
+    """Returns the progress lines: "bake, mip, levels of ...: 3 s", "chart: 12 %, 4 s left"."""
     return [line for line in done.err.splitlines() if re.search(r": (\d+ s|\d+ %.*)$", line)]
 
 

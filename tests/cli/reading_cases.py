@@ -1,4 +1,4 @@
-"""What files say of their colours, shapes and numbers: taken, refused or said, never passed over."""
+"""Colours, shapes and numbers in files are applied, refused or reported, never ignored."""
 
 import struct
 
@@ -8,7 +8,7 @@ from harness import SMALL, case, check, scratch
 from input_cases import accept, refuse
 
 ACESCG = (0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767)
-# From linear Rec.709 to ACEScg, white adapted by Bradford, as the Academy's and others' tools print it.
+# From linear Rec.709 to ACEScg, with Bradford white adaptation, as the Academy's and other tools print it.
 TO_ACESCG = ((0.613097, 0.339523, 0.047380), (0.070194, 0.916354, 0.013452), (0.020616, 0.109570, 0.869815))
 WIDTH, HEIGHT = 32, 16
 
@@ -40,7 +40,7 @@ def plain_hdr(value, lines=""):
 
 
 def drawn(bench, env):
-    """Pixel hash and warnings of a plate under it."""
+    """Returns the pixel hash and warnings of a plate under this environment."""
     found = bench.figures("builtin:plate", *SMALL, "--env", env)
     return found["pixel_hash"], found["warnings"]
 
@@ -132,7 +132,7 @@ def obj_texts(bench):
 
 @case("reading.files_of_reports_are_read_right", tier="nightly")
 def reports(bench):
-    """What beside the checkout was read wrongly once."""
+    """Optional files that were once read wrongly."""
     folder = bench.data_file("reports/env_acescg.exr").parent
 
     def hash_of(name):

@@ -43,7 +43,7 @@ def modes(bench):
 
 @case("reference.bakes_only_what_it_reads", tier="nightly")
 def bakes_little(bench):
-    """Without a bake in the cache it makes none, and its picture is the same."""
+    """Without a cached bake the reference makes none, and its image is equal."""
     needs_embree(bench)
     own = {"XDG_CACHE_HOME": str(bench.folder / "own")}
     for environment in ("builtin:sky", "builtin:studio"):
@@ -127,7 +127,7 @@ def stopped(bench):
         _, said = child.communicate(timeout=120)
         if child.returncode == 0:
             break
-        if child.returncode == -number:  # before it listened: nothing was there to be lost
+        if child.returncode == -number:  # killed before the handler was ready: nothing was lost
             continue
         check(child.returncode == 128 + number, f"exit code {child.returncode}: {said!r}")
         check(b"stopped" in said and b"part" in said, f"{said!r}")

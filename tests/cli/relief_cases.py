@@ -1,4 +1,4 @@
-"""Parallax occlusion mapping: heights by option, by file and by folder, against the same heights as triangles, on devices, and bad input."""
+"""Parallax occlusion mapping: heights by option, file and folder, against equal heights as triangles, on devices, and bad input."""
 
 import math
 import pathlib
@@ -15,7 +15,7 @@ OBLIQUE = ("--eye", "0.85,0.3,0.5", "--target", "0.36,0.3,0", "--fov", "16", "--
 
 
 def domes(x, y):
-    """Four round stones along each side of 64 texels; red."""
+    """Returns a texel of four round stones along each side of 64 texels; red."""
     u, v = (x + 0.5) / 16 % 1 - 0.5, (y + 0.5) / 16 % 1 - 0.5
     return (int(255 * math.sqrt(max(0.0, 1.0 - (u * u + v * v) / 0.23)) + 0.5),)
 
@@ -29,12 +29,12 @@ def wall(bench):
     return "wall.obj", "--material", "stones"
 
 
-# Rays find the stones where triangles show them: nearer than the flat wall by far, and not by heights taken for depths.
+# Rays find the stones at the triangles' places: much closer than the flat wall, and not with heights taken for depths.
 @case("relief.parallax_shows_what_triangles_show", tier="nightly")
 def truth(bench):
     flat = wall(bench)
     bench.run("bake", "displaced", "wall.obj", "h.png", "--height-scale", "0.06", "--triangles", "130000", "-q", "-o", "wall.glb").expect(0)
-    scratch(bench, "even.pfm", pfm(4, 2, lambda x, y: (1, 1, 1)))  # in which normals make no difference
+    scratch(bench, "even.pfm", pfm(4, 2, lambda x, y: (1, 1, 1)))  # normals make no difference under uniform light
     words = (*OBLIQUE, "--env", "even.pfm", "--msaa", "4", "--roughness", "1", "--f0", "0,0,0", "--no-background", "-q")
     bench.run("render", "wall.glb", *words, "--material", "stones", "-o", "truth.pfm").expect(0)
     off = {}
@@ -67,7 +67,7 @@ def heights(bench):
     scratch(bench, "h.pfm", pfm(64, 64, lambda x, y: (domes(x, y)[0] / 255,) * 3))
     for name in ("h16.png", "h.pfm"):
         check(hash_of(bench, *flat, *view, "--height-map", name) == by_option, f"{name} looks otherwise")
-    # by the file itself, with a normal map and without
+    # by the file, with and without a normal map
     for normal in ({}, {"normalTexture": {"index": 1}}):
         gltf = bare(extras={"burnish": {"heightTexture": {"index": 0, "scale": 0.1}}}, **normal)
         gltf["textures"], gltf["images"] = [{"source": 0}, {"source": 1}], [{"uri": "h.png"}, {"uri": "n.png"}]

@@ -1,4 +1,4 @@
-"""burnish render --risks: where a technique is beyond what the atlas found it to hold."""
+"""burnish render --risks: places where a technique exceeds the limits that the atlas found."""
 
 import json
 import re
@@ -11,7 +11,7 @@ BRUSHED = ("--technique", "bent_normal", "--roughness", "0.4", "--anisotropy", "
 
 
 def shares(out):
-    """{entry: percent}, and that of any under ""."""
+    """Returns {entry: percent}, and the percentage of any entry under ""."""
     found = {entry: float(share) for share, entry in re.findall(r"^([\d.]+) % of shaded pixels: .*; (\w+)\)$", out, re.M)}
     found[""] = float(re.search(r"^([\d.]+) % of shaded pixels are beyond", out, re.M)[1])
     return found
@@ -28,18 +28,18 @@ def told(bench):
     check(a["pixel_hash"] == b["pixel_hash"], "the picture changed")
     for kind in ("png", "exr"):
         check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"the .{kind} changed")
-    # words alone; figures of a machine keep standard output for themselves
+    # text alone; machine-readable figures keep standard output
     check(shares(bench.run(*VIEW, *BRUSHED, "--risks", "-").expect(0).out) == found, "words without a picture are others")
     done = bench.run(*VIEW, *BRUSHED, "--risks", "-", "--stats", "-").expect(0)
     check(json.loads(done.out)["pixel_hash"] == a["pixel_hash"] and shares(done.err) == found, done.describe())
-    # what "-" asks for is printed with -q too, and nothing else
+    # "-" prints with -q as well, and nothing else is printed
     quiet = bench.run(*VIEW, *BRUSHED, "--risks", "-", "-q").expect(0)
     check(shares(quiet.out) == found and quiet.err == "", quiet.describe())
 
 
 @case("risks.say_the_eye_as_an_angle")
 def angle(bench):
-    """A trial's place of the eye says nothing in another scene."""
+    """A trial's eye position has no meaning in another scene."""
     done = bench.run("render", "builtin:plate", "--size", "48x32", "--env-size", "64", "--env-samples", "64", "--technique", "bent_normal",
                      "--risks", "-").expect(0)
     check(re.search(r"bent_normal beyond an eye \d\d degrees above the surface \(", done.out), done.out)
@@ -55,10 +55,10 @@ def follow(bench):
     check(words(*BRUSHED, "--technique", "mc", "--samples", "4096")[""] < 1, "what has samples enough is marked")
     check(words(*BRUSHED, "--technique", "mc", "--samples", "1").get("mc_fireflies", 0) > 30, "one sample is not noise")
     check("separable_masking" in words("--technique", "lobe_line", "--roughness", "1", "--masking", "separable"), "masking is not seen")
-    # under an even sky nothing shows where a technique looks
+    # under a uniform sky a technique's directions do not show
     (bench.folder / "even.exr").write_bytes(exr(16, 8, even(1.0)))
     check(words(*BRUSHED, "--env", "even.exr")[""] == 0, "one colour all around, and a place of it is wrong")
-    # an environment turned by half, and the eye with it: nearly the same is marked
+    # an environment turned by half with the eye: nearly equal parts are marked
     still = words(*BRUSHED, "--eye", "0.3,0.2,0.5", "--target", "0,0.05,0")[name]
     turned = words(*BRUSHED, "--eye", "-0.3,0.2,-0.5", "--target", "0,0.05,0", "--env-rotation", "180")[name]
     check(abs(still - turned) < 3, f"{still} % and {turned} %")

@@ -1,4 +1,4 @@
-"""Every subcommand once, small, in a build with sanitizers too."""
+"""Every subcommand once, small, also in a build with sanitizers."""
 
 import json
 import re
@@ -6,10 +6,10 @@ import re
 from fault_cases import CHART, REFERENCE, TINY
 from harness import case, check
 
-NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # what drivers do is not looked at here
+NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # drivers are not under test here
 VIEW = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
 
-# Command lines by subcommand, each with the exit codes that it may have: 77 where a device or the reference is absent.
+# Command lines by subcommand, each with its allowed exit codes: 77 where a device or the reference is missing.
 RUNS = {
     "render": [((*TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr", "-o", "a.pfm", "-o", "a.jpg", "-o", "a.tif", "--stats", "s.json",
                  "--trace", "t.json"), (0,)),
@@ -67,7 +67,7 @@ def each(bench):
         without = set(whats) - {words[0] for words, _ in RUNS[name] if words}
         check(not without, f"{name} {sorted(without)}: in the help, and without a run")
         for words, codes in RUNS[name]:
-            if bench.sanitized and "--mip" in words:  # minutes of searches there; a small one is among the rows of render
+            if bench.sanitized and "--mip" in words:  # minutes of searches under sanitizers; render has a small search
                 continue
             done = bench.run(name, *words, env=NO_DEVICE)
             check(done.code in codes, done.describe())
@@ -79,7 +79,7 @@ def each(bench):
 
 @case("subcommand.each_refuses_bad_input", "input")
 def bad_input(bench):
-    """And each says one line where its input is none."""
+    """Each prints one line on invalid input."""
     (bench.folder / "bad.glb").write_bytes(b"glTF, not")
     (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
     for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),

@@ -1,4 +1,4 @@
-"""extras.burnish.tilt and tiltTexture: lobes tilted against their surface by a file, in every technique, in the reference, on a device."""
+"""extras.burnish.tilt and tiltTexture: lobes that a file tilts against their surface, in every technique, in the reference, on a device."""
 
 import base64
 import json
@@ -23,7 +23,7 @@ def tilted(tilt, **more):
 
 
 def beside_another(tilt):
-    """A tilted triangle and, above it, one that is not."""
+    """Returns a tilted triangle and, above it, one without tilt."""
     gltf = tilted(tilt)
     gltf["materials"].append({key: value for key, value in gltf["materials"][0].items() if key != "extras"})
     gltf["meshes"].append({"primitives": [dict(gltf["meshes"][0]["primitives"][0], material=1)]})
@@ -55,7 +55,7 @@ def same(bench):
               f"{technique}: a sum is not held below the horizon")
 
 
-# What is beside it keeps its look, by the lobe that can be tilted.
+# A neighbouring material keeps its look, drawn by the tiltable lobe.
 @case("tilt.is_of_one_material_alone")
 def alone(bench):
     for technique in ("auto", "filtered_is_ggx", "mc"):
@@ -90,7 +90,7 @@ def agrees(bench):
 
 
 def mapped(*names, transform=None):
-    """A triangle with maps of checks, many to a pixel: of tilts, of directions, of roughness."""
+    """Returns a triangle with checkered maps, many checks to a pixel: tilts, directions, roughness."""
     colors = {"tilt": lambda x, y: ((255, 40, 0), (1, 200, 0))[(x + y) % 2], "grain": lambda x, y: ((255, 128, 255), (128, 255, 100))[x % 2],
               "rough": lambda x, y: (0, (51, 204)[(x + y) % 2], 255)}
     picture = lambda name: "data:image/png;base64," + base64.b64encode(files.png(64, 64, color=colors[name])).decode()

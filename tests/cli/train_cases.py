@@ -75,13 +75,13 @@ def choices(bench):
         bench.run("train", "mip", "--steps", "4", *words, "-o", "w.mipnet", "-q").expect(0)
         made[words] = (bench.folder / "w.mipnet").read_bytes()
         said = json.loads(bench.run("info", "--json", "--weights", "w.mipnet").expect(0).out)["command"].split()
-        # of paths the last name: nothing of the machine that it was made on
+        # paths lose their folders, so nothing identifies the machine
         check(all(str(word).rpartition("/")[2] in said for word in words) and not any("/" in word for word in said[1:] if word != said[said.index("--size") + 1]),
               f"{words}: {said}")
         bench.run(*said[1:], "-o", "again.mipnet", "-q").expect(0)
         check((bench.folder / "again.mipnet").read_bytes() == made[words], f"{words}: the command makes others")
     check(len(set(made.values())) == len(made), "an option changes nothing")
-    # a net of four texels alone makes pyramids, too, and one that sees sixty-four
+    # nets with footprints of four and sixty-four texels make pyramids, too
     for words in (("--size", "2x16"), ("--footprint", "8")):
         (bench.folder / "w.mipnet").write_bytes(made[words])
         bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)

@@ -1,4 +1,4 @@
-"""Help, version, lists, and the errors of wrong options."""
+"""Help, version, lists, and errors of wrong options."""
 
 import json
 import os
@@ -23,7 +23,7 @@ def help_is_everywhere(bench):
 
 @case("usage.no_words_print_the_subcommands")
 def no_words(bench):
-    """A mistake, for a script that lost its words; and its answer is the help, not a pointer to it."""
+    """A mistake of a script that lost its words. The answer is the help, not a pointer to it."""
     done = bench.run().expect(2)
     listed = bench.run("--help").expect(0).out
     check(done.out == "" and done.err == listed + "burnish: a subcommand is required\n", done.describe())
@@ -53,7 +53,7 @@ MORE = {"render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("-
 
 
 def examples(bench):
-    """Command lines of the pages and of --help, without those that show what may be given."""
+    """Returns the command lines of the pages and of --help, without those that show alternatives."""
     lines = []
     for page in (ROOT / "README.md", *sorted((ROOT / "apps/manual").glob("*.md"))):
         lines += [line.strip() for line in re.sub(r"\\\n +", "", page.read_text()).splitlines() if line.startswith("    burnish ")]
@@ -65,7 +65,7 @@ def examples(bench):
 
 @case("usage.examples_of_the_pages_are_taken_as_they_are_written")
 def every_example(bench):
-    """Up to where they would read what is not here, or write: below a file."""
+    """Runs them up to their missing inputs or their outputs, which are below a file."""
     lines = examples(bench)
     check(len(lines) > 80, f"only {len(lines)} examples were found")
     scratch(bench, "file", "")
@@ -81,7 +81,7 @@ def every_example(bench):
     check(not wrong, "\n".join(wrong))
 
 
-# Arguments, and what the one line must name.
+# Arguments, and text that the one-line message must contain.
 WRONG = (
     (("frobnicate",), "frobnicate"),
     (("render", "--bogus"), "--bogus"),
@@ -167,7 +167,7 @@ def negative_numbers(bench):
 
 @case("usage.lists_name_what_options_accept")
 def lists(bench):
-    """Every name of a list is taken by its option; the reflection models are listed too, and no option names one."""
+    """An option takes every name of its list. The reflection models are listed too, and no option names one."""
     tiny = ("--size", "8x8", *SMALL[2:])
     options = {"techniques": lambda name: ("--technique", name, "--samples", "1"), "scenes": lambda name: (name,),
                "environments": lambda name: ("--env", name), "models": None, "extensions": None}

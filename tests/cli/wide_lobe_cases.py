@@ -7,7 +7,7 @@ from harness import case, check, scratch
 from reference_cases import needs_embree
 
 SIZE = ("--size", "48x48", "--no-background", "-q")
-# Widths .52 and .25, as those of roughness .5 and anisotropy strength .6 in a file.
+# Widths .52 and .25, as from roughness .5 and anisotropy strength .6 in a file.
 WIDE = ("--roughness", "0.62", "--anisotropy", "0.35")
 
 
@@ -23,5 +23,5 @@ def horizon(bench):
     bench.run("render", *words, "--backend", "reference", "--samples", "256", "-o", "reference.pfm").expect(0)
     bench.run("render", *words, "--msaa", "4", "-o", "auto.pfm").expect(0)
     found = json.loads(bench.run("compare", "reference.pfm", "auto.pfm", "--metric", "flip-hdr", "--json", "-", "-q").expect(0).out)
-    # Samples at the mirror about each round lobe's middle have .079, noise of the reference .014.
+    # The limit lies below the error of samples fixed at each round lobe's mirror direction.
     check(found["flip_mean"] < 0.058, f"FLIP to the reference is {found['flip_mean']}")

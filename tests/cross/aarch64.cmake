@@ -1,4 +1,4 @@
-# Toolchain: Debian's cross compiler, and qemu, which runs what it made.
+# Toolchain: Debian's cross compiler, and qemu, which runs the programs.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

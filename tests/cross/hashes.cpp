@@ -1,6 +1,6 @@
-// Prints hashes of small pictures of the built-in scenes, a line each, drawn with one instruction set, and of what was baked for them:
+// Prints hashes of the built-in scenes' small images and bakes, one a line, for one instruction set:
 //   burnish_hashes ISA
-// Without an argument, the instruction sets that there are.
+// Without an argument, prints the available instruction sets.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -19,7 +19,7 @@ void print(const std::string& name, std::uint64_t hash)
     std::printf("%016llx %s\n", static_cast<unsigned long long>(hash), name.c_str());
 }
 
-// Ends the program where it cannot be drawn.
+// Draws a frame and prints its hash. Ends the program if drawing fails.
 void draw(Session& session, const std::string& name, FrameDesc desc)
 {
     desc.view = session.framed(desc.width, desc.height);
@@ -59,7 +59,7 @@ void draw_all(Session& session, const std::string& scene)
     draw(session, scene + " fitted", fitted);
 }
 
-// Every built-in scene once; of the spheres every second blends.
+// Draws every built-in scene once. Every second material of the spheres blends.
 bool draw_each(SessionParts parts, const SessionOptions& options)
 {
     for (const BuiltinInfo& info : builtin_scenes()) {
@@ -87,7 +87,7 @@ int run(const std::string& isa_word)
         std::fprintf(stderr, "%s\n", isa.error().line().c_str());
         return 2;
     }
-    setenv("BN_FORCE_ISA", isa_word.c_str(), 1); // of the bake
+    setenv("BN_FORCE_ISA", isa_word.c_str(), 1); // for the bake
     const auto jobs = std::make_shared<const Jobs>(2);
     const auto dfg = std::make_shared<const DfgTable>(bake_dfg(16, 64, *jobs));
     print("dfg", hash_bytes(dfg->pairs.data(), dfg->pairs.size() * sizeof dfg->pairs[0], 0));

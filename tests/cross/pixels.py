@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares bakes and pictures of two builds of burnish_hashes, by every instruction set of the second: all bits must be equal.
+"""Compares bakes and images of two builds of burnish_hashes, by every instruction set of the second: all bits must be equal.
 
 Usage: pixels.py HASHES OTHER-HASHES                             another compiler's
        pixels.py HASHES --aarch64 SOURCE-FOLDER BUILD-FOLDER     built here for aarch64, run by qemu
@@ -13,7 +13,7 @@ import sys
 
 EMULATOR = ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu")
 COMPILER = "aarch64-linux-gnu-g++"
-FEWEST = 40  # different hashes: pictures that are all black would be equal, too
+FEWEST = 40  # minimum of different hashes, since black images would also be equal
 
 
 def skip(reason):
@@ -29,7 +29,7 @@ def run(command, **options):
 
 
 def build(source, folder):
-    """burnish_hashes for aarch64, quickly: what it draws is the same however it is optimised."""
+    """Builds burnish_hashes for aarch64, quickly: its images do not depend on optimisation."""
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     run(["cmake", "--preset", "aarch64", "-B", folder, "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", *launcher], cwd=source)
     run(["cmake", "--build", folder, "--target", "burnish_hashes"])
@@ -37,7 +37,7 @@ def build(source, folder):
 
 
 def hashes(command, isa):
-    """{what: hash}"""
+    """Returns {name: hash}."""
     lines = run([*command, isa]).splitlines()
     return {line.partition(" ")[2]: line.partition(" ")[0] for line in lines}
 

@@ -1,7 +1,7 @@
-// Regenerates mikktspace_golden.txt beside it from the npm package mikktspace 1.1.1 (WebAssembly, for node):
+// Regenerates mikktspace_golden.txt in this folder from the npm package mikktspace 1.1.1 (WebAssembly, for node):
 //   npm install --prefix SOME_FOLDER mikktspace@1.1.1
 //   NODE_PATH=SOME_FOLDER/node_modules node make_mikktspace_golden.mjs
-// Lines: "case NAME CORNERS", then a corner a line: position, normal, uv, expected tangent with sign (12 numbers).
+// Lines: "case NAME CORNERS", then one corner a line: position, normal, uv, expected tangent with sign (12 numbers).
 import { writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
@@ -50,29 +50,29 @@ for (let axis = 0; axis < 3; ++axis)
         cases.cube.push(...quad(...[[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => at(a, b, smooth ? unit(point(a, b)) : flat))));
     }
 
-// With the seam where u jumps, and pole quads of which one triangle has collapsed.
+// Has a seam where u jumps, and pole quads with one collapsed triangle.
 cases.sphere = grid(8, 4, (i, j) => {
     const a = (2 * Math.PI * (i % 8)) / 8, b = Math.PI * (j / 4 - 0.5), c = j % 4 ? Math.cos(b) : 0;
     const p = [c * Math.cos(a), c * Math.sin(a), j % 4 ? Math.sin(b) : Math.sign(b)];
     return corner(p, p, [i / 8, j / 4]);
 });
 
-// Some triangles without area in texture space: between good ones, at the rim, and one with nobody to ask.
+// Some triangles without area in texture space: between good ones, at the rim, and one without neighbours.
 cases.empty_uv = grid(4, 2, (i, j) => corner([i, j, 0.1 * i * i], unit([-0.2 * i, 0, 1]), [i < 2 ? i / 4 : i === 2 ? 0.25 : (i - 1) / 4, j / 2]));
 cases.lonely = [[0, 0], [1, 0], [0, 1]].map(([x, y]) => corner([x, y, 0], up, [0.5, 0.5]));
 cases.line_uv = [...quad(...[[0, 0], [1, 0], [1, 1], [0, 1]].map(([x, y]) => corner([x, y, 0], up, [x * 0.5, x * 0.5]))),
     ...[[1, 0], [2, 0], [1, 1]].map(([x, y]) => corner([x, y, 0], up, [x * 0.5, x === 1 ? 0.5 : 0.1 + y]))];
-// Triangles without area in space, borrowing from whoever shares the vertex.
+// Triangles without area in space, which borrow from neighbours that share a vertex.
 cases.collapsed = [
     ...[[0, 0], [1, 0], [0, 1]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
     ...[[1, 0], [0, 1], [0, 1]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
     ...[[1, 0], [1, 0], [0, 0]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
 ];
-// Corners so close that floats cannot tell their difference from a third: no gradient, though not collapsed.
+// Corners too close for floats to tell their differences to a third corner apart: no gradient, though not collapsed.
 cases.sliver = [[[0.130526, -0.991445, 0], [0.129409, -0.991445, 0.017037], [1e-16, -1, 0]],
     [[0.129409, -0.991445, 0.017037], [1.1e-16, -1, 1.6e-17], [1e-16, -1, 0]]]
     .flat().map((p) => corner(p, unit(p), [p[2] === 0 ? 0 : 0.02, p[0] < 0.1 ? 0 : 0.04]));
-// Two triangles that meet in a vertex only, and turn differently in texture space.
+// Two triangles that share one vertex, and turn differently in texture space.
 cases.bow_tie = [
     ...[[0, 0], [1, 0], [1, 1]].map(([x, y]) => corner([x, y, 0], up, [x, y])),
     ...[[0, 0], [-1, 0], [-1, -1]].map(([x, y]) => corner([x, y, 0], up, [-y, x])),

@@ -1,4 +1,4 @@
-// A picture that was read holds together.
+// Decodes an image and checks the result's consistency.
 #pragma once
 #include "core/base/check.h"
 #include "core/image/io/image_io.h"

@@ -1,5 +1,4 @@
-// libFuzzer entry: any text as the blessed table of the atlas and, from its second line on, as what is kept of an entry, whose key is the
-// first.
+// libFuzzer entry: any text as the atlas' blessed table, and as a cached entry whose key is the first line.
 #include <string>
 
 #include "apps/lab/atlas/judge.h"
@@ -11,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace burnish;
     const std::string text(data, data + size);
     if (const Result<BlessedTable> table = parse_table(text, "fuzz")) {
-        const Result<BlessedTable> again = parse_table(table_text(*table), "fuzz"); // without rows of no entry
+        const Result<BlessedTable> again = parse_table(table_text(*table), "fuzz"); // without rows that lack an entry
         BN_CHECK(again);
         const std::string written = table_text(*again);
         const Result<BlessedTable> third = parse_table(written, "fuzz");

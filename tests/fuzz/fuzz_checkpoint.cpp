@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as the checkpoint of a reference picture. An odd first byte asks for the right key and checksum.
+// libFuzzer entry: any bytes as the checkpoint of a reference image. An odd first byte sets the right key and checksum.
 #include <cmath>
 
 #include "core/base/check.h"

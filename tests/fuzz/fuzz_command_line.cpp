@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as a command line, a word a line; the first word is the subcommand. The words are read, nothing runs.
+// libFuzzer entry: any text as a command line, one word a line. The first word is the subcommand. The words are read, and nothing runs.
 #include <sstream>
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             BN_CHECK(read.error().code == ExitCode::usage && !read.error().reason.empty());
             return 0;
         }
-        // What was given can be told, and told values can be given again.
+        // Given values can be printed, and printed values can be given again.
         for (const Option& option : command.options.options())
             static_cast<void>(option.help_text());
         BN_CHECK(!help_of(command).empty());

@@ -1,5 +1,5 @@
-// libFuzzer entry: any bytes as a baked environment in the cache. An odd first byte asks for right checksums, its second bit for key
-// lights.
+// libFuzzer entry: any bytes as a baked environment in the cache. An odd first byte sets the right checksums, and its second bit requests
+// key lights.
 #include <cmath>
 
 #include "core/base/check.h"

@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace burnish;
-    constexpr std::size_t kMostCharacters = 1000; // more are refused before they are read
+    constexpr std::size_t kMostCharacters = 1000; // longer texts are refused unread
     const std::unique_ptr<Expression> expression = make_expression(std::string(data, data + std::min(size, kMostCharacters)));
     const Result<double> first = expression->at(0.25, 0.75);
     if (!first)

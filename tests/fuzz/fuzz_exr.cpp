@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as an OpenEXR file, the format with most to read in its header. Its first bytes are put right.
+// libFuzzer entry: any bytes as an OpenEXR file, the format with the largest header. The entry corrects the first bytes.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include "core/image/io/image_library.h"
 #include "tests/fuzz/decode.h"
 
-// Loads the image library's hundreds of files before the clock of a run begins.
+// Loads the image library's hundreds of files before a run's clock starts.
 extern "C" int LLVMFuzzerInitialize(int*, char***)
 {
     static_cast<void>(static_cast<bool>(burnish::image_library("fuzz")));

@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as a glTF file. A scene that loads must hold together.
+// libFuzzer entry: any bytes as a glTF file. A loaded scene must be consistent.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/image_light.h"
 
-// Loads the image library's hundreds of files before the clock of a run begins.
+// Loads the image library's hundreds of files before a run's clock starts.
 extern "C" int LLVMFuzzerInitialize(int*, char***)
 {
     static_cast<void>(static_cast<bool>(burnish::image_library("fuzz")));

@@ -1,11 +1,11 @@
-// libFuzzer entry: any bytes as a picture of any format, guarded and decoded.
+// libFuzzer entry: any bytes as an image of any format, guarded and decoded.
 #include <cstddef>
 #include <cstdint>
 
 #include "core/image/io/image_library.h"
 #include "tests/fuzz/decode.h"
 
-// Loads the image library's hundreds of files before the clock of a run begins.
+// Loads the image library's hundreds of files before a run's clock starts.
 extern "C" int LLVMFuzzerInitialize(int*, char***)
 {
     static_cast<void>(static_cast<bool>(burnish::image_library("fuzz")));

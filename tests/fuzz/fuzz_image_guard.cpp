@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as a picture, as far as our own look at its header goes; no library sees them.
+// libFuzzer entry: any bytes as an image, checked by our header guard alone. No library sees them.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as an OBJ file. A scene that loads must hold together.
+// libFuzzer entry: any text as an OBJ file. A loaded scene must be consistent.
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
-// libFuzzer entry: any bytes as what is kept of a bake of a table (an even first byte) or of a training (an odd one). The second bit of
-// that byte asks for the right key, length and checksum.
+// libFuzzer entry: any bytes as the checkpoint for a table bake (even first byte) or a training (odd first byte). This byte's second bit
+// sets the right key, length and checksum.
 #include <cmath>
 
 #include "core/base/check.h"

@@ -1,5 +1,5 @@
-// libFuzzer entry: any floats as a picture that stands for a table of Ashikhmin-Shirley lobes: of half vectors where the first byte is odd,
-// else of albedo, all of which is looked at where it is 0. Its next two bytes are the sides.
+// libFuzzer entry: any floats as a texture with a table of Ashikhmin-Shirley lobes: half vectors if the first byte is odd, else albedo. If
+// the first byte is 0, the whole albedo table is checked. The next two bytes are the sides.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<float> pixels(static_cast<std::size_t>(3 * width * height), 0.5f);
     std::memcpy(pixels.data(), data + 3, std::min(size - 3, pixels.size() * sizeof(float)));
     if (data[0] & 1) {
-        float* last_row = pixels.data() + 3 * static_cast<std::size_t>(width * (height - 1)); // of the file; the picture's first
+        float* last_row = pixels.data() + 3 * static_cast<std::size_t>(width * (height - 1)); // of the file; the image's first row
         last_row[0] = last_row[1] = 0.0f, last_row[2] = 1.0f;
     }
     const std::string head = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
@@ -43,9 +43,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             BN_CHECK(std::isfinite(h.x + h.y + h.z + h.density) && h.density >= 0.0);
         return 0;
     }
-    if (data[0] != 0) // what it is compared with takes long, whatever the picture is
+    if (data[0] != 0) // the comparison takes long for any image
         return 0;
-    std::vector<float> pairs(64 * 64 * 2); // more than a slice of 8 has
+    std::vector<float> pairs(64 * 64 * 2); // larger than a slice of 8
     tables->slice(10.0, 90.0, 8, pairs.data());
     return 0;
 }

@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as the sweeps of a chart, a line each.
+// libFuzzer entry: any text as the sweeps of a chart, one a line.
 #include <sstream>
 #include <string>
 

@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as levels of materials, as `burnish bake mip` writes them and the cache keeps them. An odd first byte asks for
+// libFuzzer entry: any bytes as a material's mip levels, in the format that `burnish bake mip` and the cache write. An odd first byte sets
 // the right checksum.
 #include <algorithm>
 

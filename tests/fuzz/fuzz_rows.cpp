@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as the rows that a chart keeps. What is read is written and read again, the same.
+// libFuzzer entry: any text as a chart's cached rows. Rows that were read are written and read again, unchanged.
 #include <string>
 
 #include "apps/chart/rows.h"

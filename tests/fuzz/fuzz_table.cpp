@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as a table of transformed cosines. An odd first byte asks for the right length and checksum.
+// libFuzzer entry: any bytes as a table of transformed cosines. An odd first byte sets the right length and checksum.
 #include <cmath>
 
 #include "core/base/check.h"
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         grid.size = 2, grid.beyond = std::min<int>(bytes[24], 2), grid.round = round;
         const std::size_t used = bytes.size();
         bytes.resize(kHeader + grid.nodes() * ltc::kChannels * (half ? 2 : 4) + kHash);
-        for (std::size_t i = used; i < bytes.size() && used > kHeader; ++i) // what is there, over and over
+        for (std::size_t i = used; i < bytes.size() && used > kHeader; ++i) // repeats the bytes
             bytes[i] = bytes[kHeader + (i - kHeader) % (used - kHeader)];
         seal(bytes, 0, bytes.size() - kHash, bytes.size() - kHash);
     }

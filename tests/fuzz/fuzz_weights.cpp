@@ -1,4 +1,4 @@
-// libFuzzer entry: any bytes as the weights of a mipmap net. An odd first byte asks for the right length and checksum.
+// libFuzzer entry: any bytes as the weights of a mipmap net. An odd first byte sets the right length and checksum.
 #include <cmath>
 
 #include "core/base/check.h"
@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(bytes.data() + kText, &text, sizeof text);
         const std::size_t used = bytes.size();
         bytes.resize(kHeader + text + 2 * numbers + kHash);
-        for (std::size_t i = used; i < bytes.size() && used > kHeader; ++i) // what is there, over and over
+        for (std::size_t i = used; i < bytes.size() && used > kHeader; ++i) // repeats the bytes
             bytes[i] = bytes[kHeader + (i - kHeader) % (used - kHeader)];
         seal(bytes, 0, bytes.size() - kHash, bytes.size() - kHash);
     }
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     BN_CHECK(weights->numbers.size() == mipnet::plan_of(weights->shape).count);
     for (const float number : weights->numbers)
         BN_CHECK(std::isfinite(number));
-    if (weights->command.find('\n') == std::string::npos) // each text is written as it was read
+    if (weights->command.find('\n') == std::string::npos) // each text is written as read
         BN_CHECK(mipnet::weights_bytes(*weights).size() <= bytes.size() + 1);
     return 0;
 }

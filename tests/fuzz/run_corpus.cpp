@@ -1,4 +1,4 @@
-// Where there is no libFuzzer: gives the entry every file of the folders named on the command line.
+// Replaces libFuzzer: passes every file of the folders on the command line to the entry.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Files whose checksums keep a fuzzer out: with `sealed`, the bytes are given the length and the checksums that they should have.
+// Files whose checksums stop a fuzzer: with `sealed`, the bytes get their right length and checksums.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "core/base/hash.h"
 
-// The hash of bytes [begin, end) goes to `at`.
+// Writes the hash of bytes [begin, end) to `at`.
 inline void seal(std::vector<std::uint8_t>& bytes, std::size_t begin, std::size_t end, std::size_t at)
 {
     const std::uint64_t hash = burnish::hash_bytes(bytes.data() + begin, end - begin);

@@ -1,4 +1,4 @@
-"""Every exit code of core/base/result.h stands in the table of apps/manual/ci.md and in what --help says of them."""
+"""Every exit code of core/base/result.h is in the table of apps/manual/ci.md and in the text of --help."""
 
 import pathlib
 import re
@@ -26,7 +26,7 @@ def faults(result_h, page, program_cpp):
 def main(root):
     texts = [(root / name).read_text() for name in ("core/base/result.h", "apps/manual/ci.md", "apps/cli/program.cpp")]
     wrong = faults(*texts)
-    # the check sees what it is for
+    # the check finds planted faults
     without = [faults(texts[0], re.sub(r"^\| 5 \|.*\n", "", texts[1], flags=re.M), texts[2]),
                faults(texts[0].replace("usage = 2,", "usage = 2,\n    other = 9,"), texts[1], texts[2])]
     if [len(w) for w in without] != [len(wrong) + 1, len(wrong) + 2]:

@@ -1,5 +1,5 @@
 #!/bin/sh
-# lint.format: every C++ source and header, kernels included, is written as .clang-format has it.
+# lint.format: every C++ source and header, kernels included, follows .clang-format.
 # usage: format.sh ROOT    exit 77: no clang-format 14 (other versions format differently)
 cd "$1" || exit 2
 tool=

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""lint.elf: reads from the finished files what their build promises.
+"""lint.elf: checks in the finished files that the build's hardening is there.
 
 Usage: hardened.py FILE...   programs and shared libraries for 64-bit little-endian machines
 
-Full RELRO (all symbols bound at the start, what they are bound to read-only), no executable stack, position-independent code, stack
-protection, checked functions of the C library, and on x86-64 an endbr64 wherever an indirect call may land.
+Full RELRO (symbols are bound at the start and then read-only), no executable stack, position-independent code, stack protection, checked
+functions of the C library, and on x86-64 an endbr64 wherever an indirect call may land.
 """
 
 import re
@@ -16,7 +16,7 @@ DT_FLAGS, DT_FLAGS_1, DF_BIND_NOW, DF_1_NOW, DF_1_PIE = 30, 0x6FFFFFFB, 8, 1, 0x
 SHT_SYMTAB, SHT_DYNSYM, STT_FUNC, STB_LOCAL = 2, 11, 2, 0
 EM_X86_64 = 62
 ENDBR64 = b"\xf3\x0f\x1e\xfa"
-# Symbols that the compiler made of our code: a dynamic library exports some of other people's.
+# Symbols of our code: a dynamic library also exports symbols from other libraries.
 OURS = re.compile(r"_ZN[A-Z]*7burnish|^main$|^burnish_")
 
 

@@ -1,4 +1,4 @@
-"""The rules of the house that a script can see: who includes whom, sizes, words, what lies at the root.
+"""House rules that a script can check: includes, sizes, words, entries at the root.
 
 Usage: layers.py ROOT. Prints one line a fault; exit code 1 where there is any.
 """
@@ -9,17 +9,17 @@ import re
 import subprocess
 import sys
 
-LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and those below
+LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes itself and lower layers
 EVERYWHERE = ("tests", "bench")                              # they see all layers
 RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame; raster/session sees them all
 
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
-    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # what others include, the program would load
+    (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
     (r"(png|zlib)\.h$", ("core/image/io",)),
     (r"draco/", ("core/scene/gltf",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
-    (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: what Embree builds its trees with
+    (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: Embree builds its trees with it
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),
     (r"vulkan/", ("raster/vulkan", "tests/unit/vulkan")),
     (r"embree", ("raster/reference", "bench")), # bench races rays against the tile renderer
@@ -29,7 +29,7 @@ THIRD_PARTY = (
     (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
 )
 
-INTERFACE = "shading/stages/interface.glsl" # says that texels lie on pages, to all that comes after it
+INTERFACE = "shading/stages/interface.glsl" # defines texel pages for all later includes
 
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
 SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp")
@@ -37,7 +37,7 @@ TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
 VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
 MAX_LINES, MAX_LINES_SIMD = 600, 900
 
-# Each word is written in two pieces, so that this file does not hold it.
+# Each word is written in two pieces, so that this file does not contain it.
 FORBIDDEN = (
     (re.compile("ffast" + "-math|Of" + r"ast\b|ffp-con" + "tract=(?!off)"), "arithmetic that is not the same everywhere"),
     (re.compile(r"_mm\w*_(rc" + "p|rsq" + "rt)|vrc" + "p|vrsq" + "rt"), "approximate reciprocals: processors differ"),
@@ -47,8 +47,8 @@ FORBIDDEN = (
 
 
 def listed(root):
-    """What the repository holds, and what lies in its folders and could be added; at the root lie pictures of users too. Without git,
-    everything but build folders."""
+    """Returns the repository's files, and untracked files in its folders that could be added. The root may also hold users' images.
+    Without git, returns everything except build folders."""
     def files(*which):
         done = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *which], capture_output=True, check=True)
         return [pathlib.PurePosixPath(os.fsdecode(name)) for name in done.stdout.split(b"\0") if name]
@@ -66,12 +66,12 @@ def lies_in(path, folders):
 
 
 def is_kernel(path):
-    """Text in the kernel language: C++ and GLSL read it."""
+    """Returns True for text in the kernel language, which C++ and GLSL read."""
     return path.parts[0] == "shading" and path.name.endswith((".k.h", ".t.h"))
 
 
 def check_include(path, quoted, name, files):
-    """Faults of one #include line."""
+    """Yields the faults of one #include line."""
     top = path.parts[0]
     for pattern, folders in THIRD_PARTY:
         if re.match(pattern, name) and not lies_in(path, folders):
@@ -80,7 +80,7 @@ def check_include(path, quoted, name, files):
         return
     target = pathlib.PurePosixPath(name)
     if top in EVERYWHERE and path.parent / target in files:
-        return # tests may name a neighbour
+        return # tests may include a neighbour
     if target not in files:
         yield f'"{name}" is not a file of the project, seen from its root'
         return
@@ -102,12 +102,12 @@ def check_include(path, quoted, name, files):
 
 
 def is_stage(path):
-    """An entry of a shader; *.glsl beside it are parts of them."""
+    """Returns True for a shader's entry; *.glsl beside it are parts."""
     return path.parent == pathlib.PurePosixPath("shading/stages") and path.suffix != ".glsl"
 
 
 def guarded(path, lines):
-    """GLSL knows no #pragma once, so what it reads has a macro."""
+    """Returns True if a header is guarded. GLSL has no #pragma once, so files for GLSL need a macro."""
     glsl = is_kernel(path) or path.is_relative_to("shading/lang")
     text = "\n".join(lines)
     return "#pragma once" in text or (glsl and re.search(r"#ifndef (\w+)\n#define \1", text))

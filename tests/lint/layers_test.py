@@ -1,4 +1,4 @@
-"""layers.py finds each fault that it is there for: every line below is one file with one fault."""
+"""layers.py finds every kind of fault: each line below is one file with one fault."""
 
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-"""Test names in one grammar: suite.area.claim_in_words, then what it was tried on: .of_what or /of_what. Every test has one tier.
+"""Test names follow one grammar: suite.area.claim_in_words, then a subject: .of_what or /of_what. Every test has one tier.
 
 Usage: names.py BUILD_FOLDER CTEST. Prints one line a fault; exit code 1 where there is any."""
 
@@ -12,7 +12,7 @@ NAME = re.compile(rf"{PART}\.({PART}/)?{PART}\.(?=\w*_){PART}([./]\w+)*")
 TIERS = {"quick", "check", "nightly"}
 
 
-# What CMake appends of a parameter's value, or puts in the place of its index.
+# Text that CMake appends for a parameter's value, or puts in place of its index.
 VALUE = re.compile(r"(  # GetParam\(\) = .*|/\d+-byte object <.*)$")
 
 

@@ -1,8 +1,8 @@
 #!/bin/sh
-# lint.odr: an object compiled for one instruction set may define global or weak symbols only in its own burnish::bn_<isa>. The linker
-# keeps one copy of a weak symbol (an inline function, a std:: template) for the whole program: a copy made for AVX-512 would
-# crash other processors, a scalar copy would silently serve all.
-# usage: odr.sh isa_list.h build-folder    all objects in <target>_<isa>.dir; sanitizer builds are passed over
+# lint.odr: an object for one instruction set may define global or weak symbols only in its burnish::bn_<isa>. The linker keeps one copy of
+# a weak symbol (an inline function, a std:: template) for the whole program. A copy made for AVX-512 would crash other processors, and a
+# scalar copy would silently serve all.
+# usage: odr.sh isa_list.h build-folder   all objects in <target>_<isa>.dir; skips sanitizer builds
 #        odr.sh isa_list.h isa object
 if ! command -v nm >/dev/null 2>&1; then
     echo "skipped: no nm here"
@@ -13,7 +13,7 @@ isas=$(sed -n 's/^ .*\bX(\([a-z0-9]*\), .*of).*/\1/p' "$1")
 [ -n "$isas" ] || { echo "no instruction sets in $1"; exit 1; }
 shift
 
-# Upper-case kinds are global; u, v and w are unique or weak. DW.ref.* are the unwinder's pointers: no instructions in them.
+# Upper-case kinds are global; u, v and w are unique or weak. DW.ref.* are the unwinder's pointers and hold no instructions.
 leaks_of() { # OBJECT ISA
     nm --defined-only "$1" | awk 'NF >= 2 { print $(NF - 1), $NF }' | grep -E '^[A-Zuvw] ' |
         grep -vE "^. (_Z[A-Z]*7burnish$((${#2} + 3))bn_$2|DW\.ref\.)"

@@ -1,4 +1,4 @@
-"""Calls of std::filesystem give error codes: an ordinary path (a name too long, a link to itself, no rights) is no exception.
+"""Calls of std::filesystem use error codes, since an ordinary path (a name too long, a link to itself, no rights) is no exception.
 
 Usage: paths.py ROOT. Prints one line a fault; exit code 1 where there is any."""
 
@@ -21,7 +21,7 @@ OF_STATUS = re.compile(r"exists|is_\w+")
 
 
 def arguments_from(text, begin):
-    """The arguments of a call whose '(' is at `begin`, split at its own commas."""
+    """Returns the arguments of a call whose '(' is at `begin`, split at the call's commas."""
     depth, found, last = 0, [], begin + 1
     for at in range(begin, len(text)):
         depth += (text[at] in "([{") - (text[at] in ")]}")
@@ -38,7 +38,7 @@ def without_comments(text):
 
 
 def faults_of(text):
-    """(line, what is wrong) of one source."""
+    """Yields (line, fault) of one source."""
     text = without_comments(text)
     codes = {name.strip() for names in CODE.findall(text) for name in names.split(",")}
     statuses = set(STATUS.findall(text))

@@ -1,6 +1,6 @@
-"""Each promise of apps/promises.md names tests, and each of them exists.
+"""Each promise of apps/promises.md names tests, and each of these tests exists.
 
-Usage: promises.py SOURCE BUILD_FOLDER CTEST RUN_CASE_COMMAND... (which lists the cases of the program). Names may hold *. Prints one line a
+Usage: promises.py SOURCE BUILD_FOLDER CTEST RUN_CASE_COMMAND... (which lists the program's cases). Names may hold *. Prints one line a
 fault; exit code 1 where there is any."""
 
 import fnmatch
@@ -14,7 +14,7 @@ HEADING = "## What burnish promises"
 
 
 def rows_of(text):
-    """(promise, names of tests) of the tables below the heading, without their heads."""
+    """Yields (promise, test names) from the tables below the heading, without their heads."""
     section = text.split(HEADING + "\n", 1)[1].split("\n## ", 1)[0]
     for line in section.splitlines():
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
@@ -44,7 +44,7 @@ def main():
         return 1
     listed = json.loads(subprocess.run([ctest, "--test-dir", build, "--show-only=json-v1"], capture_output=True, check=True).stdout)
     tests = [re.sub(r"  # GetParam\(\).*", "", test["name"]) for test in listed["tests"]]
-    # Some need another build beside this one, and are in its list only.
+    # Some tests need a second build, and appear in its list alone.
     tests += ["cli." + line.split()[0] for line in subprocess.run(list_cases, capture_output=True, text=True, check=True).stdout.splitlines()]
     rows = list(rows_of(pathlib.Path(source, "apps/promises.md").read_text()))
     faults = list(faults_of(rows, tests))

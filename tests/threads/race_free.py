@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """threads.tsan: small runs of every kind of work on several threads, under ThreadSanitizer.
 
-Usage: race_free.py SOURCE-FOLDER BUILD-FOLDER [PROGRAM]    PROGRAM: one that is built already
+Usage: race_free.py SOURCE-FOLDER BUILD-FOLDER [PROGRAM]    PROGRAM: an existing build
 Exit code 77 where the compiler has no ThreadSanitizer.
 """
 
@@ -33,7 +33,7 @@ RUNS = {
     "atlas": ("atlas", "albedo_by_a_fit", "--quick", "--threads", "4", "-o", "atlas"),
 }
 MAY_BE_ABSENT = {"parity": 77}  # no device
-DRIVER = "libvulkan_lvp.so"  # stays loaded: the sanitizer gives up where a library that it leaves alone is unloaded
+DRIVER = "libvulkan_lvp.so"  # stays loaded: the sanitizer fails when a library that it ignores is unloaded
 
 
 def build(source, folder):
@@ -54,7 +54,7 @@ def main():
     suppressions = pathlib.Path(__file__).with_name("suppressions.txt").resolve()
     failed = 0
     with tempfile.TemporaryDirectory(prefix="burnish-threads-") as place:
-        environment = {**os.environ, "XDG_CACHE_HOME": place + "/cache", "BN_FORCE_ISA": "scalar",  # the lanes that are looked at
+        environment = {**os.environ, "XDG_CACHE_HOME": place + "/cache", "BN_FORCE_ISA": "scalar",  # the lanes under test
                        "TSAN_OPTIONS": f"suppressions={suppressions} halt_on_error=0 exitcode=66 second_deadlock_stack=1"}
         for what, arguments in RUNS.items():
             stays = {"LD_PRELOAD": DRIVER} if what == "parity" and ctypes.util.find_library("vulkan_lvp") else {}

@@ -1,5 +1,5 @@
-// The files that tests read. tests/data holds what every test needs; the folder beside the checkout, where it is present, holds more of
-// the same tree, and a test that goes through a folder then has cases more.
+// Test data files. tests/data holds the files that every test needs. An optional second folder holds more files in the same tree, and tests
+// that iterate over a folder then have more cases.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -10,7 +10,7 @@ namespace burnish::test {
 
 inline constexpr const char* kDataFolders[] = {BN_TEST_DATA, BN_SHARED_DATA};
 
-// The path of tests/data/NAME, or of the file of that name beside the checkout where tests/data has none.
+// Returns the path of tests/data/NAME. If this file is missing, returns NAME's path in the optional folder.
 inline std::string data_file(const std::string& name)
 {
     for (const std::string folder : kDataFolders)
@@ -24,7 +24,7 @@ inline bool has_data_file(const std::string& name)
     return std::filesystem::exists(data_file(name));
 }
 
-// Paths of all files below FOLDER in both places, each name once, by name.
+// Returns the paths of all files below FOLDER in both places, sorted by name, each name once.
 inline std::vector<std::string> data_files(const std::string& folder)
 {
     std::map<std::string, std::string> found; // name, path

@@ -22,7 +22,7 @@ namespace burnish::test {
 namespace fs = std::filesystem;
 namespace {
 
-// NAME.txt: a line each of the hash, the rows' checks and the columns'.
+// NAME.txt: one line each for the hash, the row checks and the column checks.
 struct Checks {
     std::string hash;
     std::vector<std::string> rows, columns;
@@ -63,7 +63,7 @@ std::string text_of(const Checks& checks)
     return fmt::format("{}\n{}\n{}\n", checks.hash, fmt::join(checks.rows, " "), fmt::join(checks.columns, " "));
 }
 
-// To 16 bits: sign, exponent and 7 bits of the mantissa, 0.4 % of the value.
+// Rounds to 16 bits: sign, exponent and 7 bits of the mantissa, 0.4 % of the value.
 float rounded(float value)
 {
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + 0x8000u) & 0xffff0000u);
@@ -83,7 +83,7 @@ std::string write_picture(const std::string& path, const Image& picture)
     return status ? "" : status.error().line();
 }
 
-// The smallest and largest index at which two lists differ.
+// The smallest and largest index where two lists differ.
 struct Range {
     std::size_t first = 0, last = 0, count = 0;
 };
@@ -100,7 +100,7 @@ Range differing(const std::vector<std::string>& a, const std::vector<std::string
     return range;
 }
 
-// Differences that 16 bits show. `map`: relative ones of 1 % and less to 100 % as 0.4 to 1 on a logarithmic scale.
+// Differences visible in 16 bits. `map`: relative differences from 1 % or less to 100 % as 0.4 to 1 on a logarithmic scale.
 struct Differences {
     int count = 0;
     std::size_t most_at = 0; // the pixel with the largest relative difference
@@ -187,7 +187,7 @@ GoldenPlace golden_place()
 
 testing::AssertionResult is_golden(const std::string& name, const Image& picture, const std::string& by, const GoldenPlace& place)
 {
-    static std::set<std::string> blessed; // by this process: what another instruction set draws must equal it
+    static std::set<std::string> blessed; // by this process: other instruction sets must draw the same
     if (picture.type != PixelType::f32 || picture.channels != 3)
         return testing::AssertionFailure() << name << ": not a picture of three floats a pixel";
     if (read_checks(place.kept + "/" + name + ".txt").hash == fmt::format("{:016x}", pixel_hash(picture)))

@@ -1,6 +1,6 @@
-// Golden pictures: what a renderer drew when somebody looked at it and agreed. tests/golden/NAME.txt holds the hash of its pixels, which is
-// all that a passing test reads, and a check of every row and column; NAME.exr the picture to 16 bits a channel, for people and for
-// differences that can be seen. tests/bless rewrites both.
+// Golden images: renderings that somebody looked at and approved. tests/golden/NAME.txt holds the pixels' hash, which suffices for a
+// passing test, and a check for every row and column. NAME.exr holds the image at 16 bits a channel, for people and for visible
+// differences. tests/bless rewrites both.
 #pragma once
 #include <gtest/gtest.h>
 #include <string>
@@ -10,18 +10,18 @@
 namespace burnish::test {
 
 struct GoldenPlace {
-    std::string kept;   // the golden pictures
-    std::string left;   // where a picture that differs is left, beside the golden one and their difference
-    bool bless = false; // pictures become golden instead of being compared
+    std::string kept;   // the golden images
+    std::string left;   // folder for a differing image, its golden image and their difference
+    bool bless = false; // replaces golden images instead of comparing
 };
-GoldenPlace golden_place(); // tests/golden, <build>/golden, the variable BN_BLESS
+GoldenPlace golden_place(); // tests/golden, <build>/golden, and the variable BN_BLESS
 
-// Whether `picture` (float RGB, drawn by the renderer or instruction set `by`) is the golden picture `name`, which is a path below the
-// folder. If it is not: how many pixels differ, where, by how much, and where the pictures lie that show it.
+// Compares `picture` (float RGB, drawn by the renderer or instruction set `by`) with the golden image `name`, a path below the folder. A
+// failure tells the number, place and size of differences, and where the images are saved.
 testing::AssertionResult is_golden(const std::string& name, const Image& picture, const std::string& by,
                                    const GoldenPlace& place = golden_place());
 
-// What is wrong with the files of a folder of golden pictures; empty where nothing is.
+// Returns the fault in a folder of golden images, or an empty string.
 std::string fault_of_golden(const std::string& folder);
 
 } // namespace burnish::test

@@ -1,6 +1,6 @@
-// Floats of every kernel against doubles, at the inputs that are worst for them. blessed.txt holds how bad they were, and where.
+// Errors of every kernel's floats against doubles, at the worst inputs found. blessed.txt holds the errors and the inputs.
 //   BN_ADVERSARY_INPUTS=1e6 unit_adversary_models    another number of random inputs a kernel than 1e5
-//   BN_BLESS=1 ...                                   writes what is found, one program at a time
+//   BN_BLESS=1 ...                                   writes the results, one program at a time
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace burnish::test {
 namespace {
 
 constexpr double kInputs = 1e5, kManyInputs = 1e8;
-constexpr double kWorse = 4.0; // times what is blessed
+constexpr double kWorse = 4.0; // times the blessed error
 const char* const kTable = BN_SOURCE_DIR "/tests/unit/adversary/blessed.txt";
 
 std::string key_of(const Domain& d, const Judged& j)
@@ -80,7 +80,7 @@ void hold(const Domain& d, double count)
         Worst worst = found[r];
         const auto row = table.find(key);
         if (row != table.end() && !found[r].in.empty() &&
-            row->second.in.size() == found[r].in.size()) { // what was worst once is looked at again
+            row->second.in.size() == found[r].in.size()) { // tests the blessed worst input again
             const Worst again = errors_at(d, d.judged[r], row->second.in)[0];
             if (again.score > worst.score)
                 worst = again;

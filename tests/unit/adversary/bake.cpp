@@ -1,4 +1,4 @@
-// Fetches: the place on a cube and the texel there, a texture's level and taps, directional albedo.
+// Fetches: the place and texel on a cube, a texture's level and taps, directional albedo.
 #include <cmath>
 
 #include "shading/bake/environment/cube_map.h"
@@ -67,7 +67,7 @@ std::vector<double> fetches(const Domain& d, const double* u)
     return a;
 }
 
-// Derivatives of coordinates by pixel, of 1e-4 to 10 texels and any direction.
+// Returns texture coordinate derivatives per pixel, 1e-4 to 10 texels long, in any direction.
 std::vector<double> footprints(const Domain&, const double* u)
 {
     std::vector<double> a = {u[0], u[1]};

@@ -1,4 +1,4 @@
-// Transformed cosines: the lookup in the shipped table, and the light of a triangle, a disk and a sphere through a lobe.
+// Transformed cosines: the lookup in the shipped table, and light from a triangle, a disk and a sphere through a lobe.
 #include <cmath>
 
 #include "tests/unit/adversary/domains.h"
@@ -15,7 +15,7 @@ std::vector<double> looked_up(const Domain&, const double* u)
     return a.insert(a.end(), {length, by_factors(u[3], 1e-3, 1.0)}), a;
 }
 
-// M of an eye and two widths as the double lookup has it, and the numbers after those of looked_up.
+// Returns M for an eye and two widths by the double lookup. Advances u past the numbers of looked_up.
 std::vector<double> lobe(const double*& u)
 {
     const Domain none = {};
@@ -31,7 +31,7 @@ std::vector<double> density(const Domain&, const double* u)
     return a;
 }
 
-// A place above the horizon or below, 0.1 to 10 away.
+// Returns a place above or below the horizon, 0.1 to 10 away.
 Vec place(const double*& u)
 {
     const Vec p = any_direction(u[0], u[1]) * by_factors(u[2], 0.1, 10.0);

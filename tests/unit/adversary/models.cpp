@@ -1,4 +1,4 @@
-// Every model's value, densities and samples; special functions and reflectances.
+// Values, densities and samples of every model; special functions and reflectances.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ const std::map<std::string, Ranges>& parameters()
     return of;
 }
 
-// Parameters and the eye, of the first numbers; what follows is at `next`.
+// Returns the parameters and the eye from the first numbers. `next` points to the remaining numbers.
 std::vector<double> seen(const Domain& d, const double* u, Vec& wo, const double*& next)
 {
     std::vector<double> a;
@@ -66,7 +66,7 @@ std::vector<double> drawn(const Domain& d, const double* u)
     Vec wo;
     std::vector<double> a = seen(d, u, wo, u);
     for (const double* x = u; x < u + 3; ++x)
-        a.push_back(std::floor(*x * 0x1p24) * 0x1p-24); // as random numbers are
+        a.push_back(std::floor(*x * 0x1p24) * 0x1p-24); // multiples of 2^-24, like the random numbers
     return a;
 }
 

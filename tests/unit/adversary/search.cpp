@@ -18,7 +18,7 @@ TexelView texels_of(const Domain& d)
     return d.texels ? d.texels() : TexelView{};
 }
 
-// Points [argument][point] of rows of numbers, as floats.
+// Returns points [argument][point] from rows of numbers, rounded to floats.
 std::vector<double> arguments_of(const Domain& d, const std::vector<double>& numbers)
 {
     const std::size_t m = static_cast<std::size_t>(d.numbers), n = numbers.size() / m;
@@ -46,7 +46,7 @@ double unit_of(Unit unit, double truth)
     return unit == Unit::whole ? 0x1p-24 : ulp(truth, kLeast);
 }
 
-// Floats, doubles, and how far doubles go when one argument after the other moves by a float's step, added up.
+// Results in floats and doubles, and the doubles' movement when each argument moves by a float step, summed.
 struct Looked {
     const Kernel& exact;
     TexelView texels;
@@ -65,7 +65,7 @@ struct Looked {
             return std::numeric_limits<double>::infinity();
         return std::isfinite(truth[at]) ? std::abs(value[at] - truth[at]) : 0.0;
     }
-    // In units alone, which sway only makes less.
+    // Returns the error in units alone, an upper bound of the score, since sway lowers the score.
     double most(const Judged& j, std::size_t k) const
     {
         double largest = 0.0;
@@ -103,7 +103,7 @@ std::vector<double> sway_of_each(const Looked& l, const std::vector<std::size_t>
     return sum;
 }
 
-// The scores of points that may be above `least`; 0 of others.
+// Returns the scores of points that may exceed `least`, and 0 for the others.
 std::vector<Worst> scores(const Domain& d, const Judged& j, const std::vector<double>& in, const std::vector<double>& least)
 {
     const Looked l(d, in);
@@ -176,7 +176,7 @@ std::vector<Worst> search(const Domain& d, double count, std::uint64_t seed)
 {
     const std::size_t climbers = static_cast<std::size_t>(std::clamp(count / 4000.0, 25.0, 1000.0)),
                       m = static_cast<std::size_t>(d.numbers);
-    std::vector<std::vector<Start>> worst(d.judged.size()); // heaps, their least first
+    std::vector<std::vector<Start>> worst(d.judged.size()); // heaps with the smallest on top
     std::vector<Worst> out(d.judged.size());
     Random random(seed);
     for (double drawn = 0.0; drawn < count; drawn += static_cast<double>(kChunk)) {

@@ -1,4 +1,4 @@
-// Searches for the inputs at which a kernel's floats are furthest from its double oracle: random ones, then climbing from the worst.
+// Searches for the inputs where a kernel's floats deviate most from its double oracle: random points, then hill climbing from the worst.
 #pragma once
 #include <ostream>
 #include <string>
@@ -8,31 +8,31 @@
 
 namespace burnish::test {
 
-// What an error is measured in, besides what a float's step of the inputs moves the oracle by.
+// An error's unit. The oracle's movement by one float step in the inputs is added to the unit.
 enum class Unit {
-    last_place, // of a float of the result's size, of at least 1e-12: what is less is not seen
-    whole,      // of a float of 1: directions, cosines, weights
+    last_place, // of a float as large as the result, at least 1e-12: smaller values are invisible
+    whole,      // of a float near 1: directions, cosines, weights
 };
 
-// Some of a kernel's results that are one thing.
+// Results of a kernel that are judged together.
 struct Judged {
     const char* name;
     int first, count;
     Unit unit;
 };
 
-// A kernel with all inputs that it has to bear. A point is made of `numbers` numbers in [0,1), so that whatever a search tries is valid.
+// A kernel with its domain. A point consists of `numbers` numbers in [0,1), so every search point is valid.
 struct Domain {
     std::string kernel;
     int numbers;
     std::vector<double> (*make)(const Domain& d, const double* u); // the kernel's arguments
     std::vector<Judged> judged;
-    int same = -1; // a result; points where floats and doubles differ in it are left out: samples that one of both rejects
+    int same = -1; // index of a result; skips points where it differs between floats and doubles (samples that one version rejects)
     TexelView (*texels)() = nullptr;
-    std::vector<std::vector<double>> of = {}; // what `make` reads: ranges of parameters
+    std::vector<std::vector<double>> of = {}; // ranges of parameters for `make`
 };
 
-inline void PrintTo(const Domain& d, std::ostream* out) // gtest would print bytes, addresses among them
+inline void PrintTo(const Domain& d, std::ostream* out) // gtest would print bytes, including addresses
 {
     *out << d.kernel;
 }
@@ -44,12 +44,12 @@ struct Worst {
     std::vector<double> in; // the kernel's arguments, floats
 };
 
-// How far off the result j of d is at the points `in` (as Kernel::run has them), each; infinite where floats are no numbers and doubles
-// are.
+// Returns the error of d's result j at each point in `in` (laid out as in Kernel::run). The error is infinite where floats give NaN or
+// infinity and doubles do not.
 std::vector<Worst> errors_at(const Domain& d, const Judged& j, const std::vector<double>& in);
 
-// The worst of `count` random points and of what is climbed to from the worst of them, one in 4000 (25 to 1000): coordinates of [0,1) go up
-// and down by steps from 1/4 to 2^-44, as long as the score grows. Deterministic.
+// Returns the worst of `count` random points after hill climbing from the worst, one in 4000 (25 to 1000). Climbing moves coordinates in
+// [0,1) up and down by steps from 1/4 to 2^-44, as long as the score grows. The search is deterministic.
 std::vector<Worst> search(const Domain& d, double count, std::uint64_t seed);
 
 } // namespace burnish::test

@@ -1,4 +1,4 @@
-// What techniques for environment light make of a lobe, and frames.
+// Lobes in techniques for environment light, and shading frames.
 #include <cmath>
 
 #include "tests/unit/adversary/domains.h"

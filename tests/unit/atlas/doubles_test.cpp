@@ -1,4 +1,4 @@
-// Frames in double, and the failures that go in them.
+// Frames in double precision, and the failures that they remove.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 AtlasEntry small(const char* id)
 {
     AtlasEntry entry = *find_entry(id);
-    static std::vector<std::string> words; // entries point at theirs
+    static std::vector<std::string> words; // entries point to their words
     words.reserve(16);
     words.push_back(std::string(entry.words) + " --env-size 16 --env-samples 16 --no-cache");
     entry.words = words.back().c_str();

@@ -1,4 +1,4 @@
-// Every line of the atlas can be drawn, and all that has a line in shading/models.def has one there.
+// Every atlas line can be drawn, and every row of shading/models.def has an entry.
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <set>
@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-// What no entry is about, and why not: a search is what others are measured by.
+// Exceptions without an entry: a search serves as the reference for other filters.
 const std::set<std::string> kWithout = {"mip filter teacher"};
 
 TEST(atlas_entries, all_that_can_break_has_one)
@@ -62,7 +62,7 @@ TEST(atlas_entries, paths_go_straight_or_by_factors)
     EXPECT_EQ(value_at(factors, 1.0), "0.02");
 }
 
-// What the path gives reaches the options, but where a role has words of its own for it.
+// The path sets the options, except where a role has separate words for them.
 TEST(atlas_entries, a_role_s_own_words_stay)
 {
     const AtlasEntry entry = {"few", "none",         "", "builtin:sphere --technique mc", true, "samples=64:4", AtlasTruth::reference, "",

@@ -1,4 +1,4 @@
-// Where methods break, pixels are no less the same bits on every road: threads, instruction sets, sizes of tiles.
+// Where methods fail, pixels still have equal bits for all thread counts, instruction sets and tile sizes.
 #include <gtest/gtest.h>
 
 #include "apps/lab/atlas/darkroom.h"
@@ -21,7 +21,7 @@ std::vector<Road> roads()
     return out;
 }
 
-// At places of every path, the last of them where its technique is broken.
+// Compares pixels at places of every path. At the last place the technique fails.
 void check_roads(const std::vector<double>& places, int side)
 {
     Report report(true, 0);
@@ -49,7 +49,7 @@ void check_roads(const std::vector<double>& places, int side)
 
 TEST(atlas_roads, broken_pictures_are_the_same_words_on_every_road)
 {
-    check_roads({1.0}, 40); // more than a tile of 32
+    check_roads({1.0}, 40); // more than one tile of 32
 }
 
 TEST(atlas_roads, all_pictures_are_the_same_words_on_every_road)

@@ -1,4 +1,4 @@
-// What --risks asks of an environment, and of the atlas.
+// Queries of --risks to an environment and to the atlas.
 #include <gtest/gtest.h>
 
 #include "apps/risks/risks.h"
@@ -9,7 +9,7 @@
 namespace burnish {
 namespace {
 
-// Every texel of every face is found by its own direction.
+// A texel's direction finds the texel, on every face.
 TEST(atlas_sky, texels_are_where_cubes_have_them)
 {
     Environment environment;

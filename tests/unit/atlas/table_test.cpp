@@ -1,4 +1,4 @@
-// Blessed figures: written, read, held.
+// Blessed figures: written, read and compared.
 #include <gtest/gtest.h>
 
 #include "apps/lab/atlas/kept.h"
@@ -78,7 +78,7 @@ TEST(atlas_table, what_is_no_table_is_refused)
          {"", "# Where methods break\n", "Version 3\n\n## quick\n\n| a | b |\n", "Version 3\n| a | 0.5 | 0.1 | 0 | - | 0 | none |\n",
           "Version 3\n## quick\n| a | x | 0.1 | 0 | - | 0 | none |\n", "Version x\n"})
         EXPECT_FALSE(parse_table(text, "t.md")) << text;
-    EXPECT_EQ(parse_table("Version 7\n## quick\n| a | b |\n", "t.md")->version, 7); // whose rows mean something else
+    EXPECT_EQ(parse_table("Version 7\n## quick\n| a | b |\n", "t.md")->version, 7); // rows of another version have another meaning
 }
 
 TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentieth)
@@ -107,11 +107,11 @@ TEST(atlas_table, the_kind_is_held_where_it_is_sure)
     m.remedy = 0.9;
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::worse);
     EXPECT_EQ(judge(kEntry, m, &row).why, "is a failure of approximation, blessed is sampling");
-    m.remedy = 0.52; // of noisy references
+    m.remedy = 0.52; // from noisy references
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
     m.kind = "sampling", m.remedy = 0.1;
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
-    m.kind = "none", m.remedy = 1.0; // breaks no more
+    m.kind = "none", m.remedy = 1.0; // no longer fails
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::better);
 }
 
@@ -143,7 +143,7 @@ TEST(atlas_table, kept_entries_come_back_as_they_were)
         EXPECT_FALSE(parse_kept_entry(text, "key")) << text;
 }
 
-// Each breaks, and not from the beginning; nothing is blessed that is no longer there.
+// Each blessed entry fails along its path, and not at its start. No blessed row lacks an entry.
 TEST(atlas_table, blessed_entries_break_on_their_way)
 {
     const auto table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "blessed.md");

@@ -1,4 +1,4 @@
-// What several tests of the bake share: test images, random numbers, results of kernels.
+// Shared parts of the bake tests: test images, random numbers, kernel results.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace burnish {
 
-// Numbers in [0,1), the same everywhere (SplitMix64).
+// Random numbers in [0,1), equal on every machine (SplitMix64).
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -37,7 +37,7 @@ inline TexelView view_of(const CubeMap& cube)
     return {.texels = cube.texels.data(), .size = cube.size, .levels = cube.levels};
 }
 
-// Results of a kernel, one point after the other; arguments as Kernel has them.
+// Returns a kernel's results, point after point. Arguments are laid out as in Kernel.
 inline std::vector<float> results(const IsaFns& isa, const char* name, const std::vector<float>& in, const TexelView& t = {})
 {
     const std::vector<double> out = test::call(isa, name, {in.begin(), in.end()}, t);
@@ -48,7 +48,7 @@ inline std::vector<float> results(const IsaFns& isa, const char* name, const std
     return points;
 }
 
-// Equirectangular f32 RGB image of radiance(x, y, z, rgb), a function of the unit direction.
+// Returns an equirectangular f32 RGB image from radiance(x, y, z, rgb), a function on unit directions.
 inline Image equirect_of(int width, const std::function<void(double, double, double, float*)>& radiance)
 {
     Image image = make_image(width, width / 2, 3, PixelType::f32);
@@ -62,7 +62,7 @@ inline Image equirect_of(int width, const std::function<void(double, double, dou
     return image;
 }
 
-// Any smooth environment with colour everywhere.
+// Returns a smooth environment with colour everywhere.
 inline Image smooth_equirect(int width)
 {
     return equirect_of(width, [](double x, double y, double z, float* rgb) {
@@ -81,7 +81,7 @@ inline EnvironmentOptions small_bake() // without the cache
     return o;
 }
 
-// Texel of a cube as stored, times its scale; x, y: -1 is the border.
+// Returns a stored cube texel times the cube's scale; x, y: -1 is the border.
 inline float cube_texel(const CubeMap& cube, int level, int face, int x, int y, int channel)
 {
     const std::size_t side = static_cast<std::size_t>(cube.size >> level) + 2;

@@ -130,7 +130,7 @@ TEST_F(environment_cache, keeps_key_lights)
     EXPECT_FALSE(off.from_cache);
     EXPECT_TRUE(off.key_lights.empty());
     options_.key_lights = 8;
-    for (const fs::path& file : files()) // cut where the whole environment begins, or too long by it
+    for (const fs::path& file : files()) // cut at the start of the whole environment, or too long by it
         write_all(file, read_all(file).substr(0, read_all(files().at(0)).size() / 2));
     expect_same(bake(), baked);
 }
@@ -158,7 +158,7 @@ TEST_F(environment_cache, damaged_files_are_baked_anew)
     EXPECT_TRUE(bake().from_cache);
 }
 
-// Under hashes that are right.
+// The hashes are correct, so the ranges alone reject the numbers.
 TEST_F(environment_cache, refuses_numbers_out_of_range)
 {
     image_ = smooth_equirect(256);
@@ -196,7 +196,7 @@ TEST_F(environment_cache, refuses_numbers_out_of_range)
     }
 }
 
-// Above the limit the environment that was used longest ago goes, not the one that was baked first.
+// Above the limit the least recently used environment is removed, not the oldest.
 TEST_F(environment_cache, has_a_limit)
 {
     const int least = options_.samples;
@@ -213,7 +213,7 @@ TEST_F(environment_cache, has_a_limit)
     EXPECT_TRUE(with_samples(least));
     EXPECT_FALSE(with_samples(least + 1));
     EXPECT_TRUE(with_samples(least));
-    EXPECT_FALSE(with_samples(least + 2)); // the second one goes
+    EXPECT_FALSE(with_samples(least + 2)); // the second one is removed
     EXPECT_EQ(files().size(), 2u);
     EXPECT_TRUE(with_samples(least));
     EXPECT_FALSE(with_samples(least + 1));

@@ -114,7 +114,7 @@ TEST(cube_filter, addresses_large_cubes_exactly)
         ASSERT_NEAR(static_cast<double>(rgb[3 * i]),
                     naive_trilinear(cube, static_cast<double>(d.x[i]), static_cast<double>(d.y[i]), static_cast<double>(d.z[i]),
                                     static_cast<double>(d.lod[i]), 0),
-                    1e-3); // coordinates of a float have 2^-14 texels here
+                    1e-3); // float coordinates resolve 2^-14 texels here
 }
 
 TEST(cube_filter, faces_follow_their_definition)
@@ -170,8 +170,7 @@ TEST(cube_filter, any_direction_and_level_stays_inside)
             ASSERT_TRUE(v >= 0.0f && v <= 1.00001f);
 }
 
-// Directions a hair on either side of every edge of the cube, and around every corner, give nearly the same
-// colour.
+// Directions just beside each edge of the cube, and around each corner, give nearly equal colours.
 TEST(cube_filter, has_no_seam_at_any_edge_or_corner_of_any_level)
 {
     const CubeMap cube = noise_cube();
@@ -196,8 +195,7 @@ TEST(cube_filter, has_no_seam_at_any_edge_or_corner_of_any_level)
         float jump = 0.0f;
         for (std::size_t i = 0; i < ca.size(); ++i)
             jump = std::max(jump, std::fabs(ca[i] - cb[i]));
-        // Texels differ by up to 1; 2e-6 of the edge's length is 3e-5 texels at level 0. The mean of the
-        // corner is rounded to half.
+        // Texels differ by up to 1. 2e-6 of the edge's length is 3e-5 texels at level 0, and the corner's mean is rounded to half.
         EXPECT_LT(jump, 3e-4f) << "level " << level;
     }
 }

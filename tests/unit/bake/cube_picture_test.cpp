@@ -1,4 +1,4 @@
-// OpenEXR's cubes against the format's own words: which way each texel of each face looks.
+// OpenEXR's cubes against the format's definition: the direction of every face texel.
 #include "shading/bake/environment/cube_picture.h"
 
 #include <gtest/gtest.h>
@@ -14,11 +14,11 @@ namespace burnish::cube_pictures {
 namespace {
 
 struct CubeTexel {
-    glm::dvec3 direction; // of OpenEXR's axes, not unit
-    int column, row;      // of the picture
+    glm::dvec3 direction; // in OpenEXR's axes, not unit
+    int column, row;      // in the image
 };
 
-// The texel at (i, j) of a face, as the format numbers places on faces; n: texels along an edge.
+// Returns the texel at (i, j) of a face, in the format's numbering; n: texels along an edge.
 CubeTexel cube_texel(int face, int i, int j, int n)
 {
     const double s = 2.0 * i / (n - 1) - 1.0, t = 2.0 * j / (n - 1) - 1.0;
@@ -39,7 +39,7 @@ CubeTexel cube_texel(int face, int i, int j, int n)
     }
 }
 
-// radiance: of a unit direction of ours, whose +X is OpenEXR's +Z, where both have the centre of an equirectangular picture.
+// radiance: a function of our unit direction. Our +X is OpenEXR's +Z; both point to the centre of an equirectangular image.
 template <class Radiance> Image cube_of(int size, const Radiance& radiance)
 {
     Image faces = make_image(size, 6 * size, 3, PixelType::f32);

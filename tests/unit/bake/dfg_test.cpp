@@ -75,7 +75,7 @@ TEST(dfg, never_gains_energy_and_starts_at_the_mirror)
         ASSERT_GE(bias_at(t, i), 0.0f);
         ASSERT_LE(scale_at(t, i) + bias_at(t, i), 1.0f + 1e-6f);
     }
-    for (std::size_t x = 4; x < n; ++x) { // roughness 0: F itself
+    for (std::size_t x = 4; x < n; ++x) { // roughness 0: the Fresnel factor
         const float m = 1.0f - static_cast<float>(x) / 63.0f;
         EXPECT_NEAR(bias_at(t, x), m * m * m * m * m, 1e-3f);
         EXPECT_NEAR(scale_at(t, x) + bias_at(t, x), 1.0f, 1e-3f);

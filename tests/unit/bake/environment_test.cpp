@@ -68,7 +68,7 @@ TEST(environment, every_texel_of_level_zero_looks_in_its_own_direction)
         }
 }
 
-// Radiance 1 in red, green, blue around +x, +y, +z and half of it around the opposite axes.
+// Returns an image with radiance 1 in red, green, blue around +x, +y, +z and half of it around the opposite axes.
 Image axes_image()
 {
     return equirect_of(128, [](double x, double y, double z, float* rgb) {
@@ -95,8 +95,8 @@ TEST(environment, rotation_turns_counter_clockwise_seen_from_above)
         const glm::dvec3 d = sky_from_world(degrees) * direction;
         return glm::round(d * 1e12) / 1e12;
     };
-    EXPECT_EQ(at(90.0f, {0, 0, -1}), glm::dvec3(1, 0, 0)); // what was at +x
-    EXPECT_EQ(at(90.0f, {1, 0, 0}), glm::dvec3(0, 0, 1));  // what was at +z
+    EXPECT_EQ(at(90.0f, {0, 0, -1}), glm::dvec3(1, 0, 0)); // formerly at +x
+    EXPECT_EQ(at(90.0f, {1, 0, 0}), glm::dvec3(0, 0, 1));  // formerly at +z
     EXPECT_EQ(at(90.0f, {0, 1, 0}), glm::dvec3(0, 1, 0));
     EXPECT_EQ(at(90.0f - 720.0f, {0, 0, -1}), glm::dvec3(1, 0, 0));
     KeyLight light = {};
@@ -135,8 +135,8 @@ TEST(environment, the_centre_of_the_image_is_plus_x_and_u_runs_towards_plus_z)
     EXPECT_GT(fetch(e.specular, 1, 1, 0)[2], 0.9f);
 }
 
-// The picture draws, at the end of every axis, black lines towards the positive ends of the two others. Its
-// centre is +z and u runs from +x to +z, so a quarter turn brings every axis to its place.
+// At the end of every axis the image shows black lines towards the other axes' positive ends. Its centre is +z and u runs from +x to +z, so
+// a quarter turn maps every axis to its place.
 TEST(environment, an_orientation_picture_lands_the_right_way_round_on_every_face)
 {
     const Result<Image> image = read_image(test::data_file("env/OrientationLatLong_tiled_mip.exr"), Limits{});
@@ -146,7 +146,7 @@ TEST(environment, an_orientation_picture_lands_the_right_way_round_on_every_face
     o.levels = 1;
     const Environment e = bake(*image, o);
     const glm::dmat3 to_sky = sky_from_world(-90.0f);
-    const auto darkest_at = [&](const double* d) { // brightest channel of the darkest of the points around d
+    const auto darkest_at = [&](const double* d) { // brightest channel of the darkest point around d
         float darkest = 1.0f;
         for (int k = 0; k < 27; ++k) {
             const double s = 0.006;
@@ -173,7 +173,7 @@ TEST(environment, an_orientation_picture_lands_the_right_way_round_on_every_face
 
 TEST(environment, a_sun_keeps_its_energy_wherever_it_stands)
 {
-    for (const int row : {1, 20, 77, 128, 200}) { // the pole's own row is 8 % off
+    for (const int row : {1, 20, 77, 128, 200}) { // errors are large in the pole's row
         Image image = make_image(512, 256, 3, PixelType::f32);
         std::fill(image.f32(), image.f32() + image.bytes.size() / 4, 0.01f);
         for (int c = 0; c < 3; ++c)
@@ -202,8 +202,7 @@ TEST(environment, exposure_multiplies_radiance)
     EXPECT_NE(bright.content_hash, plain.content_hash);
 }
 
-// Irradiance / pi of a sum of spherical harmonics up to order 2: the bands are damped by 1, 2/3, 1/4
-// (Ramamoorthi, Hanrahan 2001).
+// Irradiance / pi of spherical harmonics up to order 2: the bands are damped by 1, 2/3, 1/4 (Ramamoorthi, Hanrahan 2001).
 TEST(environment, irradiance_of_low_order_harmonics_is_exact)
 {
     EnvironmentOptions o = small_bake();
@@ -277,7 +276,7 @@ TEST(environment, negative_light_is_taken_from_what_is_around_it)
                                       {20, 10, 300.0f},
                                       {22, 10, -4.0f},
                                       {20, 13, -9.0f},
-                                      {63, 1, -20.0f} /* more than there is in its block */})
+                                      {63, 1, -20.0f} /* exceeds the light in its block */})
         std::fill_n(at(x, y), 3, value);
     double sum = 0.0;
     for (int y = 0; y < 32; ++y)
@@ -288,7 +287,7 @@ TEST(environment, negative_light_is_taken_from_what_is_around_it)
     const Equirect e = make_equirect(image);
     EXPECT_NEAR(mean_luminance(e), sum, 1e-6 * sum);
     EXPECT_GE(*std::min_element(e.rgb.begin(), e.rgb.end()), 0.0f);
-    for (int x = 24; x < 32; ++x) // of a block without any
+    for (int x = 24; x < 32; ++x) // of a block without negative values
         EXPECT_EQ(e.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))], before.rgb[static_cast<std::size_t>(3 * (10 * 64 + x))]);
 
     Image dark = make_image(8, 4, 3, PixelType::f32);
@@ -352,7 +351,7 @@ TEST(environment, thread_count_does_not_change_a_bit)
     }
 }
 
-// What is baked is kept by users for years. A bake of other bits under an old version would be taken from their caches as it was.
+// Users keep baked environments for years. If the bits change under an unchanged version, their caches would return stale data.
 TEST(environment, a_bake_of_other_bits_raises_the_version)
 {
     EnvironmentOptions options;

@@ -1,4 +1,4 @@
-// Groups of normals that a map is made of from afar.
+// Groups of normals that represent a map from afar.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -12,14 +12,15 @@
 namespace burnish {
 namespace {
 
-// How faces look from within, their pictures upright: what lies ahead and above.
+// Orientation of the faces from inside, with upright images: the directions ahead and up.
 struct Look {
     glm::dvec3 ahead, up;
 };
 const Look kLooks[6] = {{{1, 0, 0}, {0, 1, 0}},  {{-1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {0, 0, -1}},
                         {{0, -1, 0}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0}},  {{0, 0, -1}, {0, 1, 0}}};
 
-// 16-bit sRGB; value: linear, [0,1], of a unit direction and a channel. divisor: in a fourth channel, 0: there are three.
+// Returns a 16-bit sRGB light. value: linear, [0,1], of a unit direction and a channel. divisor: stored in a fourth channel; 0: three
+// channels.
 ImageLight light_of(int size, const std::function<double(glm::dvec3, int)>& value, double divisor = 0.0)
 {
     ImageLight light;
@@ -50,7 +51,7 @@ double smooth(glm::dvec3 d, int c)
     return 0.4 + (c == 0 ? 0.3 * d.x + 0.1 * d.y * d.z : c == 1 ? 0.25 * d.y - 0.1 * d.x : 0.3 * d.z * (0.5 + 0.4 * d.x));
 }
 
-// The largest difference from `value` in any channel.
+// Returns the largest difference from `value` in any channel.
 double worst(const Image& sky, const std::function<double(glm::dvec3, int)>& value)
 {
     double most = 0.0;
@@ -68,13 +69,13 @@ TEST(image_light, every_direction_shows_what_its_face_holds)
     const Image sky = sky_of(light_of(64, smooth), Jobs(2));
     ASSERT_EQ(sky.width, 256);
     ASSERT_EQ(sky.height, 128);
-    EXPECT_LT(worst(sky, smooth), 0.012); // half a texel of 1/32, and what the slope is
+    EXPECT_LT(worst(sky, smooth), 0.012); // half a texel of 1/32, times the slope
 }
 
 TEST(image_light, is_turned_by_its_rotation_and_multiplied_by_its_intensity)
 {
     ImageLight light = light_of(64, smooth);
-    light.world_from_cube = glm::dmat3(0, 0, -1, 0, 1, 0, 1, 0, 0); // a quarter about +Y: what was at +x is at -z, at +z is at +x
+    light.world_from_cube = glm::dmat3(0, 0, -1, 0, 1, 0, 1, 0, 0); // a quarter turn about +Y: +x goes to -z, +z to +x
     light.intensity = 2.0;
     EXPECT_LT(worst(sky_of(light, Jobs(1)), [](glm::dvec3 d, int c) { return 2.0 * smooth({-d.z, d.y, d.x}, c); }), 0.024);
 }
@@ -92,7 +93,7 @@ TEST(image_light, a_fourth_channel_divides_linear_values)
 
 TEST(image_light, keeps_the_light_of_the_cube)
 {
-    // one bright texel a face, at another place each
+    // one bright texel a face, each at another place
     const int n = 16;
     double sum = 0.0;
     const ImageLight light = light_of(n, [&](glm::dvec3 d, int) {

@@ -9,7 +9,7 @@
 namespace burnish::test {
 namespace {
 
-// Share of azimuths at which a tilted mirror shows an eye what lies above the horizon: l.z = 2 (n.v) n.z - v.z > 0.
+// Returns the part of azimuths where a tilted mirror shows an eye directions above the horizon: l.z = 2 (n.v) n.z - v.z > 0.
 double mirror_share(double tilt, double cosine)
 {
     const double sine = std::sqrt(1.0 - cosine * cosine), bound = -cosine * std::cos(2.0 * tilt) / (sine * std::sin(2.0 * tilt));
@@ -59,7 +59,7 @@ TEST(kept_light, is_all_of_it_where_normals_are_alike)
     ASSERT_TRUE(steep.any);
     EXPECT_EQ(steep.of[kKeptKnot], 1.0f);
     EXPECT_GT(steep.loss, 0.3f);
-    EXPECT_GT(steep.of[3], 1.0f); // from right above both slopes show the horizon
+    EXPECT_GT(steep.of[3], 1.0f); // from straight above both slopes show the horizon
 }
 
 TEST(kept_light, levels_hold_exact_means)

@@ -1,4 +1,4 @@
-// Key lights: which parts of a picture they are, and that nothing is lost where they leave it.
+// Key lights: the parts of an image that become key lights, and energy conservation where they leave the image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Direction towards(const Lamp& l)
     return {std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a)};
 }
 
-// Even discs with a soft edge on a smooth sky, one colour each.
+// Returns uniform discs with soft edges on a smooth sky, one colour each.
 Image sky_with(const std::vector<Lamp>& lamps, double sky = 0.3, int width = 1024)
 {
     return equirect_of(width, [&](double x, double y, double z, float* rgb) {
@@ -75,7 +75,7 @@ Taken take(const Image& image, int most = 8)
     return t;
 }
 
-// Both together are the source in every channel.
+// The key lights and the remaining image add up to the source in every channel.
 void expect_nothing_lost(const Taken& t)
 {
     std::vector<double> sum = light_of(t.after);
@@ -103,7 +103,7 @@ TEST(key_lights, of_the_sky_are_its_sun_and_the_studio_has_none)
     EXPECT_EQ(studio.before.rgb, studio.after.rgb);
 }
 
-// Wherever it stands: at the poles, where rows are short, and on the picture's seam.
+// Tests all positions: at the poles, where rows are short, and on the image's seam.
 TEST(key_lights, are_found_anywhere_with_their_size_and_radiance)
 {
     for (const double elevation : {-90.0, -40.0, 2.0, 60.0, 88.0, 90.0})
@@ -163,7 +163,7 @@ TEST(key_lights, of_neighbours_are_two)
     expect_nothing_lost(t);
 }
 
-// Large bright surfaces, faint lights, gradients and lines of light stay what they are.
+// Large bright surfaces, faint lights, gradients and lines of light stay in the image.
 TEST(key_lights, are_not_windows_nor_stars_nor_tubes)
 {
     const auto none = [](const Image& image) {
@@ -179,7 +179,7 @@ TEST(key_lights, are_not_windows_nor_stars_nor_tubes)
     })));
 }
 
-// What is left of the picture lies on a cube as if all of it were sampled anew, though only what is near the lights is.
+// The remaining cube equals a full resampling, although only the texels near the lights are resampled.
 TEST(key_lights, leave_a_cube_that_is_sampled_again_around_them)
 {
     const Jobs jobs(2);
@@ -219,7 +219,7 @@ TEST(key_lights, need_no_particular_picture)
     expect_nothing_lost(t);
 }
 
-// The picture of the environment keeps its bits, and so does all of it where there is nothing to take.
+// The whole environment keeps its bits, and so does everything where no light is extracted.
 TEST(key_lights, leave_the_whole_picture_as_it_is)
 {
     const auto baked = [](const Image& image, int most) {
@@ -240,7 +240,7 @@ TEST(key_lights, leave_the_whole_picture_as_it_is)
     const Environment smooth = baked(smooth_equirect(256), 8), plain = baked(smooth_equirect(256), 0);
     EXPECT_TRUE(same(smooth.specular, plain.specular, smooth.specular.texels.size() / 4));
     EXPECT_EQ(&smooth.picture(), &smooth.specular);
-    // the cube's brightest texel lies where the light is
+    // the cube's brightest texel lies at the light
     const CubeMap& whole = on.picture();
     float brightest = 0.0f;
     Direction at = {};

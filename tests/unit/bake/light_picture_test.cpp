@@ -1,4 +1,4 @@
-// Pictures of area lights: what is kept of them exactly, and what their blurred levels hold.
+// Area light textures: exactly preserved values, and contents of blurred levels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Image floats(int width, int height, float (*value)(int x, int y, int c))
     return image;
 }
 
-// Of a texel, -1 the border.
+// Returns a texel; -1 is the border.
 double texel_of_picture(const LightPicture& p, int level, int x, int y, int c)
 {
     const auto stride = static_cast<std::size_t>(p.differences.level_width[level]) + 2;
@@ -41,12 +41,12 @@ TEST(light_picture, of_one_colour_has_no_differences)
         for (std::size_t i = 0; i < p.differences.texels.size(); ++i)
             ASSERT_TRUE(i % 4 == 3 || half_to_float(p.differences.texels[i]) == 0.0f) << i;
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(p.mean[c] / (level * static_cast<float>(c + 1)), 1.0f, 5e-4f); // of half floats
+            EXPECT_NEAR(p.mean[c] / (level * static_cast<float>(c + 1)), 1.0f, 5e-4f); // from half floats
     }
 }
 
-// White left of the middle. The levels' edges are blurred by kLightPictureSpread less what interpolation will do; past the left edge, where
-// nothing black is near, there is white; the last level is the mean everywhere.
+// White left of the middle. The levels' edges are blurred by kLightPictureSpread minus the later interpolation. Past the left edge, far
+// from black, texels are white. The last level is the mean everywhere.
 TEST(light_picture, levels_are_blurred_by_a_gaussian_of_what_lies_on_the_picture)
 {
     const LightPicture p = make_light_picture(floats(256, 64, [](int x, int, int) { return x < 128 ? 1.0f : 0.0f; }));

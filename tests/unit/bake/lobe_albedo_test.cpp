@@ -1,4 +1,4 @@
-// The table of directional albedo of lobes of two widths, against dense quadrature in double.
+// The directional albedo table of anisotropic lobes, against dense quadrature in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct Albedo {
     double scale, bias;
 };
 
-// The BRDF's integral over all normals, not the visible ones that the table is made from: slopes of length alpha r, of which
-// r^2 / (1 + r^2) is uniform in [0,1], finer where they are steep. Schlick's Fresnel is split at F0.
+// Integrates the BRDF over all normals, while the table uses visible normals. Slopes have length alpha r, where r^2 / (1 + r^2) is uniform
+// in [0,1], finer where they are steep. Schlick's Fresnel is split at F0.
 Albedo integral(const Lobe& l, int n)
 {
     const auto stretch = [&](double x, double y, double z) {
@@ -83,7 +83,7 @@ std::vector<Albedo> lookup_slice(const IsaFns& isa, const float* slice, const st
     return lookup(isa, "lobe_slice", slice, lobes);
 }
 
-// Albedos fall to 0.25 here, and compensation divides by them: the relative error is what counts.
+// Albedos fall to 0.25 here and compensation divides by them, so the relative error counts.
 TEST(lobe_albedo, is_near_the_integral_for_all_lobes_and_views)
 {
     std::vector<Lobe> lobes;
@@ -159,7 +159,7 @@ TEST(lobe_albedo, of_the_program_is_the_one_that_is_baked_here)
     EXPECT_TRUE(std::equal(baked.begin(), baked.end(), lobe_albedo_pairs()));
 }
 
-// A slice knows its lobe's widths exactly, so only its two axes are interpolated.
+// A slice knows its lobe's widths exactly and interpolates its two axes alone.
 TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
 {
     Random random(5);

@@ -1,4 +1,4 @@
-// Gains of levels' reflectances, and the lane code that levels are made with.
+// Albedo gains of mip levels, and the lane code that makes levels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 using mipnet::Texels;
 constexpr mipnet::Lobe kLobes[] = {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley};
 
-// Level 0, and levels after it by a filter.
+// Returns level 0 and the following levels of a filter.
 std::vector<Texels> pyramid_of(const Texels& level0, MipFilter filter, std::size_t levels)
 {
     std::vector<Texels> all = {level0};
@@ -31,7 +31,7 @@ std::vector<Texels> pyramid_of(const Texels& level0, MipFilter filter, std::size
     return all;
 }
 
-// Ridges of two slopes along x, and of two widths.
+// Returns ridges of two slopes along x, with two widths.
 Texels ridges(int side, float slope, float alpha)
 {
     Texels t = mipnet::make_texels(side, side);
@@ -52,7 +52,8 @@ TEST(mip_gain, is_one_where_levels_are_as_level_0)
         }
 }
 
-// Steep ridges: a level is too bright or too dark without its gain, and reflects what level 0 does with it, under directions of others.
+// Steep ridges make a level too bright or too dark. With its gain the level reflects as much as level 0, under other directions than those
+// of the fit.
 TEST(mip_gain, makes_levels_reflect_as_much_as_level_0)
 {
     double plain = 0.0;
@@ -81,7 +82,7 @@ TEST(mip_gain, passes_no_reflectance_beyond_1)
     EXPECT_EQ(gained({mipnet::Lobe::ggx_aniso, 0.04f, 0.5f}, 1.5f).f0, 0.06f);
 }
 
-// What a drawn light is worth does not depend on how it is drawn: the mean is that of lights from anywhere.
+// The gain averages over lights from anywhere, and does not depend on how test lights are drawn.
 TEST(mip_gain, is_of_light_from_everywhere)
 {
     const mipnet::Material m = mipnet::make_material(mipnet::families().front(), 3, 64);
@@ -96,7 +97,8 @@ TEST(mip_gain, is_of_light_from_everywhere)
     }
 }
 
-// A matt surface, of the same light from all sides of the eye: its gain in frames is that of light alone, of judged levels darker.
+// A matte surface under equal light from all sides of the eye. The gain in frames is the ratio of mean cosines. Gains for
+// judged levels are lower.
 TEST(mip_gain, of_frames_does_not_know_the_eye)
 {
     const float slope = 0.6f, z = 0.8f;
@@ -175,7 +177,7 @@ TEST(mip_gain, is_kept_in_files_and_refused_where_it_is_none)
     EXPECT_FALSE(parse_mip_file(mip_file_bytes({{&bad}, 0, {}}), "x.mip")) << "gains of nothing";
 }
 
-// Of a row of any length, of maps of three and four channels: states, squares, texels, tensors and hashes.
+// Rows of any length, maps with three and four channels: states, squares, texels, tensors and hashes.
 TEST(mip_lanes, have_the_same_bits_for_every_instruction_set)
 {
     std::vector<std::uint8_t> codes(4 * 150);
@@ -219,7 +221,7 @@ TEST(mip_lanes, have_the_same_bits_for_every_instruction_set)
             }
 }
 
-// A number of a row that is another one changes its hash, wherever it lies, and so do two that change places.
+// A changed number in a row changes the hash at every position, and so do two swapped numbers.
 TEST(mip_lanes, hashes_see_every_number)
 {
     const std::size_t stride = 48;

@@ -93,7 +93,7 @@ void expect_near(const MipTexel& a, const MipTexel& b, double off)
     EXPECT_NEAR(a.c, b.c, off);
 }
 
-// A map of one normal and one lobe is that at each level, flat or tilted: so a tilted lobe does not turn either.
+// A map of one normal and one lobe keeps both at each level, flat or tilted. Filtering does not turn tilted lobes.
 TEST(mip, one_value_stays_at_every_level)
 {
     for (const auto& [width, height] : {std::pair(64, 32), {257, 129}, {1, 64}, {3, 5}, {1, 1}})
@@ -122,7 +122,7 @@ TEST(mip, levels_of_odd_sides_are_exact_means)
         const Maps maps = rough_maps(width, height, 7, 0.3);
         const MipSource source(maps.of());
         const MipLevels made = levels_of(maps, kMipFilter_covariance), spread = levels_of(maps, kMipFilter_leadr);
-        // the last level is one texel, the mean of all
+        // the last level is one texel, the mean of all texels
         double n[3] = {}, s[3] = {}, slope[2] = {}, flat[3] = {};
         std::vector<MipPoint> row(static_cast<std::size_t>(width));
         const double share = 1.0 / (static_cast<double>(width) * height);
@@ -160,7 +160,7 @@ TEST(mip, levels_of_odd_sides_are_exact_means)
     }
 }
 
-// Two texels of normals (x, 0) and (-x, 0): what each filter makes of their difference, by hand.
+// Two texels with normals (x, 0) and (-x, 0): the result of each filter, derived by hand.
 TEST(mip, filters_widen_lobes_by_what_their_formulas_say)
 {
     const float x = 0.4f, z = std::sqrt(1.0f - x * x);
@@ -192,7 +192,7 @@ TEST(mip, filters_widen_lobes_by_what_their_formulas_say)
     EXPECT_NEAR(gain_of_taps(kMipFilter_kappa, 2.0f), 1.0f, 1e-6f);
 }
 
-// Mirroring a material, or exchanging its axes, does so to its levels, bit for bit.
+// Mirroring a material, or swapping its axes, mirrors or swaps its levels, bit for bit.
 TEST(mip, squares_are_filtered_alike_however_they_lie)
 {
     constexpr int kSide = 32;
@@ -200,7 +200,7 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
     struct Turn {
         bool flip_x, flip_y, swap;
     };
-    const auto place = [](const Turn& t, int side, int x, int y) { // where a texel of the turned map was
+    const auto place = [](const Turn& t, int side, int x, int y) { // the turned map's texel in the original map
         if (t.swap)
             std::swap(x, y);
         return std::pair(t.flip_x ? side - 1 - x : x, t.flip_y ? side - 1 - y : y);
@@ -223,11 +223,11 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
                 return to;
             });
         };
-        // halves of which 1 - x is exact
+        // rounded so that 1 - x is exact
         Maps coarse = maps;
         for (std::size_t i = 0; i < coarse.normal.bytes.size() / 4; ++i) {
             coarse.normal.f32()[i] = std::round(coarse.normal.f32()[i] * 4096.0f) / 4096.0f;
-            const float d = 2.0f * coarse.direction.f32()[i] - 1.0f; // and of whose products rounding knows no order
+            const float d = 2.0f * coarse.direction.f32()[i] - 1.0f; // products are exact, so rounding does not depend on order
             if (i % 3 != 2)
                 coarse.direction.f32()[i] = 0.5f + 0.5f * std::copysign(std::exp2(std::floor(std::log2(std::abs(d) + 0.01f))), d);
         }
@@ -243,7 +243,7 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
                 continue;
             const MipLevels a = make_mip_levels(MipSource(without_factor(coarse)), filter, 1.1f, jobs);
             const MipLevels b = make_mip_levels(MipSource(without_factor(turned)), filter, 1.1f, jobs);
-            double unlike = 0.0; // on the mean
+            double unlike = 0.0; // mean difference
             for (std::size_t l = 0; l < a.levels.size(); ++l)
                 for (int y = 0; y < a.levels[l].height; ++y)
                     for (int x = 0; x < a.levels[l].width; ++x) {
@@ -256,7 +256,7 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
                         if (t.swap)
                             std::swap(want.nx, want.ny), std::swap(want.a, want.b);
                         const MipTexel got = b.levels[l].texels[static_cast<std::size_t>(y * a.levels[l].width + x)];
-                        if (filter == kMipFilter_mipnet) { // which has learnt that they are alike, about
+                        if (filter == kMipFilter_mipnet) { // the net has learnt the symmetry approximately
                             for (const float d : {got.nx - want.nx, got.ny - want.ny, got.a - want.a, got.b - want.b, got.c - want.c})
                                 unlike += static_cast<double>(std::abs(d)) / (5.0 * 341.0);
                             continue;
@@ -272,7 +272,7 @@ TEST(mip, squares_are_filtered_alike_however_they_lie)
 TEST(mip, texels_that_are_not_numbers_are_level_and_do_not_spread)
 {
     Maps maps = rough_maps(16, 16, 5);
-    Maps repaired = maps; // level normals, the factor's roughness, no direction
+    Maps repaired = maps; // level normals, roughness from the factor, no direction
     for (int i = 0; i < 2; ++i) {
         const std::array<float, 3> texels[3] = {{0.5f, 0.5f, 1.0f}, {1.0f, 1.0f, 1.0f}, {0.5f, 0.5f, 0.0f}};
         std::copy(texels[0].begin(), texels[0].end(), repaired.normal.f32() + 3 * i);
@@ -293,7 +293,7 @@ TEST(mip, texels_that_are_not_numbers_are_level_and_do_not_spread)
     EXPECT_EQ(row[0].n.z, 1.0f);
 }
 
-// Rows and single texels are one, and pictures of 8 and 16 bits say what floats of the same values do.
+// Rows equal single texels, and 8-bit and 16-bit images equal floats of their values.
 TEST(mip, maps_of_codes_are_read_as_their_values)
 {
     const int width = 33, height = 5;
@@ -324,7 +324,7 @@ TEST(mip, maps_of_codes_are_read_as_their_values)
     }
 }
 
-// A smaller map is read between its texels: across the border where it repeats, not where it is clamped.
+// A smaller map is interpolated between its texels: across the border if it repeats, not if it is clamped.
 TEST(mip, smaller_maps_wrap_as_their_sampler_says)
 {
     Maps maps;
@@ -341,7 +341,7 @@ TEST(mip, smaller_maps_wrap_as_their_sampler_says)
     }
 }
 
-// Where the net is far from the truth closed forms are kept: of a sample that is as the material is, whatever its size.
+// Where the net is far from the reference, closed forms are kept. A representative sample of the material decides, at any size.
 TEST(mip, nets_are_compared_on_texels_of_the_material)
 {
     const Jobs jobs(2);
@@ -392,7 +392,7 @@ TEST(mip, files_give_back_what_was_written_and_refuse_the_rest)
     const Maps maps = rough_maps(13, 8, 2);
     const MipLevels a = levels_of(maps, kMipFilter_kappa, 0.7f), b = levels_of(rough_maps(1, 1, 4), kMipFilter_ssgt);
     const MapLevels colours =
-        make_map_levels(maps.normal, {}, {MapPart::base_color, ColourKernel::kaiser, 3, 4}, nullptr, Jobs(1)); // any picture
+        make_map_levels(maps.normal, {}, {MapPart::base_color, ColourKernel::kaiser, 3, 4}, nullptr, Jobs(1)); // any image
     const MapLevels heights = make_map_levels(maps.normal, {}, {MapPart::height, ColourKernel::box, 5, 0}, nullptr, Jobs(1));
     const MipParts parts = {{&a, &b}, 2, [&](std::size_t i) { return i == 0 ? colours : heights; }};
     const std::vector<std::uint8_t> bytes = mip_file_bytes(parts);

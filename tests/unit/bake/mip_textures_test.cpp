@@ -1,4 +1,4 @@
-// Levels as textures that other programs read, what halves keep of them, and how far levels are from the truth.
+// Levels as textures for other programs, their precision in halves, and errors of levels against the reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,11 +78,11 @@ TEST(mip_textures, hold_every_lobe_at_its_texel)
         }
         const mipnet::Texels between = filtered_texels(source, levels, 0, true);
         EXPECT_EQ(between.width, 16);
-        EXPECT_GT(most_off(standard_texels(held, 0, true), between), 1e-2); // directions and widths by chance do not average as numbers
+        EXPECT_GT(most_off(standard_texels(held, 0, true), between), 1e-2); // random directions and widths do not average linearly
     }
 }
 
-// One lobe, tilted: textures of it lose nothing anywhere, as their numbers are the same at every texel.
+// One tilted lobe: its textures lose nothing between texels, as all texels are equal.
 TEST(mip_textures, of_one_value_lose_nothing_between_texels)
 {
     TexturedMaterial material = some_material(8, 8, 0.4);
@@ -96,7 +96,7 @@ TEST(mip_textures, of_one_value_lose_nothing_between_texels)
         EXPECT_LT(most_off(standard_texels(held, l, true), filtered_texels(source, levels, l, true)), 2e-4);
 }
 
-// As frames hold them, a half and what it rounds away: alpha within 0.05 % down to the least, where normals are level.
+// Frames hold a half and its rounding remainder: alpha is within 0.05 % down to the narrowest lobe, where normals are level.
 TEST(mip_textures, halves_keep_the_narrowest_lobes)
 {
     const Texture sampler;
@@ -112,14 +112,14 @@ TEST(mip_textures, halves_keep_the_narrowest_lobes)
     }
 }
 
-// What frames hold of a number: a half, or two that hold what the first rounds away.
+// Returns a number as frames hold it: as a half, or as a half plus a second half for the rounding remainder.
 float held(float value, bool residual)
 {
     const float first = half_to_float(float_to_half(value));
     return residual ? first + half_to_float(float_to_half(value - first)) : first;
 }
 
-// Levels as frames hold them: normals and covariances of two halves, or of one.
+// Returns levels as frames hold them: normals and covariances as one half or two.
 mipnet::Texels in_halves(const mipnet::Texels& from, bool residual)
 {
     mipnet::Texels to = from;
@@ -158,7 +158,7 @@ double flip_between(const mipnet::Texels& a, const mipnet::Texels& b, mipnet::Lo
     return sum / static_cast<double>(a.count());
 }
 
-// However narrow lobes are. `cli.mip.normals_of_levels_are_as_fine_as_floats` holds frames to it.
+// Holds for all lobe widths. `cli.mip.normals_of_levels_are_as_fine_as_floats` tests frames.
 TEST(mip_textures, in_halves_look_as_in_floats)
 {
     double most_of_one_half = 0.0;
@@ -206,7 +206,7 @@ TEST(mip_shown, errors_are_those_of_what_differs)
 
 TEST(mip_shown, tiles_have_pairs_of_their_own)
 {
-    // One texel of a level a tile: each is as the pair of its number has it, all are as the mean of those has it.
+    // Each tile holds one level texel and uses its own pair of directions. All tiles together give the mean over the pairs.
     const ShownSurface surface = shown_surface(mipnet::Lobe::beckmann, false);
     const std::vector<std::vector<mipnet::Texels>> wider = {{flat_texels(4, 0.4f)}};
     const mipnet::Texels level0 = flat_texels(8, 0.3f);
@@ -237,7 +237,7 @@ TEST(mip_shown, errors_do_not_depend_on_threads)
     EXPECT_NE(one[0][0].l1, one[1][0].l1);
 }
 
-// Two slopes by turns: the search finds their mean and a wider lobe from starts that are far off, and keeps what is right.
+// Two alternating slopes: from starts far off, the search finds their mean and a wider lobe, and keeps a start that is right.
 TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
 {
     const Jobs jobs(2);
@@ -261,7 +261,7 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
     }
 }
 
-// Grain that crosses: two lobes a texel err at least a quarter less than the best one, under other directions than they are searched by.
+// With crossed grain, two lobes a texel err at least a quarter less than the best one, under other directions than the search used.
 TEST(mip_teacher, crossed_grain_wants_two_lobes)
 {
     const Jobs jobs(2);
@@ -276,13 +276,13 @@ TEST(mip_teacher, crossed_grain_wants_two_lobes)
     EXPECT_EQ(two.first[0].channel[2], again.first[0].channel[2]);
     const auto errors = shown_errors(grain, {one, two.first}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0}, {{}, two.second});
     EXPECT_LT(errors[1][0].l1, 0.75 * errors[0][0].l1);
-    // Where one lobe is all there is, two are no worse.
+    // Where one lobe suffices, two are no worse.
     const std::vector<mipnet::Texels> flat = {flat_texels(16, 0.3f)};
     const LobePairs same = taught_pairs(flat_texels(32, 0.3f), flat, surface, jobs);
     EXPECT_LT(shown_errors(flat_texels(32, 0.3f), {same.first}, surface, jobs, {.times = 8, .lamps = 0}, {same.second})[0][0].l1, 2e-3);
 }
 
-// Odd sides: what is below a texel is shared out by area, and levels have the bits of one thread and of any instruction set.
+// Odd sides: texels below are shared out by area. Levels have equal bits for every thread count and instruction set.
 TEST(mip_teacher, takes_odd_sides_and_any_number_of_threads)
 {
     const TexturedMaterial material = some_material(37, 21, 0.3);
@@ -323,7 +323,7 @@ TEST(colour_levels, are_exact_means_by_box_and_keep_one_colour_by_both)
     }
 }
 
-// Of waves, each at half its size: those that the level holds stay, those that it cannot hold go.
+// Waves with each period: waves that the level resolves stay, and others vanish.
 TEST(colour_levels, by_kaiser_are_sharper_and_have_less_that_is_false)
 {
     const auto left = [](double period, ColourKernel kernel) {
@@ -340,7 +340,7 @@ TEST(colour_levels, by_kaiser_are_sharper_and_have_less_that_is_false)
     EXPECT_GT(left(2.56, ColourKernel::box), 0.3);
 }
 
-// Ridges, level ones of one colour and steep ones of another, of a metal: how much of the mean radiance is of the steep ones' colour.
+// A metal with flat ridges in one colour and steep ridges in another. The test finds the steep ridges' part in the mean radiance.
 TEST(colour_levels, that_are_coupled_have_less_than_half_the_error_of_colour)
 {
     constexpr int kSide = 8;

@@ -15,14 +15,13 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 
-// An environment with detail: bands of a few degrees over the smooth colours.
+// Returns an environment with detail: bands of a few degrees over smooth colours.
 double radiance(double x, double y, double z)
 {
     return 1.0 + 0.8 * x + 0.3 * y * z + 0.6 * std::sin(9.0 * x + 4.0 * z) * std::cos(7.0 * y);
 }
 
-// The integral of radiance * D(h) n.l over the hemisphere around n, over that of D(h) n.l, in half-vector
-// angles.
+// Integrates radiance * D(h) n.l over the hemisphere around n, divided by the integral of D(h) n.l. Uses half-vector angles.
 double brute_force(const double n[3], double alpha)
 {
     const double t[3] = {n[1], n[2], n[0]}; // not parallel to n for the directions used
@@ -73,7 +72,7 @@ TEST(prefilter, levels_equal_the_integral_over_the_hemisphere)
     }
 }
 
-// The same integral of a cube that is constant on its texels, by 2x2 Gauss-Legendre points a texel; the texels near n, 6x6.
+// Evaluates this integral for a cube with constant texels, with 2x2 Gauss-Legendre points a texel and 6x6 near n.
 std::array<double, 3> quadrature(const CubeLevel& cube, const Direction& n, double alpha)
 {
     const double a2 = alpha * alpha, step = 2.0 / cube.size, near = 4.0 * step;
@@ -108,7 +107,7 @@ std::array<double, 3> quadrature(const CubeLevel& cube, const Direction& n, doub
     return sum;
 }
 
-// Root mean square of the relative error of a level, over texels all over the cube.
+// Returns the root mean square of a level's relative error, over texels all over the cube.
 double relative_error(const CubeLevel& level0, const CubeMap& baked, int level, int texels)
 {
     Random random(static_cast<std::uint64_t>(level));
@@ -128,7 +127,7 @@ double relative_error(const CubeLevel& level0, const CubeMap& baked, int level, 
     return std::sqrt(sum / texels);
 }
 
-// A sun of 9000 in a sky of 1, and lamps and windows: no level has noise or mottles.
+// A sun with radiance 9000 in a sky with radiance 1, and lamps and windows: no level has noise or mottles.
 TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
 {
     for (const char* name : {"sky", "studio"}) {
@@ -137,7 +136,7 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
         EnvironmentOptions o = small_bake();
         o.cube_size = 128;
         o.samples = EnvironmentOptions{}.samples;
-        o.key_lights = 0; // the sun stays in
+        o.key_lights = 0; // keep the sun
         const Result<Environment> e = bake_environment(*image, name, o, Jobs(2));
         ASSERT_TRUE(e);
         const CubeLevel level0 = equirect_to_cube(make_equirect(*image), o.cube_size, Jobs(2));

@@ -98,12 +98,11 @@ double naive_sample(const TexturePyramid& p, double u, double v, const NaiveFoot
     return sum / f.taps;
 }
 
-// ---- the samples that are compared ----
+// ---- the compared samples ----
 
 constexpr int kSamples = 1024;
 
-// u, v and the four derivatives, kSamples of each. Axis lengths from far below to far above a texel, every
-// ratio.
+// Returns u, v and the four derivatives, kSamples of each. Axis lengths range from far below to far above a texel, with every ratio.
 std::vector<float> sample_positions(const TexturePyramid& p)
 {
     std::vector<float> uv(6 * kSamples);

@@ -32,7 +32,7 @@ Image random_image(int width, int height, int channels, PixelType type)
     return image;
 }
 
-// Decoded channel c in [0,4) of a pixel, in double.
+// Returns decoded channel c in [0,4) of a pixel, in double precision.
 double decoded(const Image& image, bool srgb, int x, int y, int c)
 {
     const int n = image.channels;
@@ -48,7 +48,7 @@ double decoded(const Image& image, bool srgb, int x, int y, int c)
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-// Mean over the footprint of texel (x, y) of a w x h level, by area.
+// Returns the mean over the footprint of texel (x, y) in a w x h level, by area.
 double naive_box(const Image& image, bool srgb, int w, int h, int x, int y, int c)
 {
     double sum = 0.0;
@@ -87,7 +87,7 @@ TEST_P(texture_pyramid_of, every_level_is_the_exact_box_filter_of_level_zero)
             for (int x = 0; x < w; ++x)
                 for (int c = 0; c < 4; ++c) {
                     const double expected = naive_box(image, srgb, w, h, x, y, c);
-                    // half an ulp of a half, and a little for float
+                    // half an ulp of a half, and a margin for float
                     ASSERT_NEAR(static_cast<double>(texel(p, l, x, y, c)), expected, expected * 0x1.01p-11 + 1e-7)
                         << "level " << l << " at " << x << "," << y << " channel " << c;
                 }
@@ -171,7 +171,7 @@ TEST(texture_pyramid, of_levels_that_were_kept_is_the_same)
                     const TexturePyramid own = make_texture_pyramid(image, sampler, encoding_of(part));
                     const MapLevels levels = make_map_levels(image, sampler, {part, ColourKernel::box, 0, 0}, nullptr, Jobs(1));
                     const TexturePyramid kept = pyramid_of_map(image, sampler, levels);
-                    const std::size_t first = part == MapPart::height ? 3 : 0; // nothing else is asked for of heights
+                    const std::size_t first = part == MapPart::height ? 3 : 0; // height maps need no other channel
                     ASSERT_EQ(own.texels.size(), kept.texels.size());
                     for (std::size_t i = 0; i < own.texels.size(); ++i)
                         if (i % 4 >= first) {
@@ -181,7 +181,7 @@ TEST(texture_pyramid, of_levels_that_were_kept_is_the_same)
                 }
 }
 
-// Weighted by ones, or by what is the same everywhere, the means are the same, nearly, whatever the threads.
+// Weighted by a constant, the means nearly equal unweighted means, for every thread count.
 TEST(texture_pyramid, of_weighted_levels_does_not_depend_on_threads)
 {
     const Image image = random_image(29, 17, 3, PixelType::u8);

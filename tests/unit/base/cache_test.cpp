@@ -1,4 +1,4 @@
-// The folder of what is kept to save time: its limit, and what goes first.
+// The cache folder: its limit, and the order of removal.
 #include "core/base/cache.h"
 
 #include <chrono>
@@ -92,7 +92,7 @@ TEST_F(cache, other_files_neither_count_nor_go)
     prune_cache((folder_ / "none").string(), 0, "");
 }
 
-class Variable { // of the environment, for a moment
+class Variable { // sets an environment variable for its lifetime
   public:
     Variable(const char* name, const char* value) : name_(name)
     {

@@ -1,4 +1,4 @@
-// The bounds that control groups set, read from folders made like those of Linux.
+// Limits by control groups, read from folders with Linux's layout.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Charts as pixels: strokes, areas and letters where they should be.
+// Charts as pixels: strokes, areas and letters at their places.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ int gray(const Image& image, int x, int y)
     return static_cast<int>(image.bytes[static_cast<std::size_t>(3 * (y * image.width + x))]);
 }
 
-// Ink of a picture in pixels, and its box.
+// Ink of an image in pixels, and its bounding box.
 struct Ink {
     double sum = 0.0;
     int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
@@ -61,7 +61,7 @@ TEST(chart_canvas, an_area_covers_its_pixels_and_parts_of_those_at_its_edge)
     EXPECT_NEAR(gray(image, 2, 5), 128, 1);
     EXPECT_EQ(gray(image, 10, 5), 255);
     EXPECT_NEAR(ink_of(image).sum, 7.5 * 5.0, 0.2);
-    Canvas outside(20, 20, kWhite); // nothing of it is seen, nothing breaks
+    Canvas outside(20, 20, kWhite); // nothing is visible, nothing breaks
     outside.fill({{-30, -30}, {-20, -30}, {-20, -20}}, kBlack);
     outside.stroke({{200, 5}, {300, 5}}, 3.0, kBlack);
     EXPECT_EQ(ink_of(outside.image()).sum, 0.0);
@@ -85,7 +85,7 @@ TEST(chart_canvas, letters_stand_on_their_line_and_are_anchored_and_turned)
     EXPECT_LE(turned.bottom, 200);
     EXPECT_GT(write("g", 0.0, 0.0).bottom, 205);
     EXPECT_NEAR(start.right - start.left, text_width("HEI", 40.0), 16.0);
-    for (char c = '!'; c <= '~'; ++c) { // every letter is there
+    for (char c = '!'; c <= '~'; ++c) { // every letter exists
         const Ink ink = write(std::string(1, c), 0.0, 0.0);
         EXPECT_GT(ink.sum, 5.0) << c;
     }
@@ -134,7 +134,7 @@ TEST(chart_canvas, drawings_are_painted_with_the_looks_of_their_classes)
     EXPECT_EQ(at(50, 30), (Rgb{0x00, 0x67, 0xa8})); // c1, filled
     EXPECT_EQ(at(50, 24), (Rgb{0x00, 0x67, 0xa8}));
     EXPECT_EQ(at(50, 36), (Rgb{0x00, 0x67, 0xa8}));
-    EXPECT_EQ(at(50, 40.5), (Rgb{255, 255, 255})); // the area that answers to pointers is not seen
+    EXPECT_EQ(at(50, 40.5), (Rgb{255, 255, 255})); // the area that answers to pointers is invisible
     EXPECT_EQ(at(20, 30), (Rgb{255, 255, 255}));   // hollow
     EXPECT_EQ(at(20 - 8 * std::sqrt(0.5), 30), rgb(tint("c2a")));
     EXPECT_EQ(at(80, 30), (Rgb{1, 2, 3}));

@@ -1,4 +1,4 @@
-// The noise of a reference, as its variance tells it and as two independent references show it.
+// Noise of a reference, estimated from its variance and from two independent references.
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(chart_noise, has_the_variance_that_was_asked_for)
     }
     EXPECT_NEAR(sum / 20000, 0.0, 4 * 0.5 / std::sqrt(20000.0));
     EXPECT_NEAR(squares / 20000, 0.25, 4 * 0.25 * std::sqrt(2.0 / 20000));
-    EXPECT_NEAR(fourths / 20000, 3 * 0.0625, 0.012); // of a normal distribution
+    EXPECT_NEAR(fourths / 20000, 3 * 0.0625, 0.012); // for a normal distribution
     EXPECT_NEAR(neighbours / 20000, 0.0, 4 * 0.25 / std::sqrt(20000.0));
     EXPECT_EQ(with_noise(mean, variance, 1, Jobs(1)).bytes, noisy.bytes);
     EXPECT_NE(with_noise(mean, variance, 2, Jobs(1)).bytes, noisy.bytes);
@@ -48,7 +48,7 @@ TEST(chart_noise, of_one_pass_is_unknown)
     EXPECT_TRUE(std::isnan(noise_flip(flat(8, 8, 1.0f), variance, best_isa(), Jobs(1))));
 }
 
-// Two references of independent samples differ by twice their variance, and look as different as one does from itself with that much noise.
+// Two independent references differ by twice their variance. Their FLIP error equals the error after adding that much noise to one of them.
 TEST(chart_noise, is_what_two_references_differ_by)
 {
     BN_NEEDS_EMBREE();

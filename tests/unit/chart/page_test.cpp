@@ -1,4 +1,4 @@
-// The page, the files beside it, and their pictures.
+// The HTML page, its companion files and their images.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

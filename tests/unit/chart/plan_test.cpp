@@ -1,4 +1,4 @@
-// Sweeps and the settings that come of them.
+// Sweeps and their resulting settings.
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -74,10 +74,10 @@ TEST(chart_plan, settings_follow_what_a_technique_makes_of_samples)
     EXPECT_EQ(samples_of(settings_of({"bent_normal"}, {2, 4})), (std::vector<int>{1}));
     EXPECT_EQ(samples_of(settings_of({"major_axis"}, {8, 2})), (std::vector<int>{2, 8}));
     EXPECT_EQ(samples_of(settings_of({"filtered_is"}, {4, 8, 9, 15})), (std::vector<int>{4, 9}));  // squares below
-    EXPECT_EQ(samples_of(settings_of({"major_axis"}, {4, 100, 4096})), (std::vector<int>{4, 64})); // the most it takes
+    EXPECT_EQ(samples_of(settings_of({"major_axis"}, {4, 100, 4096})), (std::vector<int>{4, 64})); // its maximum
     EXPECT_EQ(samples_of(settings_of({"mc"}, {4, 4096})), (std::vector<int>{4, 4096}));
     EXPECT_FALSE(settings_of({"bent_normal"}, {})[0].sampled);
-    for (const TechniqueInfo& technique : techniques()) { // its own number is always there
+    for (const TechniqueInfo& technique : techniques()) { // the default count is always present
         const std::vector<int> usual = samples_of(settings_of({technique.name}, {}));
         EXPECT_NE(std::find(usual.begin(), usual.end(), technique.default_samples), usual.end()) << technique.name;
         EXPECT_EQ(representative_samples(technique.name, usual), technique.default_samples);

@@ -1,4 +1,4 @@
-// The Pareto front, what is kept of a chart, and its JSON.
+// The Pareto front, cached rows of a chart, and their JSON.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ TEST(chart_rows, the_front_is_what_nothing_beats)
     EXPECT_EQ(pareto_front(Points{{1, INFINITY}}), (Front{false}));
 }
 
-// Another way to the same: sorted by time, a point is on the front where its error is below all errors of shorter times.
+// Computes the front another way: sorted by time, a point is on the front if its error is below all errors of shorter times.
 TEST(chart_rows, the_front_of_random_points)
 {
     std::mt19937 random(7);
     for (int round = 0; round < 50; ++round) {
         std::vector<std::pair<double, double>> points;
-        for (int i = 0; i < 40; ++i) // few values, so that there are ties
+        for (int i = 0; i < 40; ++i) // few values, for ties
             points.emplace_back(static_cast<double>(random() % 20), static_cast<double>(random() % 20));
         const std::vector<bool> front = pareto_front(points);
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
     EXPECT_EQ(back->references.at("place").samples, 4096u);
     EXPECT_EQ(back->references.at("place").relative_error, 1.0 / 3.0);
     EXPECT_EQ(back->references.at("place").flip, 0.001);
-    EXPECT_FALSE(std::isfinite(back->references.at("once").relative_error)); // of one pass nothing is known
+    EXPECT_FALSE(std::isfinite(back->references.at("once").relative_error)); // one pass gives no error estimate
     EXPECT_FALSE(std::isfinite(back->references.at("once").flip));
 }
 
@@ -96,7 +96,7 @@ TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
                              "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
         EXPECT_FALSE(parse_kept(text, "rows.json")) << text;
     const Result<Kept> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
-    ASSERT_TRUE(newer); // of another version: nothing is kept
+    ASSERT_TRUE(newer); // rows of another version are dropped
     EXPECT_TRUE(newer->rows.empty());
 }
 
@@ -137,7 +137,7 @@ TEST(chart_rows, ticks_of_the_machine_are_busy_ones_and_all)
 {
     const auto ticks = ticks_of("cpu  100 20 30 400 50 6 7 8 90 0\ncpu0 1 2 3 4 5");
     ASSERT_TRUE(ticks);
-    EXPECT_EQ(ticks->first, 171.0); // without idle and iowait; guests are in user's already
+    EXPECT_EQ(ticks->first, 171.0); // without idle and iowait; user already includes guests
     EXPECT_EQ(ticks->second, 621.0);
     for (const char* other : {"", "cpu", "cpu 1 2", "intr 1 2 3 4 5 6 7 8", "x"})
         EXPECT_FALSE(ticks_of(other)) << other;

@@ -1,4 +1,4 @@
-// Reports made up for tests.
+// Invented reports for tests.
 #pragma once
 #include "apps/chart/rows.h"
 
@@ -8,7 +8,7 @@ inline ChartRow row(const std::string& key, const std::string& technique, int sa
 {
     ChartRow row;
     row.key = key;
-    row.scene = "a<b>&\"c\".glb"; // what must not reach a page as it is
+    row.scene = "a<b>&\"c\".glb"; // needs escaping on a page
     row.env = "builtin:studio";
     row.setting = {technique, samples, technique != "bent_normal" && technique != "split_isotropic"};
     row.measured.has_errors = true;
@@ -18,7 +18,7 @@ inline ChartRow row(const std::string& key, const std::string& technique, int sa
     return row;
 }
 
-// Two techniques, one of them with two numbers of samples.
+// Returns a report on two techniques, one with two sample counts.
 inline ChartReport report()
 {
     ChartReport report;

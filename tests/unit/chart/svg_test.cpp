@@ -77,7 +77,7 @@ TEST(chart_svg, every_setting_is_a_point_that_says_what_it_is)
 TEST(chart_svg, odd_figures_are_drawn_or_left_out)
 {
     ChartReport report = test::report();
-    report.rows[0].measured.errors.flip_mean = 0.0; // a logarithm of nothing
+    report.rows[0].measured.errors.flip_mean = 0.0; // has no logarithm
     report.rows[1].measured.errors.flip_mean = std::numeric_limits<double>::quiet_NaN();
     const std::string svg = svg_of(plot_time_flip(list_of(report), Layout::wide));
     EXPECT_EQ(xml_fault(svg), "");
@@ -118,7 +118,7 @@ TEST(chart_svg, heat_maps_need_cells_and_a_baseline)
     const std::string map = svg_of(plot_heat(rows, "major_axis", false)), difference = svg_of(plot_heat(rows, "major_axis", true));
     for (const std::string& svg : {map, difference})
         EXPECT_EQ(xml_fault(svg), "") << svg;
-    EXPECT_EQ(count(map, "data-row"), 2); // of 16 samples, the technique's own number
+    EXPECT_EQ(count(map, "data-row"), 2); // 16 samples, the technique's default
     EXPECT_NE(map.find("0.062"), std::string::npos) << map;
     EXPECT_NE(difference.find("-0.188"), std::string::npos) << difference; // 0.0625 - 0.25
     EXPECT_TRUE(plot_heat(rows, "bent_normal", true).empty());

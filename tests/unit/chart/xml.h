@@ -1,10 +1,11 @@
-// Whether a text is well-formed XML, as far as charts need it.
+// Checks that a text is well-formed XML, as far as charts need it.
 #pragma once
 #include <string>
 
 namespace burnish::test {
 
-// Empty, or what is wrong and where. One root element, matching ends, quoted attributes given once, entities known.
+// Returns an empty string, or the fault and its place. Checks for one root element, matching ends, unique quoted attributes and known
+// entities.
 std::string xml_fault(const std::string& text);
 
 } // namespace burnish::test

@@ -1,4 +1,4 @@
-// Words of a command line to values.
+// Reads words of a command line as values.
 #include <gtest/gtest.h>
 
 #include "apps/cli/command_line.h"
@@ -98,7 +98,7 @@ TEST(cli_words, names_that_were_meant_are_near_and_others_get_no_guess)
 {
     const std::vector<std::string> names = {"major_axis", "major_axis_weighted", "mc", "bent_normal"};
     EXPECT_EQ(nearest_name("major-axis", names), "major_axis");
-    EXPECT_EQ(nearest_name("bnet_normal", names), "bent_normal"); // two letters swapped are one slip
+    EXPECT_EQ(nearest_name("bnet_normal", names), "bent_normal"); // swapping two letters counts as one slip
     EXPECT_EQ(nearest_name("weighted", names), "major_axis_weighted");
     EXPECT_EQ(nearest_name("cm", names), "mc");
     for (const char* word : {"", "x", "nothing", "a_word_of_another_language"})

@@ -1,4 +1,4 @@
-// The tables of options: what holds of every row of every subcommand.
+// Option tables: rules for every row of every subcommand.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <memory>
@@ -103,7 +103,7 @@ TEST(cli_options, are_set_by_name_after_the_command_line_was_read)
     EXPECT_NEAR(static_cast<double>(options->frame.tilt_rad.x), 0.349066, 1e-6);
     EXPECT_EQ(options->frame.width, 64);
     EXPECT_FALSE(options->frame.override_anisotropy);
-    ASSERT_TRUE(table.set("anisotropy", "0.5")); // again, from where it stands
+    ASSERT_TRUE(table.set("anisotropy", "0.5")); // again, on top of earlier values
     ASSERT_TRUE(table.set("samples", "9"));
     options = check_render_options(arguments, table);
     ASSERT_TRUE(options);

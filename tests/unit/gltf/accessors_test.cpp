@@ -11,7 +11,7 @@ using gltf::ComponentType;
 
 namespace {
 
-// A triangle whose TEXCOORD_0 has the given accessor; the u and v of its three corners.
+// Loads a triangle whose TEXCOORD_0 has the given accessor. Returns u and v of its three corners.
 std::vector<float> uvs_of(const ByteVector& data, int component, const std::string& extra)
 {
     Asset asset = triangle();
@@ -147,7 +147,7 @@ TEST(accessor_view, never_reaches_past_its_bytes_whatever_the_numbers)
     EXPECT_TRUE(make(0, 0, 3));
     EXPECT_TRUE(make(0, 12, 3));
     EXPECT_TRUE(make(24, 0, 1));
-    EXPECT_TRUE(make(0, 24, 2)); // the last element ends before its stride does
+    EXPECT_TRUE(make(0, 24, 2)); // the last element ends before its stride
     EXPECT_FALSE(make(0, 0, 4));
     EXPECT_FALSE(make(1, 0, 3));
     EXPECT_FALSE(make(25, 0, 1));

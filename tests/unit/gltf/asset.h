@@ -1,4 +1,4 @@
-// Small glTF assets put together in a test, and what every loaded scene must satisfy.
+// Small glTF assets for tests, and conditions that every loaded scene must satisfy.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -32,15 +32,15 @@ std::string base64(const ByteVector& bytes);
 inline constexpr int kI8 = 5120, kU8 = 5121, kI16 = 5122, kU16 = 5123, kU32 = 5125, kF32 = 5126;
 
 struct Asset {
-    ByteVector bin; // one buffer
+    ByteVector bin; // a single buffer
     std::vector<std::string> views, accessors;
-    std::string attributes; // of the one primitive: members of the JSON object
-    std::string primitive;  // more members of the primitive, each with a comma before it
-    std::string node;       // members of the one node beside its mesh, each with a comma before it
-    std::string more;       // more top-level members, each with a comma before it
-    std::string nodes;      // replaces the nodes and scenes, each with a comma before it
+    std::string attributes; // of the single primitive: members of the JSON object
+    std::string primitive;  // further members of the primitive, each after a comma
+    std::string node;       // further members of the single node, each after a comma
+    std::string more;       // further top-level members, each after a comma
+    std::string nodes;      // replaces the nodes and scenes, each after a comma
 
-    // Each returns the index of what it adds. `extra`: members, each with a comma before it.
+    // Each function returns the index of the added object. `extra`: members, each after a comma.
     int view(const ByteVector& data, const std::string& extra = "");
     int accessor(const ByteVector& data, int component, const std::string& type, std::size_t count, const std::string& extra = "",
                  const std::string& view_extra = "");
@@ -51,17 +51,17 @@ struct Asset {
     ByteVector glb() const;
 };
 
-// A triangle (0,0,0) (1,0,0) (0,1,0) without anything else.
+// Returns a triangle (0,0,0) (1,0,0) (0,1,0) with positions alone.
 Asset triangle();
 
 Result<Scene> load(const Asset& asset, const Limits& limits = {});
 Result<Scene> load_text(const std::string& gltf, const Limits& limits = {});
 std::string error_of(const Result<Scene>& result); // "place: reason", or "" for success
 
-// Fails the test where a table of the scene does not hold together: ranges, finiteness, unit vectors.
+// Fails the test where a table of the scene is inconsistent: ranges, finiteness, unit vectors.
 void expect_sound(const Scene& scene);
 
-// A fresh folder below the build tree's temporary place; removed with all it holds.
+// A new folder below the build tree's temporary place. The destructor removes the folder with its contents.
 class TempFolder {
   public:
     TempFolder();
@@ -69,7 +69,7 @@ class TempFolder {
     TempFolder(const TempFolder&) = delete;
     TempFolder& operator=(const TempFolder&) = delete;
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string write(const std::string& name, const std::string& content) const; // returns its path
+    std::string write(const std::string& name, const std::string& content) const; // returns the file's path
     std::string write(const std::string& name, const ByteVector& content) const;
 
   private:

@@ -86,7 +86,7 @@ TEST(bad_input, paths_that_are_no_readable_file_are_errors)
     }
     const std::string pipe = folder.path("pipe.gltf");
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_FALSE(load_scene(pipe, {})); // and does not wait for a writer
+    EXPECT_FALSE(load_scene(pipe, {})); // without waiting for a writer
     EXPECT_FALSE(load_scene(folder.write("empty.glb", std::string()), {}));
     EXPECT_EQ(error_of(load_scene(folder.write("blank.gltf", std::string(" \n\t ")), {})), "byte 4: neither glTF JSON nor GLB");
     EXPECT_EQ(error_of(load_scene(folder.write("text.gltf", std::string("hello")), {})), "byte 0: neither glTF JSON nor GLB");
@@ -294,7 +294,7 @@ TEST(bad_input, glb_chunks_must_be_in_order_and_whole)
     EXPECT_EQ(changed(4, 1).error().place, "byte 4");                                      // version
     EXPECT_EQ(changed(8, static_cast<std::uint8_t>(good[8] + 4)).error().place, "byte 8"); // length
     EXPECT_EQ(changed(12, static_cast<std::uint8_t>(good[12] + 1)).error().place,
-              "byte 12");                                  // chunk length not of 4
+              "byte 12");                                  // chunk length not a multiple of 4
     EXPECT_EQ(changed(15, 0x7f).error().place, "byte 12"); // chunk past the file
     EXPECT_EQ(changed(16, 'B').error().place, "byte 12");  // first chunk not JSON
 }

@@ -1,4 +1,4 @@
-// What breaks glTF 2.0 never passes in silence: one edit of a sound file a rule, with the place that is named and whether it is read.
+// Violations of glTF 2.0 are always reported. Each rule has one edit of a valid file, with the reported place and whether the file loads.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -14,8 +14,8 @@ namespace {
 // A 1x1 PNG.
 const char* const kPng = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
 
-// One of everything that the rules are about, sound in every way. Accessors: 0 POSITION, 1 NORMAL, 2 TANGENT, 3 TEXCOORD_0, 4 JOINTS_0,
-// 5 WEIGHTS_0, 6 indices, 7 times, 8 translations, 9 inverse bind matrices, 10 sparse; each has the buffer view of its number.
+// Returns a valid document with one object for each rule. Accessors: 0 POSITION, 1 NORMAL, 2 TANGENT, 3 TEXCOORD_0, 4 JOINTS_0, 5
+// WEIGHTS_0, 6 indices, 7 times, 8 translations, 9 inverse bind matrices, 10 sparse. Each uses the buffer view of its number.
 Json sound()
 {
     Json doc = Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
@@ -55,7 +55,7 @@ Json sound()
 struct Breach {
     const char* name;
     const char* patch; // RFC 6902
-    const char* place; // where the error or the warning points
+    const char* place; // place of the error or the warning
 };
 
 const Breach kBreaches[] = {
@@ -197,7 +197,7 @@ const Breach kBreaches[] = {
      "/animations/0/channels/0/target/path"},
     {"target_twice", R"([{"op":"add","path":"/animations/0/channels/-","value":{"sampler":0,"target":{"node":3,"path":"translation"}}}])",
      "/animations/0/channels/1/target"},
-    // extensions' homes, and what ignored ones hold
+    // places of extensions, and contents of ignored ones
     {"extension_elsewhere", R"([{"op":"add","path":"/extensionsUsed","value":["KHR_materials_ior"]},
         {"op":"add","path":"/nodes/3/extensions","value":{"KHR_materials_ior":{}}}])",
      "/nodes/3/extensions/KHR_materials_ior"},
@@ -220,7 +220,7 @@ const Breach kBreaches[] = {
     {"light_above_one", R"([{"op":"add","path":"/extensionsUsed","value":["KHR_lights_punctual"]},
         {"op":"add","path":"/extensions","value":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,2,1]}]}}}])",
      "/extensions/KHR_lights_punctual/lights/0/color/1"},
-    // skins and what they move
+    // skins and the meshes that they move
     {"matrix_flat", R"([{"op":"replace","path":"/nodes/2/matrix/5","value":0}])", "/nodes/2/matrix"},
     {"skeleton_beside_joints", R"([{"op":"add","path":"/skins/0/skeleton","value":1}])", "/skins/0/skeleton"},
     {"joints_of_two_roots",
@@ -239,7 +239,7 @@ const Breach kBreaches[] = {
      "/meshes/0/primitives/0/targets/0/NORMAL"},
     {"target_without_bounds", R"([{"op":"add","path":"/meshes/0/primitives/0/targets","value":[{"POSITION":1}]}])",
      "/meshes/0/primitives/0/targets/0/POSITION"},
-    // what is used for two things
+    // views with two uses
     {"view_of_vertices_and_keys", R"([{"op":"replace","path":"/animations/0/samplers/0/output","value":1}])",
      "/animations/0/samplers/0/output"},
     {"view_of_vertices_and_sparse_indices", R"([{"op":"add","path":"/accessors/3/sparse","value":{"count":1,"indices":{"bufferView":1,
@@ -325,9 +325,9 @@ TEST(breach, of_the_container_are_named)
     ByteVector glb = triangle().glb();
     std::uint32_t json_length = 0;
     std::memcpy(&json_length, glb.data() + 12, 4);
-    glb.resize(20 + json_length); // without its BIN chunk
+    glb.resize(20 + json_length); // remove the BIN chunk
     const std::uint32_t length = static_cast<std::uint32_t>(glb.size());
     std::memcpy(glb.data() + 8, &length, 4);
-    EXPECT_FALSE(load_gltf_bytes(glb.data(), glb.size(), "test.glb", {})); // its accessors need it
+    EXPECT_FALSE(load_gltf_bytes(glb.data(), glb.size(), "test.glb", {})); // its accessors need the chunk
     EXPECT_EQ(error_of(load_gltf_bytes(glb.data(), glb.size(), "test.glb", strict)).substr(0, 10), "/buffers/0");
 }

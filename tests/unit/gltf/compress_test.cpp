@@ -1,4 +1,4 @@
-// EXT_meshopt_compression and its filters; KHR_draco_mesh_compression by way of the models.
+// EXT_meshopt_compression and its filters. The models test KHR_draco_mesh_compression.
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace burnish::test;
 
 namespace {
 
-// Unit vectors spread over the sphere, four floats each.
+// Returns unit vectors spread over the sphere, four floats each.
 std::vector<float> sphere_vectors(int n)
 {
     std::vector<float> v;
@@ -39,7 +39,7 @@ ByteVector encoded_indices(const std::vector<std::uint32_t>& indices)
     return out;
 }
 
-// A square whose positions and indices are compressed; `change` edits the extension of the positions.
+// Returns a square with compressed positions and indices. `from` and `to` edit the positions' extension.
 Asset compressed_square(const std::string& from = "", const std::string& to = "")
 {
     Asset asset;
@@ -155,7 +155,7 @@ TEST(meshopt_filter, quaternions_agree_with_the_library_within_a_unit)
     std::vector<float> vectors = sphere_vectors(kCount);
     for (std::size_t i = 0; i < vectors.size(); i += 4)
         for (std::size_t k = 0; k < 4; ++k)
-            vectors[i + k] *= std::sqrt(0.5f); // three of a unit vector and a sign: a unit quaternion
+            vectors[i + k] *= std::sqrt(0.5f); // three components of a unit vector and a sign: a unit quaternion
     for (const int bits : {4, 10, 16}) {
         ByteVector ours(kCount * 8), theirs;
         meshopt_encodeFilterQuat(ours.data(), kCount, 8, bits, vectors.data());

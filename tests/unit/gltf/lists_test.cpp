@@ -1,4 +1,4 @@
-// What core/scene's lists (material.def, light.def, area_light.def) name is read from where they say, and checked as they say.
+// Fields in core/scene's lists (material.def, light.def, area_light.def) are read from their paths and checked by their ranges.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
@@ -28,14 +28,14 @@ Asset with(const json& material, const json& light)
 
 const json kPlain = {{"type", "spot"}, {"spot", json::object()}};
 
-// The object with a value at a path; a texture on the way refers to one.
+// Sets a value at a path. A texture on the way gets an index.
 json with_value(json object, const std::string& path, const json& value)
 {
     object[json::json_pointer(path)] = value;
     const std::string parent = path.substr(0, path.rfind('/'));
     if (parent.ends_with("Texture"))
         object[json::json_pointer(parent + "/index")] = 0;
-    if (parent.ends_with("/conductor")) // one needs the other
+    if (parent.ends_with("/conductor")) // each needs the other
         object[json::json_pointer(parent + (path.ends_with("eta") ? "/k" : "/eta"))] = {1, 1, 1};
     return object;
 }
@@ -45,7 +45,7 @@ template <class T> json filled(double value)
     return sizeof(T) == sizeof(float) ? json(value) : json(std::vector<double>(sizeof(T) / sizeof(float), value));
 }
 
-// make: an asset of a value and its path, "" for none; member: what a Scene has of it.
+// make: builds an asset from a value and its path ("" for none); member: reads the field from a Scene.
 template <class T, class Make, class Member>
 void expect_read_and_checked(const std::string& where, const char* path, T fallback, double least, double most, const Make& make,
                              const Member& member)
@@ -140,7 +140,7 @@ Asset with_area_light(const json& light)
     return asset;
 }
 
-// A light of a form with as many points as it takes at least, round about.
+// Returns a light with the given shape and number of points, placed around a square.
 json area_light(const std::string& shape, int count)
 {
     json points = json::array();

@@ -12,7 +12,7 @@ using namespace burnish::test;
 
 namespace {
 
-// A 2x1 PNG as bytes.
+// Returns the bytes of a 2x1 PNG.
 ByteVector small_png()
 {
     const TempFolder folder;
@@ -224,8 +224,8 @@ TEST(texture_transform, is_offset_after_rotation_after_scale)
     const Result<Scene> scene = load_transform(R"({"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,3],"texCoord":0})");
     ASSERT_TRUE(scene) << error_of(scene);
     const TextureRef& ref = scene->materials[0].emissive_tex;
-    EXPECT_EQ(ref.uv_set, 0); // the extension's set counts
-    // (1, 1) is scaled to (2, 3), turned counter-clockwise in an image whose v points down to (3, -2), moved.
+    EXPECT_EQ(ref.uv_set, 0); // the extension's set overrides
+    // (1, 1) is scaled to (2, 3), turned counter-clockwise to (3, -2) in an image whose v points down, then moved.
     const glm::vec2 uv = ref.uv_transform * glm::vec3(1, 1, 1);
     EXPECT_NEAR(uv.x, 3.5f, 1e-6f);
     EXPECT_NEAR(uv.y, -1.75f, 1e-6f);
@@ -249,8 +249,8 @@ TEST(texture_transform, puts_the_arrow_of_the_test_model_on_its_marker)
 {
     const Result<Scene> scene = load_scene(data_file("models/TextureTransformTest/TextureTransformTest.gltf"), {});
     ASSERT_TRUE(scene) << scene.error().line();
-    // The arrow in the picture points from its corner to (1, 1); the model's markers, children of the quads,
-    // show where that must appear. Quads have their middle at the origin and a side of 1; v points down.
+    // The arrow in the image points from its corner to (1, 1). The model's markers, children of the quads, show its expected place. Quads
+    // have their centre at the origin and a side of 1; v points down.
     const auto direction = [&](const char* marker, const char* material) {
         glm::vec2 uv(0.0f);
         for (const Node& node : scene->nodes)

@@ -10,7 +10,7 @@ using namespace burnish::test;
 
 namespace {
 
-// What is said of a scene besides what these small files owe to glTF: bounds of positions, normals of unit length, roots of skins.
+// Returns a scene's warnings, without those for deliberate omissions of these small files: position bounds, unit normals, skin roots.
 std::vector<std::string> said_of(const Scene& scene)
 {
     std::vector<std::string> said;
@@ -40,7 +40,7 @@ Asset points(int mode)
     return asset;
 }
 
-// A square of two triangles in the plane z = 0, normals +Z, with texture coordinates u = x, v = 1 - y.
+// Returns a square of two triangles in the plane z = 0, with normals +Z and texture coordinates u = x, v = 1 - y.
 Asset square()
 {
     Asset asset;
@@ -62,7 +62,7 @@ TEST(mesh, strips_become_triangles_that_keep_their_winding)
     const std::vector<Corner> want = {{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}, {0, 1}, {1, 1}, {0, 2}};
     EXPECT_EQ(corners_of(*scene), want);
     for (const float nz : scene->vertices.nz)
-        EXPECT_EQ(nz, 1.0f); // all face the same way
+        EXPECT_EQ(nz, 1.0f); // all normals face +z
 }
 
 TEST(mesh, fans_become_triangles_around_the_first_vertex)
@@ -96,7 +96,7 @@ TEST(mesh, points_and_lines_are_left_out_with_a_warning)
 
 TEST(mesh, missing_normals_are_flat)
 {
-    Asset asset; // two triangles that share an edge at a right angle: six corners, no vertex in common
+    Asset asset; // two triangles that share an edge at a right angle: six corners, no common vertex
     asset.attribute("POSITION", asset.accessor(floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}), kF32, "VEC3", 4));
     const int indices = asset.accessor(bytes_of<std::uint8_t>({0, 1, 2, 0, 2, 3}), kU8, "SCALAR", 6);
     asset.primitive = R"(,"indices":)" + std::to_string(indices);
@@ -154,7 +154,7 @@ TEST(mesh, tangents_of_the_file_are_kept_orthogonal_and_unit)
     asset.attribute("TANGENT", asset.accessor(floats(tangents), kF32, "VEC4", 4));
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
-    expect_sound(*scene); // also where the file's are along the normal or have no length
+    expect_sound(*scene); // also where the file's tangents lie along the normal or have no length
     EXPECT_TRUE(scene->primitives[0].has_file_tangents);
     for (const std::size_t i : {0u, 1u}) {
         EXPECT_EQ(scene->vertices.ty[scene->indices[i]], 1.0f);
@@ -174,7 +174,7 @@ TEST(mesh, tangents_without_normals_are_ignored)
 
 TEST(mesh, equal_vertices_are_welded_and_different_ones_are_not)
 {
-    Asset asset; // the square again, un-indexed; one corner differs in colour
+    Asset asset; // the square without indices; one corner differs in colour
     asset.attribute("POSITION", asset.accessor(floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0}), kF32, "VEC3", 6));
     asset.attribute("COLOR_0", asset.accessor(floats({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0.5f, 1, 1, 1, 1}), kF32, "VEC3", 6));
     const Result<Scene> scene = load(asset);
@@ -188,7 +188,7 @@ TEST(mesh, vertices_that_differ_in_colour_alone_stay_apart)
 {
     Asset asset;
     std::vector<float> positions, colours;
-    for (int i = 0; i < 900; ++i) { // enough of them that hash slots collide
+    for (int i = 0; i < 900; ++i) { // enough vertices for colliding hash slots
         positions.insert(positions.end(), {static_cast<float>(i % 3), static_cast<float>(i % 2), 0.0f});
         colours.insert(colours.end(), {static_cast<float>(i) / 900.0f, 0.0f, 0.0f});
     }
@@ -255,7 +255,7 @@ TEST(mesh, attributes_that_are_missing_have_their_defaults)
     EXPECT_FALSE(p.has_uv0 || p.has_uv1 || p.has_color || p.has_file_tangents);
     EXPECT_EQ(scene->vertices.u0[0], 0.0f);
     EXPECT_EQ(scene->vertices.ca[0], 1.0f);
-    ASSERT_EQ(scene->materials.size(), 1u); // the default one
+    ASSERT_EQ(scene->materials.size(), 1u); // the default material
     EXPECT_EQ(p.material, 0);
 }
 
@@ -277,7 +277,7 @@ TEST(mesh, two_texture_coordinate_sets_are_kept_apart)
     Asset asset = triangle();
     asset.attribute("TEXCOORD_0", asset.accessor(floats({0, 0, 1, 0, 0, 1}), kF32, "VEC2", 3));
     asset.attribute("TEXCOORD_1", asset.accessor(floats({2, 2, 3, 2, 2, 3}), kF32, "VEC2", 3));
-    asset.attribute("_CUSTOM", 0); // of no concern
+    asset.attribute("_CUSTOM", 0); // ignored
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
     EXPECT_TRUE(scene->primitives[0].has_uv1);

@@ -18,7 +18,7 @@ struct Model {
     std::size_t triangles, meshes, nodes, materials, images;
 };
 
-// Counted from the files with another reader.
+// Counts by another glTF reader.
 const Model kModels[] = {
     {"AnisotropyBarnLampSmall.glb", 10203, 3, 3, 3, 4},
     {"AnisotropyStrengthTest.glb", 97240, 50, 51, 50, 1},
@@ -32,7 +32,7 @@ const Model kModels[] = {
     {"meshopt-no-fallback/meshopt-no-fallback.gltf", 60, 2, 4, 2, 0},
     {"pmndrs_suzi_draco.glb", 14842, 1, 1, 1, 0},
 };
-// Beside the checkout.
+// Optional models.
 const Model kMoreModels[] = {
     {"AnisotropyBarnLamp.glb", 10203, 3, 3, 3, 4},
     {"FlightHelmet/FlightHelmet.gltf", 94722, 6, 6, 6, 15},
@@ -71,7 +71,7 @@ TEST(models, the_compressed_twin_equals_the_plain_model_within_its_quantization)
     const Result<Scene> packed = load_model("AnisotropyStrengthTest_meshopt.glb");
     ASSERT_TRUE(plain && packed);
     ASSERT_EQ(plain->nodes.size(), packed->nodes.size());
-    const auto bounds = [](const Scene& scene) { // of the drawn triangles, in world space
+    const auto bounds = [](const Scene& scene) { // bounds of the drawn triangles, in world space
         std::array<glm::vec3, 2> box = {glm::vec3(1e30f), glm::vec3(-1e30f)};
         for (const Node& node : scene.nodes) {
             if (node.mesh < 0)
@@ -108,7 +108,7 @@ TEST(models, the_sparse_accessor_moves_three_vertices)
         return false;
     };
     EXPECT_TRUE(has(1, 2) && has(3, 3) && has(5, 4));  // the sparse values
-    EXPECT_FALSE(has(1, 1) || has(3, 1) || has(5, 1)); // what they replace
+    EXPECT_FALSE(has(1, 1) || has(3, 1) || has(5, 1)); // the replaced values
 }
 
 TEST(models, lights_and_camera_arrive)
@@ -129,8 +129,7 @@ TEST(models, lights_and_camera_arrive)
     EXPECT_EQ(cameras, 1);
 }
 
-// The helmet's own tangents were made by MikkTSpace: ours, made without looking at them, must be the same
-// nearly everywhere.
+// MikkTSpace made the helmet's tangents. Tangents of this independent implementation must agree nearly everywhere.
 TEST(models, tangents_made_here_agree_with_those_that_the_exporter_made)
 {
     const TempFolder folder;
@@ -140,7 +139,7 @@ TEST(models, tangents_made_here_agree_with_those_that_the_exporter_made)
         text.replace(at, 9, "\"_TANGENT\"");
     for (const auto& entry : fs::directory_iterator(data_file("models/FlightHelmetParts")))
         if (entry.path().extension() != ".gltf")
-            fs::copy_file(entry.path(), folder.path(entry.path().filename().string())); // links would lead out of the folder
+            fs::copy_file(entry.path(), folder.path(entry.path().filename().string())); // symbolic links would lead out of the folder
     const Result<Scene> ours = load_gltf(folder.write("helmet.gltf", text), {});
     const Result<Scene> theirs = load_model("FlightHelmetParts/FlightHelmetParts.gltf");
     ASSERT_TRUE(ours && theirs);

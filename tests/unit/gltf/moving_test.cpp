@@ -1,4 +1,4 @@
-// What moves: animations at a moment, skins, morph targets, instances; each against what the specification says by hand.
+// Moving objects: animations at a time, skins, morph targets, instances, each against values derived by hand from the specification.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ Result<Scene> load_at(const Asset& asset, std::optional<float> seconds, int anim
     return load_gltf_bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), "test.gltf", {}, {seconds, animation});
 }
 
-// A triangle whose node moves by one channel of keys at 1, 2 and 4 seconds.
+// Returns a triangle whose node moves by one channel with keys at 1, 2 and 4 seconds.
 Asset moved_triangle(const std::string& path, const std::string& kind, const std::string& type, const std::vector<float>& values,
                      std::size_t elements)
 {
@@ -32,7 +32,7 @@ Asset moved_triangle(const std::string& path, const std::string& kind, const std
     return asset;
 }
 
-// What the origin and the x axis of the first node with a mesh become.
+// Returns the world position of the first node's origin.
 glm::vec3 origin_of(const Scene& scene)
 {
     return glm::vec3(scene.nodes.at(0).world[3]);
@@ -69,7 +69,7 @@ TEST(moving, keys_are_held_blended_or_splined)
         expect_near(origin_of(*scene), row.at);
         EXPECT_EQ(scene->warnings.size(), row.time > 4.0f ? 1u : 0u);
     }
-    // Tangent before, value, tangent after, by key: between keys 2 and 4, the cubic with those values and slopes.
+    // Each key has in-tangent, value, out-tangent. Between keys 2 and 4 the result is the cubic with those values and slopes.
     const std::vector<float> spline = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 3, 0, 0, 5, 0, 0, 4, 0, 0, 0, 0, 0};
     const Result<Scene> scene = load_at(moved_triangle("translation", "CUBICSPLINE", "VEC3", spline, 9), 3.0f);
     ASSERT_TRUE(scene) << error_of(scene);
@@ -78,7 +78,7 @@ TEST(moving, keys_are_held_blended_or_splined)
 
 TEST(moving, rotations_go_the_shorter_way_at_a_steady_rate)
 {
-    const float half = std::sqrt(0.5f); // 0, then 90 degrees about z said the other way round, then 90 degrees
+    const float half = std::sqrt(0.5f); // 0, then 90 degrees about z with the opposite sign, then 90 degrees
     const Result<Scene> scene =
         load_at(moved_triangle("rotation", "LINEAR", "VEC4", {0, 0, 0, 1, 0, 0, -half, -half, 0, 0, half, half}, 3), 1.0f + 1.0f / 3.0f);
     ASSERT_TRUE(scene) << error_of(scene);
@@ -98,11 +98,11 @@ TEST(moving, morph_targets_move_by_their_weights)
     ASSERT_TRUE(scene) << error_of(scene);
     expect_sound(*scene);
     const VertexTable& v = scene->vertices;
-    ASSERT_EQ(v.size(), 3u); // and none of the mesh as it was
+    ASSERT_EQ(v.size(), 3u); // and no vertex of the undeformed mesh
     expect_near({v.px[0], v.py[0], v.pz[0]}, {0, 0, 0.5f});
     expect_near({v.px[1], v.py[1], v.pz[1]}, {1, 1, 0});
     expect_near({v.px[2], v.py[2], v.pz[2]}, {0, 1, 0});
-    EXPECT_LT(v.nz[0], 0.99f); // its normal is that of the bent triangle
+    EXPECT_LT(v.nz[0], 0.99f); // the bent triangle's normal
 
     Asset animated = moved_triangle("weights", "LINEAR", "SCALAR", {0, 1, 0}, 3);
     const int more = animated.accessor(floats({0, 0, 1, 0, 0, 0, 0, 0, 0}), kF32, "VEC3", 3, R"(,"min":[0,0,0],"max":[0,0,1])");
@@ -112,7 +112,7 @@ TEST(moving, morph_targets_move_by_their_weights)
     EXPECT_FLOAT_EQ(moment->vertices.pz[0], 0.75f);
 }
 
-// Two joints: the first moves by 10 along x, the second turns by 90 degrees about z; half and half is their mean.
+// Two joints: the first moves by 10 along x, the second turns by 90 degrees about z. Equal weights give the mean.
 TEST(moving, skins_bend_meshes_by_their_joints)
 {
     Asset asset = triangle();
@@ -132,7 +132,7 @@ TEST(moving, skins_bend_meshes_by_their_joints)
     EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
     const VertexTable& v = scene->vertices;
     ASSERT_EQ(v.size(), 3u);
-    expect_near({v.px[0], v.py[0], v.pz[0]}, {9, 0, 0});    // (0,0,0) - (1,0,0) + (10,0,0), wherever its node is
+    expect_near({v.px[0], v.py[0], v.pz[0]}, {9, 0, 0});    // (0,0,0) - (1,0,0) + (10,0,0), for any node position
     expect_near({v.px[1], v.py[1], v.pz[1]}, {0, 1, 0});    // (1,0,0) turned
     expect_near({v.px[2], v.py[2], v.pz[2]}, {4, 0.5f, 0}); // the mean of (9,1,0) and (-1,0,0)
     expect_near({v.nx[1], v.ny[1], v.nz[1]}, {0, 1, 0});

@@ -1,4 +1,4 @@
-// Random damage: whatever the bytes, the reader gives a sound scene or a clear error.
+// Random damage: for any bytes the reader returns a valid scene or a clear error.
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ using namespace burnish::test;
 
 namespace {
 
-class Random { // Numerical Recipes' linear congruence; the high bits serve
+class Random { // Numerical Recipes' linear congruential generator, high bits
   public:
     explicit Random(std::uint32_t seed) : state_(seed) {}
     std::uint32_t below(std::uint32_t n)
@@ -35,7 +35,7 @@ void mutate(ByteVector& bytes, Random& random, std::size_t begin, std::size_t en
     }
 }
 
-// Digits of the JSON text only: the text stays well formed and its numbers lie.
+// Changes digits of the JSON text alone: the text stays well formed and its numbers become wrong.
 void mutate_digits(ByteVector& bytes, Random& random, std::size_t begin, std::size_t end)
 {
     std::vector<std::size_t> digits;
@@ -117,7 +117,7 @@ TEST(mutation, a_damaged_small_file_gives_a_sound_scene_or_an_error)
     ASSERT_TRUE(scene) << error_of(scene);
     expect_sound(*scene);
     const Outcome outcome = damage(good, 4000, 1);
-    EXPECT_GT(outcome.loaded, 400); // the damage is not so great that nothing beyond the JSON is reached
+    EXPECT_GT(outcome.loaded, 400); // light damage: many files pass the JSON parser
     EXPECT_GT(outcome.refused, 400);
 }
 

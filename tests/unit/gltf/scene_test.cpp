@@ -26,7 +26,7 @@ const std::string kLights = R"(,"extensionsUsed":["KHR_lights_punctual"],"extens
 
 TEST(scene, translation_rotation_scale_equals_its_matrix)
 {
-    // Half a turn about Z (quaternion 0 0 1 0) after scaling by 2 3 4, then moved by 5 6 7.
+    // Scale by 2 3 4, then half a turn about Z (quaternion 0 0 1 0), then a move by 5 6 7.
     const Result<Scene> trs = load_nodes(R"(,"nodes":[{"mesh":0,"translation":[5,6,7],"rotation":[0,0,1,0],"scale":[2,3,4]}])");
     const Result<Scene> matrix = load_nodes(R"(,"nodes":[{"mesh":0,"matrix":[-2,0,0,0, 0,-3,0,0, 0,0,4,0, 5,6,7,1]}])");
     ASSERT_TRUE(trs) << error_of(trs);
@@ -83,7 +83,7 @@ TEST(scene, negative_scale_is_left_in_the_node)
     const Result<Scene> scene = load_nodes(R"(,"nodes":[{"mesh":0,"scale":[-1,1,1]}])");
     ASSERT_TRUE(scene) << error_of(scene);
     EXPECT_LT(glm::determinant(glm::mat3(scene->nodes[0].world)), 0.0f);
-    EXPECT_EQ(scene->vertices.px[scene->indices[1]], 1.0f); // the mesh itself stays as it is
+    EXPECT_EQ(scene->vertices.px[scene->indices[1]], 1.0f); // the mesh is unchanged
 }
 
 TEST(scene, cameras_are_read)
@@ -214,7 +214,7 @@ TEST(scene, ignored_extensions_are_counted_and_with_strict_refused)
     Limits strict;
     strict.strict = true;
     EXPECT_EQ(error_of(load(asset, strict)), "/extensionsUsed: extension KHR_materials_sheen is not supported (--strict)");
-    EXPECT_FALSE(is_read("animations")); // no extension
+    EXPECT_FALSE(is_read("animations")); // not an extension
     EXPECT_TRUE(is_read("KHR_draco_mesh_compression"));
 }
 

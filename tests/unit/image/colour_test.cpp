@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-// The standard's formulas with the library's pow: the oracle, not the product.
+// The standard's formulas with the library's pow, as an oracle for the product.
 double decode(double x)
 {
     return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
@@ -109,7 +109,7 @@ TEST(colour, pbr_neutral_follows_its_specification)
     EXPECT_EQ(mapped({0.5f, 0.5f, 0.5f}, Tonemap::pbr_neutral), std::vector<int>(3, code(0.46)));
     EXPECT_EQ(mapped({0.04f, 0.04f, 0.04f}, Tonemap::pbr_neutral), std::vector<int>(3, code(6.25 * 0.0016)));
     EXPECT_EQ(mapped({2, 2, 2}, Tonemap::pbr_neutral), std::vector<int>(3, code(1 - 0.0576 / 1.44)));
-    // Red 4 of a coloured light: peak 3.96, new peak 1 - 0.0576 / 3.44, mixed with white by its loss.
+    // Red 4 in a coloured light: peak 3.96, new peak 1 - 0.0576 / 3.44, mixed with white by the loss.
     const double peak = 4 - 0.04, low = 0.5 - 0.04, top = 1 - 0.0576 / (peak + 0.24 - 0.76);
     const double white = 1 - 1 / (0.15 * (peak - top) + 1);
     EXPECT_EQ(mapped({4, 0.5f, 0.5f}, Tonemap::pbr_neutral),
@@ -144,7 +144,8 @@ TEST(colour, tonemap_names_are_parsed)
     EXPECT_EQ(wrong.error().code, ExitCode::usage);
 }
 
-// A white edge against black, half of each: linear it is as bright as half the light, shown it is half as bright as white.
+// An edge between white and black, half a pixel each. Averaged linearly the pixel has half the light; averaged on display, half the white
+// value.
 TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
 {
     const float kBright = 100.0f;
@@ -155,13 +156,13 @@ TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
     };
     EXPECT_EQ(mapped({kBright / 2, kBright / 2, kBright / 2}), (std::vector<int>{255, 255, 255}));
     EXPECT_EQ(static_cast<int>(shown({kBright / 2, kBright / 2, kBright / 2}, true).bytes[0]), mapped({0.5f})[0]);
-    const Image covered = shown({kBright, kBright, kBright, 0.5f}, true); // of a picture with alpha: nothing lies behind
+    const Image covered = shown({kBright, kBright, kBright, 0.5f}, true); // with alpha: nothing lies behind
     EXPECT_EQ(static_cast<int>(covered.bytes[0]), 255);
     EXPECT_EQ(static_cast<int>(covered.bytes[3]), 128);
     EXPECT_EQ(static_cast<int>(shown({kBright, kBright, kBright, 1.0f}, false).bytes[0]), mapped({0.5f})[0]);
 }
 
-// Half of 100, half of 0: their weights are 1 / 101 and 1, and the mean 100 / 102. Exposed by two stops less, 25 weighs 1 / 26.
+// Half of 100, half of 0: their weights are 1 / 101 and 1, and the mean 100 / 102. At two stops less, 25 weighs 1 / 26.
 TEST(colour, bright_parts_of_a_pixel_weigh_less)
 {
     const std::vector<PixelPart> parts = {pixel_part(0, 0b0011, false, {100.0f, 100.0f, 100.0f}),

@@ -1,4 +1,4 @@
-// What files say of their colours: primaries, factors, luminance and chroma, names of channels.
+// Colour metadata of files: primaries, factors, luminance and chroma, channel names.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +72,7 @@ test::ExrPart rgb(float r, float g, float b, const std::vector<test::ExrAttribut
     return {{{"B", 2, b}, {"G", 2, g}, {"R", 2, r}}, {0, 0, 0, 0}, {0, 0, 0, 0}, "", attributes};
 }
 
-// The matrix from ACEScg to linear Rec.709, white adapted by Bradford, as the Academy's and others' tools print it.
+// The matrix from ACEScg to linear Rec.709, with Bradford white adaptation, as the Academy's and other tools print it.
 TEST(colours, chromaticities_of_acescg_become_rec709)
 {
     const test::ExrAttribute said = chromaticities(kAcesCg);
@@ -91,7 +91,7 @@ TEST(colours, primaries_on_the_axes_are_xyz)
     expect_near(colours(test::make_exr({rgb(0.5f, 0.5f, 0.5f, {said})})).image, {0.5, 0.5, 0.5}, 1e-6);
     const std::vector<float> one = values(colours(test::make_exr({rgb(0.3f, 0.6f, 0.1f, {said})})).image);
     ASSERT_EQ(one.size(), 3u);
-    // Y of both whites is 1: adaptation of Bradford's kind moves luminance of what is not white only a little.
+    // Y of both whites is 1. Bradford adaptation changes the luminance of other colours a little.
     EXPECT_NEAR(0.2126 * static_cast<double>(one[0]) + 0.7152 * static_cast<double>(one[1]) + 0.0722 * static_cast<double>(one[2]), 0.6,
                 0.02);
 }
@@ -158,14 +158,14 @@ TEST(colours, what_changes_nothing_is_not_said)
 
 TEST(colours, luminance_and_chroma_become_rgb)
 {
-    // Red 0.5, green 0.25, blue 1 of Rec.709.
+    // Rec.709 red 0.5, green 0.25, blue 1.
     const float y = 0.2126390f * 0.5f + 0.7151687f * 0.25f + 0.0721923f * 1.0f;
     test::ExrPart part{{{"BY", 2, (1.0f - y) / y}, {"RY", 2, (0.5f - y) / y}, {"Y", 2, y}}, {0, 0, 0, 0}, {0, 0, 0, 0}, ""};
     expect_near(colours(test::make_exr({part})).image, {0.5, 0.25, 1.0}, 1e-6);
     expect_near(stored(test::make_exr({part})), {0.5, 0.25, 1.0}, 1e-6);
     part.channels.insert(part.channels.begin(), {"A", 2, 0.75f});
     expect_near(colours(test::make_exr({part})).image, {0.5, 0.25, 1.0, 0.75}, 1e-6);
-    // Luminance by the file's own primaries: of the axes' green alone.
+    // The file's primaries define luminance: here the axes' green alone.
     test::ExrPart xyz{{{"BY", 2, 3.0f}, {"RY", 2, 1.0f}, {"Y", 2, 0.25f}}, {0, 0, 0, 0}, {0, 0, 0, 0}, "", {chromaticities(kXyz)}};
     expect_near(stored(test::make_exr({xyz})), {0.5, 0.25, 1.0}, 1e-6);
 }

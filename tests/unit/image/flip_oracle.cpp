@@ -34,7 +34,7 @@ template <class F> Kernel make_kernel(int radius, const F& f)
     return k;
 }
 
-// Positive weights to the sum 1, negative ones to -1.
+// Scales positive weights to the sum 1 and negative weights to the sum -1.
 Kernel normalised(Kernel k)
 {
     double positive = 0, negative = 0;

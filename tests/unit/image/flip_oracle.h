@@ -1,4 +1,4 @@
-// LDR-FLIP in double, straight from its definition: two-dimensional kernels, library functions, no tiles.
+// LDR-FLIP in double, directly from its definition: two-dimensional kernels, library functions, no tiles.
 #pragma once
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 namespace burnish::test {
 
-// One error a pixel, of f32 RGB pictures in [0,1].
+// Returns one error a pixel for f32 RGB images in [0,1].
 std::vector<double> flip_by_definition(const Image& reference, const Image& test, double ppd);
 
 } // namespace burnish::test

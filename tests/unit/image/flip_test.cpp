@@ -25,7 +25,7 @@ Image uniform(int width, int height, float r, float g, float b)
     return image;
 }
 
-// Smooth colours with noise and a few hard edges.
+// Returns smooth colours with noise and a few hard edges.
 Image scenery(int width, int height, unsigned seed, float brightness = 1.0f)
 {
     Image image = make_image(width, height, 3, PixelType::f32);
@@ -71,8 +71,7 @@ class known : public testing::Test {
     Jobs jobs;
 };
 
-// Means printed by the authors' program, version 1.6, to six digits: SOURCES.md beside the pictures. The
-// requirement is 1e-4.
+// Means printed by the authors' program, version 1.6, to six digits: SOURCES.md beside the images.
 TEST_F(known, ldr_means_are_those_of_the_reference_implementation)
 {
     const Image reference = picture("ldr_ref.png");
@@ -80,7 +79,7 @@ TEST_F(known, ldr_means_are_those_of_the_reference_implementation)
     EXPECT_NEAR(mean_of(flip_ldr(reference, picture("ldr_tint.png"), {}, jobs)), 0.263008, 2e-6);
 }
 
-// That program takes the median over black pixels too, of which this picture has some: its stop is 3.4670.
+// The authors' program includes black pixels in its median. This image has some, so the program's stop is 3.4670.
 TEST_F(known, hdr_mean_over_the_published_exposures_is_the_references)
 {
     FlipOptions options;
@@ -121,8 +120,7 @@ TEST(flip, every_pixel_follows_the_definition)
     }
 }
 
-// Rows that are equal are left out, but not those that a difference reaches: of single pixels, beside the seam of two tiles, near the
-// border.
+// The filter skips equal rows, except rows that a difference reaches: single pixels, beside the seam of two tiles, near the border.
 TEST(flip, one_pixel_spreads_as_by_the_definition)
 {
     const Jobs jobs;
@@ -142,8 +140,8 @@ TEST(flip, one_pixel_spreads_as_by_the_definition)
     }
 }
 
-// Where filters leave next to nothing, as of a checkerboard against its mean, the definition takes roots of differences near 0, which
-// make much of a float's rounding.
+// Where filters leave almost nothing, as for a checkerboard against its mean, the definition takes roots of differences near 0. Roots
+// magnify a float's rounding.
 TEST(flip, means_of_patterns_and_mirrored_pictures_are_those_of_the_definition)
 {
     const Jobs jobs;
@@ -176,7 +174,7 @@ TEST(flip, equal_pictures_have_no_error)
     EXPECT_EQ(largest_of(flip_hdr(bright, bright, {}, jobs)), 0.0);
 }
 
-// Green and blue are the two colours of the display that are furthest apart.
+// Green and blue are the display's two most distant colours.
 TEST(flip, the_largest_error_is_one)
 {
     const Jobs jobs;
@@ -192,8 +190,7 @@ TEST(flip, uniform_grays_differ_by_their_lightness)
     const Jobs jobs;
     const auto lightness = [](double y) { return 116 * std::cbrt(y) - 16; };
     const Image a = uniform(30, 30, 0.5f, 0.5f, 0.5f), b = uniform(30, 30, 0.3f, 0.3f, 0.3f);
-    // L*a*b* of sRGB's green is 87.73, -86.18, 83.18, of its blue 32.30, 79.19, -107.86; Hunt: a and b times
-    // L/100.
+    // sRGB's green has L*a*b* 87.73, -86.18, 83.18, its blue 32.30, 79.19, -107.86. Hunt adjustment: a and b times L/100.
     const double da = -86.18 * 0.8773 - 79.19 * 0.3230, db = 83.18 * 0.8773 + 107.86 * 0.3230;
     const double knee = 0.4 * std::pow(87.73 - 32.30 + std::hypot(da, db), 0.7);
     EXPECT_NEAR(mean_of(flip_ldr(a, b, {}, jobs)), std::pow(lightness(0.5) - lightness(0.3), 0.7) * 0.95 / knee, 1e-3);
@@ -308,7 +305,7 @@ TEST(flip_exposures, run_from_the_largest_to_the_median_luminance)
     EXPECT_NEAR(find_exposures(image, reinhard, jobs).start_ev, std::log2(0.85 / 0.15 / 32), 1e-5);
 }
 
-// Of many pixels, some of them black or below, whatever the threads.
+// Uses many pixels, including black and negative ones.
 TEST(flip_exposures, median_is_that_of_the_sorted_lit_pixels)
 {
     std::mt19937 random(21);
@@ -390,11 +387,11 @@ TEST(flip_exposures, given_ones_are_taken)
     EXPECT_EQ(range.stop_ev, 3.5f);
     EXPECT_EQ(range.count, 6);
     options.stop_ev.reset();
-    options.start_ev = 50.0f; // beyond what is found
+    options.start_ev = 50.0f; // beyond the stop found
     EXPECT_EQ(find_exposures(image, options, jobs).stop_ev, 50.0f);
 }
 
-// The largest exposure is still a finite factor: infinity times black would be no number.
+// The largest exposure is a finite factor, since infinity times black would give NaN.
 TEST(flip_exposures, black_stays_black_among_the_faintest_light)
 {
     const Jobs jobs;
@@ -404,7 +401,7 @@ TEST(flip_exposures, black_stays_black_among_the_faintest_light)
     EXPECT_GT(largest_of(flip_hdr(a, b, {}, jobs)), 0.5);
 }
 
-// The range follows the brightness, so twice the light in both pictures is the same difference.
+// The range follows the brightness, so doubling the light in both images keeps the difference.
 TEST(flip_hdr, brightness_of_both_pictures_does_not_matter)
 {
     const Jobs jobs;

@@ -22,7 +22,7 @@ TEST(hash, equals_published_xxhash64_values)
     EXPECT_EQ(of("Nobody inspects the spammish repetition"), 0xFBCEA83C8A378BF1ull);
 }
 
-// The buffer and values of the reference implementation's own sanity check.
+// The buffer and values of the reference implementation's sanity check.
 TEST(hash, equals_reference_sanity_values)
 {
     constexpr std::uint32_t kSeed = 2654435761u;

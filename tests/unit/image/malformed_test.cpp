@@ -51,11 +51,10 @@ Bytes cut(Bytes bytes, std::size_t size)
 struct ChildEnd {
     int status = 0;
     long peak_kib = 0;
-    double cpu_seconds = 0.0; // which other programs do not lengthen
+    double cpu_seconds = 0.0; // other programs do not lengthen it
 };
 
-// Runs `read_image` in a process of its own with 2 GiB of address space; the exit status is 0 for a good
-// refusal.
+// Runs `read_image` in a separate process with 2 GiB of address space. The exit status is 0 for a good refusal.
 ChildEnd refuse_in_child(const std::string& path)
 {
     const pid_t child = fork();

@@ -57,7 +57,7 @@ TEST(metrics, equal_those_done_by_hand)
     const PixelFigures figures = pixel_figures(a, b, jobs);
     EXPECT_DOUBLE_EQ(figures.mse, (0.25 + 4.0) / 6);
     EXPECT_DOUBLE_EQ(figures.rel_mse, (0.25 / 4.01 + 4.0 / 9.01) / 6);
-    EXPECT_NEAR(figures.psnr, 10 * std::log10(16.0 / figures.mse), 1e-12); // peak 4, the reference's largest
+    EXPECT_NEAR(figures.psnr, 10 * std::log10(16.0 / figures.mse), 1e-12); // peak 4, the reference's largest value
     EXPECT_EQ(figures.max_abs, 2.0);
     EXPECT_EQ(figures.differing_fraction, 0.5);
 }
@@ -114,7 +114,7 @@ TEST(metrics, not_finite_pixels_are_counted_once)
     EXPECT_EQ(not_finite_pixels(bytes(1, 1, 1, {255}), bytes(1, 1, 1, {0})), 0);
 }
 
-// Uniform pictures have no variance: only the means count.
+// Uniform images have no variance, so the means alone count.
 TEST(ssim, of_uniform_pictures_compares_their_means)
 {
     const Jobs jobs;
@@ -123,7 +123,7 @@ TEST(ssim, of_uniform_pictures_compares_their_means)
     EXPECT_NEAR(ssim(a, b, jobs), (2 * 0.5 * 0.25 + c1) / (0.25 + 0.0625 + c1), 1e-9);
 }
 
-// The definition with whole windows, one after another.
+// Returns SSIM by its definition, with whole windows, one after another.
 double ssim_by_definition(const Image& a, const Image& b, int margin)
 {
     const double peak = static_cast<double>(*std::max_element(a.f32(), a.f32() + a.bytes.size() / 4));
@@ -163,7 +163,7 @@ TEST(ssim, follows_the_definition)
         const double value = ssim(a, mixed, jobs);
         EXPECT_LT(value, 0.99);
         EXPECT_GT(value, ssim(a, b, jobs) + 0.1);
-        if (channels != 4) { // whose alpha the definition above would take for the peak
+        if (channels != 4) { // the definition above would take alpha for the peak
             EXPECT_NEAR(value, ssim_by_definition(a, mixed, 5), 1e-9);
         }
     }
@@ -201,7 +201,7 @@ TEST(errors, of_a_ramp_have_its_mean_percentiles_and_ends)
     EXPECT_NEAR(summary.mean, 0.5025, 1e-9);
     EXPECT_FLOAT_EQ(static_cast<float>(summary.p99), 198.0f / 200.0f); // 198 of 200 do not exceed it
     EXPECT_EQ(summary.max, 1.0);
-    // 1 + 2 + ... + n is more than half of 20100 from n = 142 on.
+    // 1 + 2 + ... + n exceeds half of 20100 from n = 142 on.
     EXPECT_FLOAT_EQ(static_cast<float>(summary.weighted_median), 142.0f / 200.0f);
 }
 
@@ -236,7 +236,7 @@ TEST(errors, of_equal_pictures_are_all_zero)
     EXPECT_EQ(summary.max, 0.0);
 }
 
-// First, middle and last colour of the published table; the eye sees it brighten all along.
+// The first, middle and last colour of the published table. Magma brightens monotonically.
 TEST(magma, ends_and_middle_are_the_published_colours)
 {
     const Image colours = magma_map(floats(6, 1, 1, {0, 128.0f / 255.0f, 1, -1, 2, kNan}));

@@ -1,4 +1,4 @@
-// Random damage to small sound files never crashes the reader: it ends in an image or an Error.
+// Random damage to small valid files never crashes the reader. The reader returns an image or an Error.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -85,7 +85,7 @@ void survive(const Bytes& sound, int rounds, std::uint64_t seed)
         }
     }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); // errors are returned, never printed
-    EXPECT_GT(refused, 0);                                 // the damage does reach the readers
+    EXPECT_GT(refused, 0);                                 // the damage reaches the readers
 }
 
 Bytes written(const std::string& name, const Image& image)

@@ -1,4 +1,4 @@
-// Radiance files: factors and primaries of the header, both codings of runs, and what hostile ones may not do.
+// Radiance files: factors and primaries in the header, both run codings, and hostile files.
 #include <gtest/gtest.h>
 
 #include "core/image/io/image_io.h"
@@ -55,9 +55,9 @@ TEST(radiance, exposures_and_corrections_are_divided_out)
     EXPECT_EQ(values(hdr("-Y 1 +X 1", kGrey, "EXPOSURE=2\nEXPOSURE= 4.0\n")), (std::vector<float>{0.125f, 0.125f, 0.125f}));
     EXPECT_EQ(values(hdr("-Y 1 +X 1", kGrey, "COLORCORR=2 1 0.5\nCOLORCORR= 2 2 1\nEXPOSURE=+0.5\n")),
               (std::vector<float>{0.5f, 1.0f, 4.0f}));
-    // of a picture that this one was made of
+    // lines of an image from which this one was made
     EXPECT_EQ(values(hdr("-Y 1 +X 1", kGrey, "pcomb a.hdr\n\tEXPOSURE=4\nPIXASPECT=0.5\n")), (std::vector<float>{1, 1, 1}));
-    // data is no less multiplied
+    // factors apply to data as well
     const Bytes exposed = hdr("-Y 1 +X 1", kGrey, "EXPOSURE=4\n");
     EXPECT_EQ(decode_image(exposed.data(), exposed.size(), "label", Limits{})->f32()[0], 0.25f);
     for (const char* line :
@@ -97,7 +97,7 @@ TEST(radiance, other_formats_are_refused_by_name)
         refusal(hdr(resolution, kGrey));
 }
 
-// Two colours; the runs are 3 and 5 + 2 * 256 long.
+// Two colours in runs of 3 and 5 + 2 * 256.
 TEST(radiance, runs_of_the_older_coding_are_read)
 {
     const std::string red = "\x80\x20\x20\x82", blue = "\x20\x20\x80\x80";
@@ -125,10 +125,10 @@ TEST(radiance, hostile_runs_are_refused_where_they_stand)
         EXPECT_EQ(error.place.rfind("byte ", 0), 0u) << error.line();
     };
     damaged("-Y 1 +X 9", pixel + "\1\1\1\x09", "a run of 9");                                            // one too many
-    damaged("-Y 1 +X 9", "\1\1\1\x09", "a run of 9");                                                    // of nothing
-    damaged("-Y 2 +X 9", pixel + "\1\1\1\x08" + "\1\1\1\x09", "a run of 9");                             // of the scanline above
+    damaged("-Y 1 +X 9", "\1\1\1\x09", "a run of 9");                                                    // nothing to repeat
+    damaged("-Y 2 +X 9", pixel + "\1\1\1\x08" + "\1\1\1\x09", "a run of 9");                             // the pixel of the scanline above
     damaged("-Y 1 +X 9000", pixel + repeated("\1\1\1\xFF", 2), "a run of 65280");                        // digits of base 256
-    damaged("-Y 1 +X 9000", pixel + repeated(std::string("\1\1\1\0", 4), 9) + "\1\1\1\xFF", "a run of"); // beyond any word
+    damaged("-Y 1 +X 9000", pixel + repeated(std::string("\1\1\1\0", 4), 9) + "\1\1\1\xFF", "a run of"); // beyond any word size
     damaged("-Y 1 +X 9", pixel + repeated(std::string("\1\1\1\0", 4), 9), "cut off");
     damaged("-Y 1 +X 10", std::string("\2\2\0\x0B", 4) + "\x8A\x80", "a scanline of 11");
     damaged("-Y 1 +X 10", std::string("\2\2\0\x0A", 4) + "\x8B\x80", "a run of 11");

@@ -80,7 +80,7 @@ TEST(read, exr_data_window_is_placed_in_the_display_window)
     const Image image = decoded(test::make_exr({part}));
     ASSERT_EQ(image.width, 4);
     ASSERT_EQ(image.height, 3);
-    // The window's first column lies left of the display and is cut off.
+    // The window's first column lies left of the display window and is cut off.
     EXPECT_EQ(f32_values(image), (std::vector<float>{0, 0, 0, 0, 2, 3, 0, 0, 102, 103, 0, 0}));
 }
 
@@ -104,7 +104,7 @@ TEST(read, exr_first_part_of_many)
     EXPECT_EQ(f32_values(decoded(test::make_exr({second, first}))), (std::vector<float>{6, 7}));
 }
 
-// Six pixels, numbered by their red mantissa in file order, seen top row first.
+// Reads six pixels, numbered by their red mantissa in file order, and returns them from the top row.
 std::vector<int> hdr_order(const std::string& resolution, int width, int height)
 {
     Bytes rgbe;
@@ -160,7 +160,7 @@ TEST(read, files_of_many_makers_have_their_size_and_type)
         {"textures/fabric_301x200.jpg", 301, 200, 3, PixelType::u8},
         {"textures/technicalFabricSmall_basecolor_256.png", 256, 256, 4, PixelType::u8},
         {"textures/normal_0025.webp", 512, 512, 3, PixelType::u8},
-        // beside the checkout
+        // optional data
         {"textures/aluminium_random_brushed/aluminium_random_brushed_normal.png", 1024, 1024, 4, PixelType::u16},
         {"textures/brushed_aluminium_flow/aluminium_albedo.png", 745, 745, 1, PixelType::u8},
         {"textures/cobbles_npot/texture_rock_albedo.png", 1024, 666, 3, PixelType::u8},

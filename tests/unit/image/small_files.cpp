@@ -42,7 +42,7 @@ void chunk(std::string& out, const PngChunk& c)
     big32(out, crc32(c.type + c.data));
 }
 
-// zlib stream of one stored block.
+// Returns a zlib stream of one stored block.
 std::string store(const std::string& raw)
 {
     std::string out = "\x78\x01\x01";
@@ -117,7 +117,7 @@ std::string exr_header(const ExrPart& part, bool many, int index)
     return out + '\0';
 }
 
-// Normal numbers and zero only.
+// Handles normal numbers and zero only.
 std::uint16_t half_of(float v)
 {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(v);

@@ -1,5 +1,5 @@
-// The figures of `compare` as clang++ compiles them with UndefinedBehaviorSanitizer's traps: it sees pointers that wrap, which g++ does
-// not. They take the place of those in the library.
+// Compiles the metrics of `compare` by clang++ with UndefinedBehaviorSanitizer's traps, which find pointers that wrap. g++ does not find
+// them. These objects replace the library's.
 #include "core/image/metrics/flip.cpp"
 #include "core/image/metrics/flip_filters.cpp"
 #include "core/image/metrics/metrics.cpp"

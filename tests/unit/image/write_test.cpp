@@ -69,7 +69,7 @@ TEST(write, exr_keeps_every_bit)
     }
 }
 
-// Colours are found among other channels, in any order; their names and numbers are in the file.
+// The writer finds colours among other channels, in any order. Names and values are in the file.
 TEST(write, exr_takes_channels_of_any_name)
 {
     const std::string folder = test::temporary_folder();
@@ -187,7 +187,7 @@ TEST(write, png_is_marked_as_srgb_and_holds_no_more)
         size = static_cast<std::size_t>(file[at]) << 24 | static_cast<std::size_t>(file[at + 1]) << 16 |
                static_cast<std::size_t>(file[at + 2]) << 8 | file[at + 3];
         chunks.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(at) + 4, file.begin() + static_cast<std::ptrdiff_t>(at) + 8);
-        if (chunks.back() == "gAMA") { // 1/2.2 in units of 1/100000, as the standard asks beside sRGB
+        if (chunks.back() == "gAMA") { // 1/2.2 in units of 1/100000, as the standard recommends with sRGB
             EXPECT_EQ(file[at + 10] << 8 | file[at + 11], 45455);
         }
     }
@@ -198,7 +198,7 @@ TEST(write, png_is_marked_as_srgb_and_holds_no_more)
 TEST(write, png_errors_come_back)
 {
     const std::string folder = test::temporary_folder();
-    const Status status = write_image(folder + "/a.png", make_image(1000001, 1, 1, PixelType::u8)); // libpng's own limit is a million
+    const Status status = write_image(folder + "/a.png", make_image(1000001, 1, 1, PixelType::u8)); // libpng's limit is a million
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ExitCode::output_failed);
     EXPECT_NE(status.error().reason.find("cannot be encoded: "), std::string::npos) << status.error().reason;
@@ -271,7 +271,7 @@ TEST(write, folder_without_permission_is_an_error)
     ASSERT_EQ(chmod(folder.c_str(), 0700), 0);
 }
 
-// Runs `body` in a process whose files may not grow above 4 KiB, as on a disk that becomes full.
+// Runs `body` in a process whose files may not exceed 4 KiB, like on a disk that becomes full.
 template <class Body> int with_full_disk(Body body)
 {
     const pid_t child = fork();

@@ -16,7 +16,7 @@ Image filled(int width, int height, int channels, float value)
     return image;
 }
 
-// Means of independent noise of the given deviation.
+// Returns means of independent noise with the given deviation.
 Image noisy(int width, int height, float mean, float deviation, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -70,7 +70,7 @@ TEST(z_scores, variances_of_both_pictures_add)
     const ZTest both = z_test(a, b, one, &three, 0.01, Jobs(1));
     EXPECT_DOUBLE_EQ(both.largest, 2.5);
     EXPECT_EQ(both.limit, sidak_limit(0.01, 4));
-    EXPECT_EQ(both.rejected, 0); // the limit of four tests is 3.02
+    EXPECT_EQ(both.rejected, 0); // four tests have the limit 3.02
     EXPECT_EQ(z_test(a, b, one, nullptr, 0.01, Jobs(1)).rejected, 4);
 }
 
@@ -89,8 +89,7 @@ TEST(z_scores, alpha_is_not_tested)
     EXPECT_EQ(z_test(a, b, filled(2, 1, 4, 1e-6f), nullptr, 0.01, Jobs(1)).rejected, 0);
 }
 
-// Of 40 pairs of pictures that are equal up to their noise, 1 % is told apart; of pictures one deviation
-// apart, all.
+// At 1 % significance few of 40 equally distributed image pairs are told apart. Images one deviation apart always are.
 TEST(z_scores, noise_passes_and_bias_does_not)
 {
     const Image variance = filled(64, 64, 3, 0.01f); // deviation 0.1

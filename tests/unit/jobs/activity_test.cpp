@@ -1,4 +1,4 @@
-// Work that says nothing for long is told; a library tells nothing.
+// Long silent work is reported on stderr; a library reports nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace burnish {
 namespace {
 
-// The interval is read once a process, so each of these runs in a process of its own; what it prints on stderr is matched.
+// Runs `body` as reported work. The interval is read once a process, so each death test uses a new process and matches stderr.
 void work(bool told, const std::function<void()>& body)
 {
     setenv("BURNISH_PROGRESS_SECONDS", "0.1", 1);

@@ -20,7 +20,7 @@
 namespace burnish {
 namespace {
 
-// Threads may be long in coming where others keep the cores busy; a test that waits for them in vain ends all the same.
+// A time limit for waiting on threads. Threads may start late on busy cores, and a test must still end.
 class Patience {
   public:
     bool lasts() const { return std::chrono::steady_clock::now() < end_; }
@@ -52,7 +52,7 @@ TEST(jobs, one_thread_runs_in_order_on_the_caller)
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
 }
 
-// Each index waits until as many threads as asked for are inside: also more than there are cores.
+// Each index waits until the requested number of threads is inside, even more threads than cores.
 TEST(jobs, uses_exactly_the_threads_asked_for)
 {
     for (const int threads : {2, 5}) {
@@ -89,14 +89,13 @@ TEST(jobs, a_worker_is_one_thread_at_a_time)
     EXPECT_EQ(clashes, 0);
 }
 
-// While an inner loop waits, its thread must not begin another index of the outer loop on the same scratch
-// memory.
+// While an inner loop waits, its thread must not begin another outer index with the same scratch memory.
 TEST(jobs, nested_loops_do_not_share_scratch)
 {
     const Jobs jobs(4);
     std::vector<std::atomic<int>> outer(4);
     std::atomic<int> clashes{0}, runs{0};
-    // Short uneven loops: near the end of each, some threads wait for inner pieces while outer ones are left.
+    // Short uneven loops: near the end of each, some threads wait for inner pieces while outer pieces remain.
     for (int repeat = 0; repeat < 100; ++repeat)
         jobs.parallel_for(5, [&](std::size_t index, int worker) {
             if (outer[static_cast<std::size_t>(worker)].fetch_add(1) != 0)
@@ -127,12 +126,12 @@ TEST(jobs, an_exception_reaches_the_caller)
             EXPECT_STREQ(error.what(), "index 77");
         }
         std::atomic<int> runs{0};
-        jobs.parallel_for(10, [&](std::size_t, int) { ++runs; }); // and the object still works
+        jobs.parallel_for(10, [&](std::size_t, int) { ++runs; }); // the object still works
         EXPECT_EQ(runs, 10);
     }
 }
 
-// As many indices as threads, and each waits until all workers are inside: the highest is the last.
+// As many indices as threads. Each index waits until all workers are inside, so the highest worker is the last one.
 TEST(jobs, objects_of_different_size_live_side_by_side)
 {
     const Jobs two(2), three(3), six(6);
@@ -151,7 +150,7 @@ TEST(jobs, objects_of_different_size_live_side_by_side)
     }
 }
 
-// Callers from several threads share the numbers of one object, and those of another inside.
+// Callers from several threads share an object's worker numbers, and nested loops use another object's.
 TEST(jobs, callers_from_other_threads_share_an_object)
 {
     const Jobs two(2), three(3);
@@ -183,7 +182,7 @@ TEST(threads, that_are_there_are_expected)
     EXPECT_EQ(missing_threads(), "");
 }
 
-// A refusal by little address space: each thread reserves a stack.
+// Little address space makes the system refuse threads, since each thread reserves a stack.
 TEST(threads, that_are_not_there_are_an_error)
 {
     const auto lack = [] {

@@ -15,7 +15,7 @@
 namespace burnish {
 namespace {
 
-// What `body` prints on stderr while stderr is `fd`, read from `from` afterwards.
+// Returns the text that `body` prints while stderr is `fd`, read from `from` afterwards.
 template <class Body> std::string printed(int fd, int from, Body body)
 {
     std::fflush(stderr);
@@ -98,7 +98,7 @@ TEST(progress, tells_the_time_that_is_left)
         }
     });
     EXPECT_NE(text.find(" s left"), std::string::npos) << text;
-    EXPECT_NE(text.find("bake ["), std::string::npos) << text; // the bar is the shorter for it
+    EXPECT_NE(text.find("bake ["), std::string::npos) << text; // the bar is shorter by this
 }
 
 TEST(progress, what_comes_before_the_first_of_many_steps_is_not_counted)

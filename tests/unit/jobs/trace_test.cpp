@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// One test, because the trace is one for the whole program and its steps follow each other.
+// One test covers everything, since the program has a single trace with consecutive steps.
 TEST(trace, spans_become_chrome_events)
 {
     EXPECT_FALSE(Trace::on());
@@ -37,7 +37,7 @@ TEST(trace, spans_become_chrome_events)
             for (int i = 0; i < kSpans; ++i)
                 const TraceSpan span("inner");
         });
-    const json while_running = json::parse(Trace::json()); // reading beside writers is sound
+    const json while_running = json::parse(Trace::json()); // reading beside writers is safe
     EXPECT_TRUE(while_running.contains("traceEvents"));
     for (std::thread& thread : threads)
         thread.join();

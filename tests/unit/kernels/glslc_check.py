@@ -1,5 +1,5 @@
-"""Compiles a file of the kernel language (kernels *.k.h, assembly *.t.h) as GLSL and looks at the SPIR-V: every operation on reals
-must carry NoContraction, and of GLSL's own functions only the exact ones may be used. Without that, the GPU's bits are not the CPU's.
+"""Compiles a file in the kernel language (kernels *.k.h, assembly *.t.h) as GLSL and checks its SPIR-V. Every operation on reals must
+carry NoContraction, and of GLSL's functions only the exact ones are allowed. Otherwise GPU and CPU differ in bits.
 
 usage: glslc_check.py SOURCE_ROOT FILE    exit 77: glslc or spirv-dis is absent
 """
@@ -18,7 +18,7 @@ TYPE = re.compile(r"(?:BN_IN|BN_INOUT)\((\w+)\)|(?:const\s+)?(\w+)")
 
 
 def shader_for(text, include):
-    """A compute shader that calls every function of the kernel file, so that none is stripped."""
+    """Returns a compute shader that calls every function in the kernel file, so that none is stripped."""
     calls = []
     for result, name, parameters in FUNCTION.findall(text):
         declarations, arguments = [], []
@@ -37,7 +37,7 @@ def compile_shader(root, text, folder):
     source = Path(folder) / "kernel.comp"
     source.write_text(text)
     binary = Path(folder) / "kernel.spv"
-    # -w: `precise` on what needs none is only a warning, and it comes in hundreds.
+    # -w: unneeded `precise` qualifiers cause hundreds of warnings.
     command = ["glslc", "-w", "-O0", "--target-env=vulkan1.3", f"-I{root}", f"-I{folder}", str(source), "-o", str(binary)]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:
@@ -46,7 +46,7 @@ def compile_shader(root, text, folder):
 
 
 def faults_in(assembly):
-    """Faults, and how many operations were looked at."""
+    """Returns the faults, and the number of operations checked."""
     kept = set(re.findall(r"OpDecorate (%\S+) NoContraction", assembly))
     names = dict(re.findall(r'OpName (%\S+) "([^"(]*)', assembly))
     faults, looked_at, function = [], 0, "?"

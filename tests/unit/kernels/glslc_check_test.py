@@ -1,4 +1,4 @@
-"""glslc_check.py finds what it is there to find. usage: glslc_check_test.py SOURCE_ROOT"""
+"""glslc_check.py finds planted faults. usage: glslc_check_test.py SOURCE_ROOT"""
 import sys
 import tempfile
 from pathlib import Path

@@ -1,5 +1,5 @@
-// What lint.odr must find in an object of bn_counted: an inline function outside burnish::bn_*, emitted as a weak symbol, and a function of
-// another instruction set.
+// Violations that lint.odr must find in a bn_counted object. One is an inline function outside burnish::bn_*, emitted as a weak symbol. The
+// other belongs to another instruction set.
 namespace burnish {
 inline __attribute__((noinline)) int leaked(int x)
 {

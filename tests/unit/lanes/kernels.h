@@ -1,5 +1,6 @@
-// The lane harness: kernels under test as functions over arrays of doubles, compiled once for each instruction set and for the double
-// oracle. A test program lists its kernels in kernels.def, which its kernels.isa.cpp includes (run_lanes.h); bn_lane_kernels() builds them.
+// The lane harness: kernels under test as functions over arrays of doubles. Kernels are compiled once for each instruction set and for the
+// double oracle. A test program lists its kernels in kernels.def, which its kernels.isa.cpp includes (run_lanes.h). bn_lane_kernels()
+// builds them.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,18 +9,18 @@
 
 namespace burnish::test {
 
-// What a kernel looks at that fetches texels: a cube, a texture of halves or a table. Kernels leave alone what they do not ask for.
+// Texels for kernels that fetch: a cube, a texture of halves or a table. A kernel reads the fields that it needs.
 struct TexelView {
     const std::uint16_t* texels = nullptr;
-    const float* pairs = nullptr; // a table's, of pairs of floats
-    int size = 0, levels = 1;     // a cube's or a table's; level: the one to look at
+    const float* pairs = nullptr; // of a table with pairs of floats
+    int size = 0, levels = 1;     // of a cube or a table
     int level = 0;
-    const std::int32_t* offset = nullptr; // a texture's, by level
+    const std::int32_t* offset = nullptr; // of a texture, by level
     const float *level_width = nullptr, *level_height = nullptr;
     int wrap_s = 0, wrap_t = 0, nearest = 0, max_taps = 1;
 };
 
-// n points; argument i of point k is in[i * n + k], result j is out[j * n + k]. Arguments of float versions are rounded to float.
+// Runs n points. Argument i of point k is in[i * n + k], result j is out[j * n + k]. Float versions round their arguments to float.
 struct Kernel {
     const char* name;
     int inputs, outputs;
@@ -33,14 +34,14 @@ struct IsaFns {
 };
 
 const IsaFns& oracle_fns();
-const std::vector<IsaFns>& float_fns(); // scalar first, then what this processor runs
-const std::vector<IsaFns>& all_fns();   // these, then the oracle
+const std::vector<IsaFns>& float_fns(); // scalar first, then those that this processor runs
+const std::vector<IsaFns>& all_fns();   // float_fns(), then the oracle
 const IsaFns& fast_fns();               // one of float_fns()
 
 const Kernel& kernel(const IsaFns& isa, const char* name);
 std::vector<double> run(const Kernel& kernel, const std::vector<double>& in, const TexelView& t = {});
 
-// The kernel `name` at as many points as `in` holds.
+// Runs the kernel `name` at all points of `in`.
 std::vector<double> call(const IsaFns& isa, const char* name, const std::vector<double>& in, const TexelView& t = {});
 
 } // namespace burnish::test

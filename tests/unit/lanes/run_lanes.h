@@ -1,9 +1,9 @@
-// The lane side of the harness. kernels.isa.cpp includes this and the texts of its kernels; in namespace burnish::BN_ISA_NS it says
-//     constexpr test::Kernel kKernels[] = {
-//     #include "kernels.def"
-//     };
-//     BN_DEFINE_KERNELS(kKernels)
-// A line of such a list: BN_KERNEL(id, inputs, outputs, body), the body writes the results r[] of the arguments a[]; t is a TexelView.
+// The lane side of the harness. kernels.isa.cpp includes this file and the texts of its kernels. In namespace burnish::BN_ISA_NS it defines
+//  constexpr test::Kernel kKernels[] = {
+//  #include "kernels.def"
+//  };
+//  BN_DEFINE_KERNELS(kKernels)
+// A line of kernels.def: BN_KERNEL(id, inputs, outputs, body). The body computes results r[] from arguments a[]; t is a TexelView.
 #pragma once
 #include "shading/lang/lang.h"
 #include "tests/unit/lanes/kernels.h"
@@ -11,7 +11,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Arguments of the kLanes points from k on; the last point fills up.
+// Loads the arguments of kLanes points from k on. Repeats the last point in unused lanes.
 BN_FN void load_lanes(int n, int k, const double* in, int count, real* out)
 {
     for (int i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ BN_FN void store_lanes(int n, int k, const real* in, int count, double* out)
     }
 }
 
-// kernel(a, r): results r of arguments a, lanes at a time.
+// Calls kernel(a, r) with arguments a and results r, kLanes points at a time.
 template <int kIn, int kOut, class Body> BN_FN void run_lanes(int n, const double* in, double* out, Body body)
 {
     for (int k = 0; k < n; k += kLanes) {

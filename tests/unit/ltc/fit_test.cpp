@@ -1,4 +1,4 @@
-// Fits: one lobe, a table, and that nothing about how the work was done shows in its bytes.
+// Fits for one lobe and for a table. The bytes do not depend on threads or interruptions.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> bytes_of(const BakeOptions& options, int threads)
 
 TEST(fit, single_lobes_reach_what_is_known)
 {
-    // {theta, phi, alpha, lambda} in sevenths, and the L1 of fits by an implementation of its own
+    // {theta, phi, alpha, lambda} in sevenths, and the L1 error of fits by an independent implementation
     const struct {
         int at[4];
         double l1;
@@ -52,7 +52,7 @@ TEST(fit, single_lobes_reach_what_is_known)
 TEST(fit, the_sliced_distance_leads_near_the_lobe_from_a_plain_start)
 {
     const Rule rule(14), white(18);
-    const Grid about; // whose frame is the mirror direction's
+    const Grid about; // its frame is aligned with the mirror direction
     for (const Place& place : {Place{0.3, 0.4, 0.5, 0.6}, Place{0.8, 1.0, 0.3, 0.4}, Place{1.1, 0.5, 0.6, 0.8}}) {
         const LobePoints points(normalised_lobe(place, white), rule);
         const Matrix plain = about.frame(place) * Matrix{place.alpha, 0.0, 0.0, 0.0, place.alpha * place.lambda, 0.0, 0.0, 0.0, 1.0};
@@ -65,7 +65,7 @@ TEST(fit, the_sliced_distance_leads_near_the_lobe_from_a_plain_start)
     }
 }
 
-// Mean L1 in the middle of cells, and what the file says that it was made with.
+// Returns the mean L1 error in the middle of cells, and the flags that the file stores about its making.
 std::pair<double, std::uint32_t> nodes_alone(const std::function<void(BakeOptions&)>& change)
 {
     BakeOptions options = small();
@@ -94,14 +94,14 @@ TEST(fit, as_others_do_it_is_worse_and_the_file_says_how)
     EXPECT_EQ(l3, 1u << kNormShift);
     EXPECT_EQ(unaligned, kUnaligned);
     EXPECT_EQ(unsymmetric, kUnsymmetric);
-    EXPECT_EQ(inverse, 0u); // the grid's
+    EXPECT_EQ(inverse, 0u); // the grid's default
     EXPECT_GT(cubed, own + 0.01);
     EXPECT_GT(turned, own + 0.03);
     EXPECT_GT(inverted, own + 0.05);
     EXPECT_NEAR(apart, own, 0.02);
 }
 
-// L1 of two transformed cosines, by points of one of them.
+// Returns the L1 distance between two transformed cosines, by points drawn from both.
 double between(const Matrix& a, const Matrix& b)
 {
     static const Rule rule(16);
@@ -116,7 +116,7 @@ double between(const Matrix& a, const Matrix& b)
     return sum;
 }
 
-// As lookups mirror what the table has.
+// Mirrors a table entry as lookups do.
 Matrix unfolded(Matrix m, bool swap, double sign_x, double sign_y)
 {
     if (swap)
@@ -127,7 +127,7 @@ Matrix unfolded(Matrix m, bool swap, double sign_x, double sign_y)
     return m;
 }
 
-// What symmetry spares a table, fitted all the same: lobes of the other quadrants, those that are wider along y, and both.
+// Fits lobes that symmetry spares the table: lobes of the other quadrants, lobes wider along y, and both.
 TEST(fit, lobes_that_tables_leave_out_are_mirror_images_of_those_that_they_have)
 {
     const Rule rule(16), white(18);
@@ -146,7 +146,7 @@ TEST(fit, lobes_that_tables_leave_out_are_mirror_images_of_those_that_they_have)
                 const Matrix folded = unfolded(first, swap, sx, sy);
                 EXPECT_LT(between(own.m, folded), 0.04) << swap << sx << sy;
                 EXPECT_NEAR(l1_distance(points, folded), own.l1, 2e-3) << swap << sx << sy;
-                EXPECT_GT(between(own.m, unfolded(first, swap, -sx, sy)), 0.1) << swap << sx << sy; // they are not all alike
+                EXPECT_GT(between(own.m, unfolded(first, swap, -sx, sy)), 0.1) << swap << sx << sy; // the mirror images differ
             }
     }
 }
@@ -186,7 +186,7 @@ TEST(fit, a_table_without_symmetry_has_it_all_the_same)
 
 TEST(fit, equations_are_the_derivative)
 {
-    // Along every element of E the sums' gradient is that of sum W (p - q)^2 / 2, with the weights of the start.
+    // Along every element of E the sums' gradient equals that energy's gradient: sum W (p - q)^2 / 2, with the initial weights.
     const Place place = {0.8, 0.5, 0.4, 0.5};
     const Rule rule(15), white(18);
     const LobePoints points(normalised_lobe(place, white), rule);
@@ -198,7 +198,7 @@ TEST(fit, equations_are_the_derivative)
         const auto add = [&](const Vec& l) {
             const Reflected f = density(points.lobe, l);
             const double q = transformed_cosine(n, l), r = f.reflected - transformed_cosine(n2, l);
-            if (!(q > 0.0)) // no step moves its density in the first order
+            if (!(q > 0.0)) // no step changes its density in the first order
                 return;
             sum += 0.5 * r * r / ((f.visible + q) * (std::abs(f.reflected - q) + 0.05 * (f.reflected + q)));
         };
@@ -232,11 +232,11 @@ TEST(fit, stopped_and_gone_on_with_it_is_the_same)
     const Jobs jobs(1);
     int stops = 0;
     for (bool done = false; !done;) {
-        std::atomic<bool> stop{false}; // as soon as something was done: after the nodes, and after each step
+        std::atomic<bool> stop{false}; // set after the first progress: after the nodes, and after each step
         BakeOptions options = small();
         options.checkpoint = path;
         options.stop = &stop;
-        options.advance = [&stop](std::size_t units) { stop = units == 1 || units == 64; }; // more at once: what was done before
+        options.advance = [&stop](std::size_t units) { stop = units == 1 || units == 64; }; // larger counts report earlier work
         const Result<std::optional<Baked>> baked = bake_table(options, jobs);
         ASSERT_TRUE(baked) << baked.error().line();
         done = baked->has_value();
@@ -247,7 +247,7 @@ TEST(fit, stopped_and_gone_on_with_it_is_the_same)
         }
     }
     EXPECT_EQ(stops, 2);
-    // What is kept of another table, or damaged, is refused.
+    // A checkpoint from another table, or a damaged one, is refused.
     BakeOptions other = small();
     other.checkpoint = path, other.steps = 3;
     EXPECT_FALSE(bake_table(other, jobs));

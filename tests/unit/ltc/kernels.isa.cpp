@@ -12,13 +12,14 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-// Of a view: levels are the nodes along alpha, level how entries are held: their basis, over alpha 4, inverse 8.
+// Returns a view's table. `levels` counts the nodes along alpha. `level` holds the entry format: basis (bits 0-1), over alpha (4), inverse
+// (8).
 ltc_table table_of(const test::TexelView& t)
 {
     return {t.texels, 1, t.level & 3, t.level >> 2 & 1, t.level >> 3 & 1, t.levels};
 }
 
-// By the columns of M.
+// Builds a lobe from the columns of M.
 ltc_lobe lobe_at(const real* a)
 {
     ltc_lobe lobe = ltc_cosine();

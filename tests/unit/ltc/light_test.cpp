@@ -1,4 +1,4 @@
-// Polygons at run time, against the fit's own polygons in double, against sums and limits, and where they are hard.
+// Polygon lights at run time: against the fit's polygons in double, against sums and limits, and in hard cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double part(const IsaFns& isa, const char* name, const Matrix& m, const std::vec
     return run_row(isa, name, joined({columns(m), flat(corners)}))[0];
 }
 
-// Matrix and parallelogram in general position, as floats hold them.
+// Returns a matrix and a parallelogram in general position, rounded to floats.
 Row any_quad(Chance& chance, double least_alpha, double least_lambda)
 {
     const Matrix m = chance.lobe(least_alpha, least_lambda);
@@ -63,7 +63,7 @@ TEST(light, polygons_are_the_fits_own)
     EXPECT_GT(lit / static_cast<double>(rows.size()), 0.05);
 }
 
-// Round polygons of 16 corners, too.
+// Tests round polygons of 16 corners, too.
 TEST(light, sixteen_corners_are_the_fits_own)
 {
     Chance chance;
@@ -98,7 +98,7 @@ TEST(light, floats_are_near_doubles_down_to_narrow_lobes)
     }
 }
 
-// Lookup and light together.
+// Tests lookup and light together.
 TEST(light, floats_are_near_doubles_with_their_lookup)
 {
     Chance chance;
@@ -129,7 +129,7 @@ TEST(light, five_sides_of_a_room_take_what_does_not_leak)
                                                      {{-s, s, 0.0}, {1.0, s, 0.0}, {1.0, s, h}, {-s, s, h}},
                                                      {{-s, -1.0, 0.0}, {-s, s, 0.0}, {-s, s, h}, {-s, -1.0, h}},
                                                      {{1.0, -1.0, 0.0}, {1.0, s, 0.0}, {1.0, s, h}, {1.0, -1.0, h}}};
-        // The surface's horizon is a plane of the cosine's space; above a plane that leans by an angle lies (1 + cos) / 2.
+        // The surface's horizon is a plane in the cosine's space. A plane that leans by an angle has (1 + cos) / 2 above it.
         const double above = 0.5 * (1.0 + m[8] / std::sqrt(m[6] * m[6] + m[7] * m[7] + m[8] * m[8]));
         for (const IsaFns& isa : all_fns()) {
             double sum = 0.0;
@@ -140,7 +140,7 @@ TEST(light, five_sides_of_a_room_take_what_does_not_leak)
     }
 }
 
-// Sutherland and Hodgman's way, in double.
+// Clips a polygon by Sutherland and Hodgman's algorithm, in double precision.
 std::vector<Vec> cut(const std::vector<Vec>& corners, const Vec& normal)
 {
     std::vector<Vec> above;
@@ -214,7 +214,7 @@ TEST(light, small_quads_are_density_times_solid_angle)
 TEST(light, on_the_horizon_and_below_there_is_none)
 {
     for (const IsaFns& isa : all_fns()) {
-        // A panel in the plane of the surface, around the shading point and beside it; corners by rounding above and below.
+        // A panel in the surface's plane, around the shading point and beside it. Rounding moves its corners above and below.
         for (const double x : {0.0, 0.5, 3.0}) {
             EXPECT_EQ(
                 part(isa, "ltc_quad", kCosine, {{x - 1.0, -1.0, 0.0}, {x + 1.0, -1.0, 0.0}, {x + 1.0, 1.0, 0.0}, {x - 1.0, 1.0, 0.0}}),
@@ -223,14 +223,14 @@ TEST(light, on_the_horizon_and_below_there_is_none)
                 const auto z = [signs](int i) { return signs >> i & 1 ? 1e-7 : -1e-7; };
                 const std::vector<Vec> panel = {{x - 1.0, -1.0, z(0)}, {x + 1.0, -1.0, z(1)}, {x + 1.0, 1.0, z(2)}, {x - 1.0, 1.0, z(3)}};
                 if (x < 1.0 && signs > 0 && signs < 15)
-                    continue;                                            // through the shading point: all or nothing, as rounding has it
-                const double truth = x < 1.0 && signs == 15 ? 1.0 : 0.0; // all around, if a hair's breadth above
+                    continue; // through the shading point: rounding decides between all and nothing
+                const double truth = x < 1.0 && signs == 15 ? 1.0 : 0.0; // full coverage if just above the point
                 EXPECT_NEAR(part(isa, "ltc_quad", kCosine, panel), truth, 2e-6) << isa.name << x << " " << signs;
             }
         }
         EXPECT_EQ(part(isa, "ltc_quad", kCosine, {{1.0, 0.0, -0.2}, {0.0, 1.0, -0.3}, {-1.0, 0.0, -0.1}, {0.0, -1.0, -0.1}}), 0.0);
         EXPECT_NEAR(part(isa, "ltc_quad", kCosine, {{1e5, -1e5, 1.0}, {1e5, 1e5, 1.0}, {-1e5, 1e5, 1.0}, {-1e5, -1e5, 1.0}}), 1.0, 1e-5);
-        // A wall that stands on the floor around the corner of a room: the half of it that can be seen.
+        // A wall on the floor around the corner of a room: half of it is visible.
         EXPECT_NEAR(part(isa, "ltc_quad", kCosine, {{1.0, -1e4, -5.0}, {1.0, 1e4, -5.0}, {1.0, 1e4, 1e4}, {1.0, -1e4, 1e4}}), 0.5, 1e-3);
     }
 }
@@ -280,11 +280,11 @@ TEST(light, clipless_is_near_and_the_same_above_the_horizon)
     }
 }
 
-// Where polygons are hard: through the horizon, at the shading point, edge-on, antipodal corners, degenerate, behind, around.
+// Hard polygons: through the horizon, at the shading point, edge-on, antipodal corners, degenerate, behind, around.
 constexpr const char* kHard[] = {"horizon", "touching", "edge_on", "antipodal", "degenerate", "behind", "around"};
 constexpr int kKinds = static_cast<int>(std::size(kHard));
 
-// The 21 arguments of ltc_quad.
+// Returns the 21 arguments of ltc_quad.
 std::array<double, 21> hard_quad(Chance& chance, int kind, const std::vector<Row>& lobes)
 {
     const double size = std::pow(10.0, chance.from(-4.0, 4.0)), far = 1e3 * size;
@@ -293,7 +293,7 @@ std::array<double, 21> hard_quad(Chance& chance, int kind, const std::vector<Row
     const int which = static_cast<int>(chance.from(0.0, 4.0));
     if (kind == 0)
         quad = parallelogram_of({middle.x, middle.y, 0.0}, a, b);
-    else if (kind == 1) // a corner, on a side, or within
+    else if (kind == 1) // a corner, on a side, or inside
         quad = parallelogram_of(along(here, std::floor(chance.from(-1.0, 2.0)), a, std::floor(chance.from(-1.0, 2.0)), b), a, b);
     else if (kind == 2)
         quad = parallelogram_of(along(here, chance.from(-3.0, 3.0), a, chance.from(-3.0, 3.0), b), a, b);
@@ -315,7 +315,7 @@ std::array<double, 21> hard_quad(Chance& chance, int kind, const std::vector<Row
     return arguments;
 }
 
-// Narrow ones, and every eighth the plain cosine.
+// Returns narrow lobes, and the plain cosine as every eighth.
 std::vector<Row> hard_lobes(Chance& chance)
 {
     std::vector<Row> lobes;
@@ -324,7 +324,7 @@ std::vector<Row> hard_lobes(Chance& chance)
     return lobes;
 }
 
-// Every kind of light takes what it needs of the arguments, in their order.
+// Each kind of light reads the arguments that it needs, in order.
 void expect_no_nan(std::size_t count)
 {
     constexpr std::size_t kChunk = 20000;
@@ -384,7 +384,7 @@ TEST(light, every_instruction_set_has_the_same_bits)
         return rows;
     };
     const std::vector<Row> eighteen = of(18), sixteen = of(16), thirteen = of(13), twelve = of(12);
-    // Neighbours that lie in one cell of the table, in two and in more, as those of a picture do: their texels are read in other ways.
+    // Neighbours in one cell of the table, in two cells and in more, as in an image. The kernel reads their texels in different ways.
     std::vector<Row> shared;
     for (int i = 0; i < 3000; ++i) {
         const double theta = i % (1 + i / 750) == 0 ? 0.7 : 1.2, phi = i / 64 % 2 ? 0.5 : 2.1;

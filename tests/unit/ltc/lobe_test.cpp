@@ -1,4 +1,4 @@
-// The lobe that is fitted and the density that it is fitted with, as laws.
+// Laws for the fitted lobe and for the density of the fit.
 #include <gtest/gtest.h>
 
 #include "core/math/scalar_math.h"
@@ -25,7 +25,7 @@ TEST(lobe, densities_integrate_to_one)
         const Lobe lobe = normalised_lobe(place, rule);
         const Matrix m = with_unit_axis(natural_matrix(place));
         const Matrix n = inverse(m);
-        // One of the three by points of another: no density is its own witness.
+        // Integrates all three densities by points drawn from two of them, so that no density confirms itself.
         double visible = 0.0, reflected = 0.0, cosine = 0.0;
         for (const Rule::Point& point : points.points) {
             const Vec a = mirrored_normal(lobe, point), b = unit(m * point.clamped);
@@ -81,7 +81,7 @@ TEST(lobe, gauges_are_one_density)
 
 TEST(lobe, unaligned_neighbours_interpolate_to_another_lobe)
 {
-    // What the gauge is for: two matrices of one lobe, one of them turned, and the middle of both.
+    // Shows why the gauge is needed: two matrices for one lobe, one turned, have a wrong mean.
     const Place place = kPlaces[1];
     const Rule rule(15), white(18);
     const LobePoints points(normalised_lobe(place, white), rule);
@@ -95,7 +95,7 @@ TEST(lobe, unaligned_neighbours_interpolate_to_another_lobe)
         return r;
     };
     const double alone = l1_distance(points, m);
-    EXPECT_NEAR(l1_distance(points, turned), alone, 0.01); // points are others
+    EXPECT_NEAR(l1_distance(points, turned), alone, 0.01); // with other points
     EXPECT_GT(l1_distance(points, middle(m, turned)), alone + 0.1);
     EXPECT_NEAR(l1_distance(points, middle(in_natural_gauge(m, place), in_natural_gauge(turned, place))), alone, 0.01);
 }
@@ -106,7 +106,7 @@ TEST(lobe, of_other_models_integrate_to_one_and_are_near_what_is_fitted_to_them)
     for (const Model model : {Model::beckmann, Model::ashikhmin_shirley, Model::ward})
         for (const Place& place : {Place{0.0, 0.0, 0.3, 1.0}, Place{0.7, 0.4, 0.3, 0.4}, Place{1.2, 1.1, 0.2, 0.5}}) {
             const Lobe lobe = normalised_lobe(place, white, model);
-            double whole = 0.0; // over all directions: no density of points in it
+            double whole = 0.0; // over all directions, independent of the points' density
             for (std::size_t k = 0; k < 400000; ++k)
                 whole += density(lobe, direction(k)).reflected * 4.0 * kPi / 400000.0;
             EXPECT_NEAR(whole, 1.0, 0.01) << static_cast<int>(model) << " " << place.theta;
@@ -127,10 +127,10 @@ TEST(lobe, a_sum_of_two_is_nearer_where_one_is_far_off)
         const PairFit two = fit_pair(points, one.m);
         EXPECT_GT(one.l1, 0.3);
         EXPECT_LT(two.l1, 0.7 * one.l1);
-        EXPECT_NEAR(l1_of_pair(LobePoints(lobe, others), two), two.l1, 0.01); // by points that it was not fitted to
+        EXPECT_NEAR(l1_of_pair(LobePoints(lobe, others), two), two.l1, 0.01); // by points outside the fit
         EXPECT_GT(determinant(two.m[0]), 0.0);
         EXPECT_GT(determinant(two.m[1]), 0.0);
-        const PairFit same = {{one.m, one.m}, 0.3, 0.0, 0}; // two that are one
+        const PairFit same = {{one.m, one.m}, 0.3, 0.0, 0}; // two equal lobes
         EXPECT_NEAR(l1_of_pair(points, same), one.l1, 1e-9);
     }
 }

@@ -1,4 +1,4 @@
-// The lookup at run time, against the table in double and against the lobes that it stands for.
+// The run-time lookup, against the table in double and against the original lobes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ Vec eye_at(double theta, double phi)
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-// With a positive determinant: the same density.
+// Returns a matrix of equal density with a positive determinant.
 Matrix unmirrored(Matrix m)
 {
     if (determinant(m) < 0.0)
@@ -51,7 +51,7 @@ TEST(lookup, every_quadrant_and_order_of_widths_has_its_own_lobe)
         const double alone = l1_distance(LobePoints(normalised_lobe(place, white), rule), lookup(halves(), place).m);
         for (const bool swap : {false, true})
             for (const auto& [sx, sy] : {std::pair{1.0, 1.0}, {-1.0, 1.0}, {-1.0, -1.0}, {1.0, -1.0}}) {
-                Lobe lobe = normalised_lobe(place, white); // the lobe that is looked for, moved by itself
+                Lobe lobe = normalised_lobe(place, white); // the requested lobe, mirrored itself
                 if (swap) {
                     std::swap(lobe.v.x, lobe.v.y);
                     std::swap(lobe.alpha_x, lobe.alpha_y);
@@ -71,7 +71,7 @@ TEST(lookup, every_quadrant_and_order_of_widths_has_its_own_lobe)
 TEST(lookup, equal_widths_are_not_exchanged)
 {
     for (const test::IsaFns& isa : test::all_fns())
-        EXPECT_GT(looked_at(isa, eye_at(0.7, 0.4), 0.3, 0.3)[9], 0.0) << isa.name; // an exchange mirrors
+        EXPECT_GT(looked_at(isa, eye_at(0.7, 0.4), 0.3, 0.3)[9], 0.0) << isa.name; // swapping the axes mirrors
 }
 
 TEST(lookup, along_the_normal_all_azimuths_are_one)
@@ -112,7 +112,7 @@ TEST(lookup, has_no_step_where_it_mirrors_or_exchanges_or_ends)
         }
 }
 
-// Mean L1 distance of what is looked up from the lobes, and of its albedo, relative.
+// Mean L1 distance between looked-up and exact lobes, and relative error of the albedo.
 struct Off {
     double l1 = 0.0, albedo = 0.0;
 };
@@ -160,7 +160,7 @@ TEST(lookup, round_lobes_are_the_round_table_s_turned_to_the_eye)
         const Looked expected = lookup(round_halves(), p);
         for (const test::IsaFns& isa : {test::oracle_fns(), test::fast_fns()}) {
             const Row got = run_row(isa, "ltc_round_lookup", {sx * eye.x, sy * eye.y, eye.z, p.alpha}, round_view());
-            const Matrix m = Matrix{sx, 0.0, 0.0, 0.0, sy, 0.0, 0.0, 0.0, 1.0} * from_columns(got); // another gauge of the same lobe
+            const Matrix m = Matrix{sx, 0.0, 0.0, 0.0, sy, 0.0, 0.0, 0.0, 1.0} * from_columns(got); // another gauge of this lobe
             for (int k = 0; k < 5; ++k) {
                 const Vec l = chance.upper();
                 const double q = transformed_cosine(inverse(expected.m), l);

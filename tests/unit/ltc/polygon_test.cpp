@@ -11,7 +11,7 @@ namespace {
 constexpr Matrix kOne = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 const Matrix kSheared = inverse(Matrix{0.4, 0.05, -0.5, 0.02, 0.2, -0.2, 0.1, 0.05, 0.85});
 
-// The box around the shading point, of which every direction meets one side.
+// Returns the sides of a box around the shading point. Every direction meets one side.
 std::vector<std::vector<Vec>> box(double low, double high)
 {
     const auto p = [&](int x, int y, int z) { return Vec{x ? high : low, y ? high * 0.7 : low * 1.3, z ? high : low * 0.9}; };

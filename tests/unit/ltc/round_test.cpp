@@ -33,7 +33,7 @@ Axes axes_about(const Vec& w)
     return {w, s, cross(w, s)};
 }
 
-// As a polygon of many corners, by the fit's own sum.
+// Evaluates an ellipse as a polygon of many corners, by the fit's sum.
 double many_corners(const Matrix& m, const Vec& middle, const Vec& a, const Vec& b)
 {
     std::vector<Vec> corners;
@@ -62,7 +62,7 @@ TEST(round, discs_above_the_horizon_are_polygons_of_many_corners)
         for (const IsaFns& isa : all_fns()) {
             const Row got = of_disk(isa, m, middle, a, b);
             if (up) {
-                EXPECT_NEAR(got[3], expected, 2e-5) << isa.name << i; // the form factor; the sphere's horizon is not the ellipse's
+                EXPECT_NEAR(got[3], expected, 2e-5) << isa.name << i; // the form factor; the sphere's horizon differs from the ellipse's
             }
             if (down) {
                 EXPECT_NEAR(got[0], 0.0, 0.01) << isa.name << i;
@@ -92,7 +92,7 @@ TEST(round, small_discs_are_density_times_solid_angle)
 
 TEST(round, spheres_under_a_cosine_are_exact)
 {
-    // Seen whole: sine squared of the radius times the cosine of the elevation. Half sunk: by summing directions.
+    // Fully visible: the radius' sine squared times the elevation's cosine. Half sunk: by a sum over directions.
     for (const IsaFns& isa : all_fns())
         for (const double r : {0.05, 0.3, 0.6}) {
             EXPECT_NEAR(of_sphere(isa, kCosine, {0.6, 0.0, 0.8}, r)[0], r * r * 0.8, 2e-6) << isa.name << r;
@@ -129,7 +129,7 @@ TEST(round, spheres_are_the_discs_of_their_outline_and_all_from_within)
             EXPECT_NEAR(of_sphere(isa, m, middle, r)[0], disk, 2e-5) << isa.name << i;
             EXPECT_EQ(of_sphere(isa, m, middle, std::sqrt(d2) * 1.001)[0], 1.0) << isa.name;
             EXPECT_EQ(of_sphere(isa, m, {0.0, 0.0, 0.0}, r)[0], 1.0) << isa.name;
-            // Nearly touching: half of all directions.
+            // Almost touching: half of all directions.
             const double half = of_sphere(isa, m, middle, std::sqrt(d2) * 0.99999)[0];
             EXPECT_NEAR(half, many_corners(m, axes.w, scaled(axes.s, 200.0), scaled(axes.t, 200.0)), 0.12) << isa.name;
         }
@@ -176,12 +176,12 @@ TEST(round, textures_are_met_where_their_light_comes_from)
         const Axes axes = axes_about(chance.upper());
         const Vec corner = along(axes.w, -0.4, axes.s, -0.3, axes.t), u = scaled(axes.s, 0.9), v = scaled(axes.t, 0.8);
         const double s = chance.from(0.05, 0.95), t = chance.from(0.05, 0.95);
-        const Vec flow = scaled(inverse(m) * along(corner, s, u, t, v), 1e-9); // towards a known place, of a small light
+        const Vec flow = scaled(inverse(m) * along(corner, s, u, t, v), 1e-9); // towards a known place, from a small light
         for (const IsaFns& isa : all_fns()) {
             const Row got = run_row(isa, "ltc_texture", joined({columns(m), flat({flow, corner, u, v}), {256.0, 128.0, 8.0}}));
             EXPECT_NEAR(got[0], s, 2e-4) << isa.name << i;
             EXPECT_NEAR(got[1], t, 2e-4) << isa.name << i;
-            for (const double sign : {-1.0, 1.0}) // the row ends on the picture
+            for (const double sign : {-1.0, 1.0}) // the row ends on the texture
                 for (int k = 0; k < 2; ++k) {
                     const double end = got[static_cast<std::size_t>(k)] + sign * got[static_cast<std::size_t>(k) + 2];
                     EXPECT_TRUE(end > -1e-4 && end < 1.0001) << isa.name << i << " " << end;
@@ -190,7 +190,7 @@ TEST(round, textures_are_met_where_their_light_comes_from)
     }
 }
 
-// A cap about 30 degrees from the normal, of radius 40 degrees: where a cosine's light comes from in the mean, by sums over the cap.
+// A cap 30 degrees from the normal, of radius 40 degrees. A sum over the cap gives the mean direction of a cosine's light.
 TEST(round, textures_are_met_where_a_cosine_has_its_light)
 {
     const Vec f = {std::sin(kPi / 6.0), 0.0, std::cos(kPi / 6.0)};
@@ -205,7 +205,7 @@ TEST(round, textures_are_met_where_a_cosine_has_its_light)
             sum = along(sum, w.z, w, 0.0, w);
         }
     const Vec flow = scaled(f, std::sin(radius) * std::sin(radius));
-    for (const IsaFns& isa : all_fns()) { // on a plane at height 1, of sides from -5 to 5
+    for (const IsaFns& isa : all_fns()) { // on a plane at height 1, with sides from -5 to 5
         const Row got =
             run_row(isa, "ltc_texture",
                     joined({columns(kCosine), flat({flow, {-5.0, -5.0, 1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}), {256.0, 256.0, 8.0}}));
@@ -214,8 +214,8 @@ TEST(round, textures_are_met_where_a_cosine_has_its_light)
     }
 }
 
-// Over squares of side 2: a plain cosine at height 2 h blurs evenly, as wide as 0.6 of that. One that is stretched four times along x needs
-// a row along the picture's u, of the variance that an even blur of its width leaves over.
+// Squares of side 2. A plain cosine at height 2 h blurs evenly, 0.6 times as wide as its height. A cosine stretched four times along x
+// needs a row along the texture's u. The row has the variance that the even blur does not cover.
 TEST(round, textures_are_blurred_as_the_lobe_is_wide)
 {
     Matrix wide = kCosine;

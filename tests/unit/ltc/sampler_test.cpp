@@ -1,4 +1,4 @@
-// Transformed cosines as densities that are sampled, and against samples: what has no formula of the fit or of the kernels in it.
+// Sampling of transformed cosines, and checks by samples alone, without formulas from the fit or the kernels.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ Vec cosine_point(Chance& chance) // with the density z / pi
     return {r * std::cos(turn), r * std::sin(turn), std::sqrt(std::max(0.0, 1.0 - r * r))};
 }
 
-// By the kernel: a direction a row.
+// Evaluates the density kernel, one direction a row.
 std::vector<double> densities(const Matrix& m, const std::vector<Vec>& directions)
 {
     std::vector<Row> rows;
@@ -28,7 +28,7 @@ std::vector<double> densities(const Matrix& m, const std::vector<Vec>& direction
     return q;
 }
 
-// Bins of equal solid angle of the whole sphere; the density's mass in each by midpoints of smaller ones.
+// Uses bins of equal solid angle over the sphere. Sums the density's mass in each bin over midpoints of smaller bins.
 TEST(sampler, images_of_cosine_points_have_the_density)
 {
     constexpr int kRows = 16, kColumns = 32, kFine = 16, kSamples = 200000;
@@ -65,14 +65,14 @@ TEST(sampler, images_of_cosine_points_have_the_density)
             }
         if (few_expected >= 5.0)
             chi2 += (few_found - few_expected) * (few_found - few_expected) / few_expected, ++bins;
-        const double freedom = bins - 1; // its quantile of 1 - 1e-5 by Wilson and Hilferty
+        const double freedom = bins - 1; // the quantile of 1 - 1e-5 by Wilson and Hilferty
         const double root = 1.0 - 2.0 / (9.0 * freedom) + 4.26 * std::sqrt(2.0 / (9.0 * freedom));
         EXPECT_LT(chi2, freedom * root * root * root) << place.theta << ", bins " << bins;
         EXPECT_GT(bins, 60);
     }
 }
 
-// A quad by points of its area under the transformed cosine itself: what is left of the fit's error is none, what is left is chance.
+// Compares a quad with points on its area under the transformed cosine. The fit's error cancels, so chance alone remains.
 TEST(sampler, quads_are_the_mean_over_their_points)
 {
     constexpr int kSamples = 40000;
@@ -98,7 +98,7 @@ TEST(sampler, quads_are_the_mean_over_their_points)
         const auto corner = [&](double s, double t) { return along(middle, s, a, t, b); };
         const Row quad = flat({corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)});
         const double part = run_row(test::oracle_fns(), "ltc_quad", joined({columns(m), quad}))[0];
-        if (!(mean > 1e-3) || sigma > 0.1 * mean) // nothing to compare, or too near to be sampled so
+        if (!(mean > 1e-3) || sigma > 0.1 * mean) // nothing to compare, or too near to sample
             continue;
         ++quads;
         EXPECT_NEAR(part, mean, 4.0 * sigma + 1e-6) << i;
@@ -106,7 +106,7 @@ TEST(sampler, quads_are_the_mean_over_their_points)
     EXPECT_GT(quads, 30);
 }
 
-// KT et al. 2022 advise against it: the cosine's density is far below the lobe's where that is a lune.
+// KT et al. 2022 advise against sampling the cosine: its density is far below a lune-shaped lobe's.
 TEST(sampler, visible_normals_have_less_variance)
 {
     constexpr int kSamples = 40000;

@@ -1,4 +1,4 @@
-// The table that is shipped: its symmetries, its quality, and files that are none.
+// The shipped table: symmetries, quality, and refused files.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -68,13 +68,13 @@ TEST(table, round_lobes_are_the_same_from_both_sides_of_the_diagonal)
 
 TEST(table, a_lobe_mirrored_is_the_matrix_with_rows_negated)
 {
-    // Four quadrants and the exchange of axes, against lobes seen from there.
+    // Four quadrants and swapped axes, against lobes seen from there.
     const Rule rule(15), white(18);
     const Place place = {0.9, 0.6, 0.4, 0.3};
     const Matrix m = lookup(shipped(), place).m;
     const Lobe lobe = normalised_lobe(place, white);
     const auto distance = [&rule](const Lobe& of, Matrix by) {
-        if (determinant(by) < 0.0) // the same density with a positive one
+        if (determinant(by) < 0.0) // a positive determinant gives equal density
             by[1] = -by[1], by[4] = -by[4], by[7] = -by[7];
         return l1_distance(LobePoints(of, rule), by);
     };
@@ -118,7 +118,7 @@ TEST(table, lobes_are_as_near_as_was_measured)
     EXPECT_LT(spread_of(all).mean, 0.01);
 }
 
-// Where guarding determinants could spoil whole cells for lookups at their corners.
+// Covers places where guarded determinants could spoil whole cells for lookups at their corners.
 TEST(table, near_the_horizon_lobes_are_as_near_as_was_measured)
 {
     std::vector<double> l1, best;
@@ -153,7 +153,7 @@ TEST(table, bytes_survive_the_way_there_and_back)
     EXPECT_EQ(table_bytes(*read), bytes);
 }
 
-// Bytes changed and sealed again, as a writer that is wrong would leave them.
+// Changes bytes and seals them again, as a faulty writer would.
 std::string refusal(const std::function<void(std::vector<std::uint8_t>&)>& change, bool sealed, int size = 8)
 {
     std::vector<std::uint8_t> bytes = table_bytes(shipped());

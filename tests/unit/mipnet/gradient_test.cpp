@@ -14,7 +14,8 @@
 namespace burnish::mipnet {
 namespace {
 
-// Every result of `kernel` has its partials by the first five (or fewer) arguments behind it: compares them with differences.
+// Compares partial derivatives with central differences. After every result a kernel returns its partials by the first five (or fewer)
+// arguments.
 void check_kernel(const char* kernel, const std::function<std::vector<double>(Random&)>& arguments, int points, int partials)
 {
     Random random(11);
@@ -61,7 +62,7 @@ std::vector<double> some_light(Random& random)
 TEST(gradient, of_projection_and_frame)
 {
     check_kernel("projected", some_texel, 50, 5);
-    // Outside: what is clamped.
+    // Outside the domain, where values are clamped.
     check_kernel(
         "projected",
         [](Random& r) {
@@ -88,7 +89,7 @@ TEST(gradient, of_three_lobes)
         check_kernel(lobe, some_light, 200, 5);
 }
 
-// A shard, in double.
+// A shard in double precision.
 struct Work {
     Plan plan;
     std::vector<double> weights, texels, tiles, pairs, gradient, loss;
@@ -131,7 +132,7 @@ void check_cascade(const Shape& shape, Loss kind = Loss::l1, Tone tone = Tone::d
     Random random(21);
     for (const float v : start_weights(w.plan, 3))
         w.weights.push_back(static_cast<double>(v));
-    for (const Dense* d : {&w.plan.a, &w.plan.b}) // outputs too, so that they are on their way
+    for (const Dense* d : {&w.plan.a, &w.plan.b}) // and nonzero outputs, so that gradients flow
         for (std::size_t i = d->count ? d->weights[d->count - 1] : 0; d->count && i < d->bias[d->count - 1] + kChannels; ++i)
             w.weights[i] = random.between(-0.3, 0.3) * (layout == Layout::paper ? 0.1 : 1.0);
     w.weights[w.plan.kappa + 1] = 0.1;
@@ -140,7 +141,7 @@ void check_cascade(const Shape& shape, Loss kind = Loss::l1, Tone tone = Tone::d
     const Batch batch = make_batch(set, 4, w.pair_count);
     w.texels.assign(batch.texels.begin(), batch.texels.end());
     w.tiles.assign(batch.tiles.begin(), batch.tiles.end());
-    // From above: at the horizon radiance jumps, which differences see and slopes do not.
+    // Directions from above: at the horizon radiance jumps, which differences see and derivatives do not.
     for (std::size_t slot = 0; slot < kSlots; ++slot)
         for (std::size_t way = 0; way < 2; ++way) {
             const std::vector<double> d = up(random, 0.93);

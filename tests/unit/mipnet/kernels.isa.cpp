@@ -11,7 +11,7 @@ namespace {
 
 namespace m = mipnet_lanes;
 
-// A number of the list a whose k-th partial is 1.
+// Returns number k of the list a, with its k-th partial set to 1.
 m::dual changing(const real* a, int k)
 {
     m::dual d = m::constant(a[k]);
@@ -48,14 +48,14 @@ template <int lobe> void put_radiance(const real* a, real* r)
     const m::light l = m::light_of<lobe>(vec3_at(a + 5), vec3_at(a + 8), a[11], a[12], lit(1.0));
     put_dual(m::radiance<lobe>(m::lobe_place_of(changing_texel(a)), l), r);
 }
-// Of a texel whose normal is +z.
+// Writes the normal densities of a texel whose normal is +z.
 void put_normals(const real* a, real* r)
 {
     const m::lobe_place<real> place = m::lobe_place_of(texel_at(a));
     const m::local<real> h = {a[5], a[6], a[7]};
     r[0] = m::ggx_normals(place, h), r[1] = m::beckmann_normals(place, h), r[2] = m::phong_normals(place, h) * lit(4.0);
 }
-// Normals along i and o that the eye sees, over four times its cosine: integrates to 1 over i.
+// Writes the densities of visible normals over four times the eye's cosine. They integrate to 1 over i.
 void put_seen(const real* a, real* r)
 {
     const m::lobe_place<real> place = m::lobe_place_of(texel_at(a));

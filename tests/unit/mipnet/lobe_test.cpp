@@ -1,4 +1,4 @@
-// Lobes by tensors: their normals are those of the models, and give back what they get.
+// Lobes from tensors: their normals equal the models' normals and conserve energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(lobe, normals_are_those_of_the_models_in_their_own_axes)
     }
 }
 
-// Heitz 2014, "weak white furnace": what the eye sees of all normals is one whole, whatever the widths and however they lie.
+// Heitz 2014, "weak white furnace": visible normals integrate to one, for all widths and orientations.
 TEST(lobe, normals_that_are_seen_are_one_whole)
 {
     const double kCases[][3] = {{0.5, 0.2, 0.2}, {0.2, 0.5, -0.2}, {0.3, 0.3, 0.15}, {0.5, 0.2, 0.0}};
@@ -58,7 +58,7 @@ TEST(lobe, normals_that_are_seen_are_one_whole)
             std::vector<double> in(11u * rows * columns);
             const std::size_t n = static_cast<std::size_t>(rows) * columns;
             for (std::size_t k = 0; k < n; ++k) {
-                // Over all directions, those below the horizon too: masked normals reflect there.
+                // Includes directions below the horizon, where masked normals reflect.
                 const double z = (static_cast<double>(k / columns) + 0.5) / rows * 2.0 - 1.0;
                 const std::vector<double> light = direction(z, (static_cast<double>(k % columns) + 0.5) / columns * 2.0 * kPi);
                 const double values[] = {0.0, 0.0, t[0], t[1], t[2], eye[0], eye[1], eye[2], light[0], light[1], light[2]};

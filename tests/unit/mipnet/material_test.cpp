@@ -1,4 +1,4 @@
-// Materials made in code, and closed forms.
+// Procedural materials, and closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST(material, nothing_that_is_tested_is_trained_on_not_even_mirrored)
                                                 std::stoull(m.material.name.substr(m.material.name.find(' ') + 1)), 128);
             EXPECT_EQ(trained.count(source_hash(as_trained.texels)), 0u) << m.material.name;
         }
-    // And it would be seen.
+    // A known material would be recognised.
     const Material known = make_material(families()[3], 7, 128);
     for (int symmetry = 0; symmetry < 8; ++symmetry)
         EXPECT_EQ(trained.count(source_hash(mirrored(known.texels, symmetry))), 1u) << symmetry;
@@ -59,7 +59,7 @@ TEST(material, is_the_same_for_the_same_seed_and_tiles)
 
 TEST(batch, tiles_lie_as_levels_gather_them)
 {
-    // Texel i of a level of n covers j n + i of the one below.
+    // With n texels a level, texel i covers texels j n + i one level below.
     std::set<std::size_t> places;
     for (int y = 0; y < kTileSide; ++y)
         for (int x = 0; x < kTileSide; ++x)
@@ -101,7 +101,7 @@ TEST(classical, what_is_the_same_everywhere_stays)
 
 TEST(classical, two_slopes_become_their_covariance)
 {
-    // Texels that lean +-s along x: one level texel whose covariance along x grew by s^2.
+    // Texels lean by +-s along x. The single level texel's covariance along x grows by s^2.
     const double s = 0.1, nz = 1.0 / std::sqrt(1.0 + s * s), alpha = 0.2;
     Texels t = constant(2, 2, s * nz, 0.0, tensor_of(alpha, alpha, 0.0));
     t.channel[0][1] = t.channel[0][3] = -t.channel[0][0];

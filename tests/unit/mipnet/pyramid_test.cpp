@@ -1,4 +1,4 @@
-// Pyramids by nets: their bytes, and what they keep.
+// Pyramids by nets: bytes and invariants.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(pyramid, outputs_that_are_zero_leave_the_closed_form)
         const Texels t = some_texels(width, height);
         const std::vector<Texels> found = net_pyramid(t, w, Jobs(1)), wanted = classical_pyramid(t, Method::kappa, 0.5);
         ASSERT_EQ(found.size(), wanted.size());
-        for (std::size_t k = 0; k < std::min<std::size_t>(found.size(), width == height ? 7 : 5); ++k) // while no side is 1 already
+        for (std::size_t k = 0; k < std::min<std::size_t>(found.size(), width == height ? 7 : 5); ++k) // while no side is 1
             for (std::size_t c = 0; c < kChannels; ++c)
                 for (std::size_t i = 0; i < wanted[k].count(); ++i)
                     EXPECT_NEAR(found[k].channel[c][i], wanted[k].channel[c][i], 2e-5) << "level " << k;

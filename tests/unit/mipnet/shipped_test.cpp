@@ -1,4 +1,4 @@
-// The cascades that are part of the program, against closed forms on families that they never saw.
+// The program's trained cascades, against closed forms on families outside their training.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,9 +39,9 @@ TEST(shipped, nets_beat_plain_means_on_families_never_seen)
         EXPECT_LT(net->mean.flip, 0.9 * base->mean.flip);
         EXPECT_LT(net->mean.l1, 0.95 * base->mean.l1);
         EXPECT_LT(net->mean.mse, 0.8 * base->mean.mse);
-        EXPECT_LE(kept->worst_l1, 1.25); // 1.15 of a sample
+        EXPECT_LE(kept->worst_l1, 1.25); // the sample's limit is 1.15
         EXPECT_LE(kept->mean.l1, net->mean.l1);
-        // Where the first nets were worse: on level 1, near where lamps are mirrored (FLIP) and from anywhere.
+        // Cases where early nets were worse: level 1, near mirrored lamps (FLIP) and from anywhere.
         double flip[2] = {}, l1[2] = {};
         for (const Judged& row : rows)
             if (row.filter == "baseline" || row.filter == "mipnet")
@@ -52,7 +52,8 @@ TEST(shipped, nets_beat_plain_means_on_families_never_seen)
     }
 }
 
-// Nets that were trained on mirrored and turned tiles: what lies otherwise becomes as good, within 2 % of what they gain on plain means.
+// The nets were trained on mirrored and turned tiles. Turned materials gain as much as upright ones, within 2 % of the gain over plain
+// means.
 TEST(shipped, nets_gain_as_much_however_a_material_lies)
 {
     const Jobs jobs(2);

@@ -1,4 +1,4 @@
-// Training: the same bytes however it runs, and something learnt.
+// Training: equal bytes for every way to run, and a lower loss.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Files of weights, and files that are none.
+// Weight files, and invalid files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ Weights trained_like(bool halves)
     const Plan plan = plan_of(w.shape);
     w.numbers = start_weights(plan, 2);
     Random random(2);
-    for (const Dense* d : {&plan.a, &plan.b}) // outputs as large as training makes them
+    for (const Dense* d : {&plan.a, &plan.b}) // outputs as large as after training
         for (std::size_t i = d->weights[d->count - 1]; i < d->bias[d->count - 1] + kChannels; ++i)
             w.numbers[i] = static_cast<float>(random.between(-0.5, 0.5));
     if (halves)
@@ -57,7 +57,7 @@ TEST(weights, of_one_net_come_back_and_make_pyramids)
     const Result<Weights> read = parse_weights(bytes.data(), bytes.size(), "w");
     ASSERT_TRUE(read) << read.error().line();
     EXPECT_TRUE(read->shape == w.shape);
-    // Outputs that are 0 leave the closed form on every level, as those of both nets do.
+    // Zero outputs leave the closed form on every level, for one net and for two.
     const Texels level0 = make_material(families().front(), 3, 64).texels;
     Weights both = trained_like(true);
     both.numbers = start_weights(plan_of(both.shape), 2);
@@ -101,7 +101,7 @@ TEST(weights, that_are_damaged_or_of_something_else_are_refused)
     refused(12, 9, true, "lobe 9");
     refused(16, 4, true, "layout 4");
     refused(20, 6, true, "6 channels");
-    refused(28, 9, true, "numbers"); // a width that the numbers are not of
+    refused(28, 9, true, "numbers"); // a width that does not match the numbers
     refused(24, 50, true, "50 hidden layers");
     refused(36, 1u << 30, true, "units");
     refused(44, 1u << 30, true, "numbers"); // text without end

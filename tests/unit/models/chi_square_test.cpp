@@ -1,6 +1,5 @@
-// Samples of every model against its pdf: Pearson's chi-square over 16 x 16 bins and one of rejected samples,
-// fixed seeds, one level of significance for all runs together (Sidak 1967). BN_LONG_RUNS: more samples and
-// finer integrals.
+// Samples of every model against its pdf: Pearson's chi-square over 16 x 16 bins and one bin for rejected samples. Seeds are fixed, and all
+// runs together have one significance level (Sidak 1967). BN_LONG_RUNS: more samples and finer integrals.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -18,7 +17,7 @@ constexpr std::size_t kSamples = 60'000;
 constexpr std::size_t kFineness = 1;
 #endif
 constexpr std::size_t kBins = 16;                 // a side
-constexpr std::size_t kCells = kBins * kBins + 1; // the last: rejected
+constexpr std::size_t kCells = kBins * kBins + 1; // the last: rejected samples
 constexpr double kSignificance = 0.01;
 
 // Upper regularised incomplete gamma function Q(a, x): series for small x, else Lentz's continued fraction.
@@ -46,7 +45,7 @@ double gamma_q(double a, double x)
     return scale * value;
 }
 
-// p-value of counts against expected numbers of the same sum; cells expected below 5 are pooled.
+// Returns the p-value of counts against expected numbers with an equal sum. Pools cells expected below 5.
 double p_value(const std::vector<double>& observed, const std::vector<double>& expected)
 {
     double statistic = 0, pooled_o = 0, pooled_e = 0;
@@ -94,14 +93,14 @@ std::vector<double> counted(const ModelCase& model, const std::vector<double>& p
     return cells;
 }
 
-// Integrals of the pdf over the cells, by the midpoint rule; the rejected take what is missing.
+// Integrates the pdf over the cells by the midpoint rule. The rejected cell gets the rest.
 std::vector<double> foretold(const ModelCase& model, const std::vector<double>& params, const Chart& chart)
 {
-    // Points per bin, a side. Refraction is narrow at grazing views, and its chart does not follow it.
+    // Points per bin side. Refraction is narrow at grazing views, and its chart does not follow it.
     const std::size_t points = kFineness * (chart.half ? 12 : 32);
     const std::size_t side = kBins * points, count = side * points;
     std::vector<double> cells(kCells);
-    for (std::size_t row = 0; row < kBins; ++row) { // a row of cells at once
+    for (std::size_t row = 0; row < kBins; ++row) { // one row of cells at a time
         Batch batch(params, count);
         std::vector<double> measure(count);
         for (std::size_t k = 0; k < count; ++k) {
@@ -127,7 +126,7 @@ double run(const ModelCase& model, const Setting& setting, const std::vector<dou
     return p_value(counted(model, sampled, chart, seed), foretold(model, setting.params, chart));
 }
 
-// Per run, so that kSignificance holds for all together.
+// Returns the limit for one run, so that kSignificance holds for all runs together.
 double limit_of_run()
 {
     double runs = 0;

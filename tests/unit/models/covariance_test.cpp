@@ -1,5 +1,5 @@
-// Slope covariances: from roughness and anisotropy with a direction, from KHR_materials_anisotropy with and without a texture,
-// filtered and mixed, and back to axes.
+// Slope covariances: from roughness, anisotropy and a direction; from KHR_materials_anisotropy with and without a texture; filtered and
+// mixed; and back to axes.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -28,7 +28,7 @@ Tensor of_direction(double angle)
     return {c * c, s * s, c * s};
 }
 
-// By definition: variances alpha^2 / 2 along the direction and across it.
+// By definition the variances are alpha^2 / 2 along the direction and across it.
 Tensor of_alphas(double along, double across, double angle)
 {
     const Tensor d = of_direction(angle);
@@ -44,7 +44,7 @@ Tensor by_definition_khr(double alpha, double strength, double angle)
     return of_alphas(alpha + (1 - alpha) * strength * strength, alpha, angle);
 }
 
-// The kernels that renderers call; the same on every instruction set.
+// Runs a kernel of the renderers. Results must be equal on every instruction set.
 std::vector<double> run(const char* name, const std::vector<double>& in)
 {
     const std::vector<double> scalar = call(float_fns()[0], name, in);
@@ -80,7 +80,7 @@ void expect_near(Tensor a, Tensor b, double tolerance, const char* what)
         EXPECT_NEAR(a[k], b[k], tolerance) << what << " entry " << k;
 }
 
-// A texel through the bake: red, green, blue as in the file.
+// Bakes a texel with the file's red, green and blue.
 Tensor texel(double r, double g, double b, int power, PixelType type = PixelType::f32)
 {
     Image image = make_image(1, 1, 3, type);
@@ -158,7 +158,7 @@ TEST(covariance, degenerate_matrices_have_axes)
         const Axes a = axes_of(m);
         EXPECT_NEAR(a.x * a.x + a.y * a.y, 1, 1e-6) << m[0] << " " << m[1] << " " << m[2];
         const double mean = std::sqrt(std::max(0.0, 0.5 * (m[0] + m[1])));
-        EXPECT_GE(a.sigma_v, std::min(0.7071e-3, 0.9999 * mean)); // a round lobe keeps its width, however narrow
+        EXPECT_GE(a.sigma_v, std::min(0.7071e-3, 0.9999 * mean)); // a round lobe keeps its width, even a narrow one
         EXPECT_GE(a.sigma_u, a.sigma_v);
         EXPECT_LE(a.sigma_u, 1);
         EXPECT_TRUE(mean == 0.0 || (a.eta >= 0 && a.eta < 1)) << a.eta;
@@ -185,7 +185,7 @@ TEST(covariance, follows_khr_materials_anisotropy)
     EXPECT_NEAR(axes_of(from_khr(.16, 0, .5, kNoTexture, kNoTexture)).eta, 0, 1e-5);
 }
 
-// Red and green turn the axis on, blue weakens it, whatever the type of the file.
+// Red and green turn the axis, and blue weakens the anisotropy, for every file type.
 TEST(direction_map, texels_turn_and_weaken_the_axis)
 {
     for (const auto& [type, step] : {std::pair{PixelType::f32, 1e-7}, {PixelType::u16, 1e-4}, {PixelType::u8, 8e-3}})
@@ -204,7 +204,7 @@ TEST(direction_map, length_of_a_direction_does_not_count)
     expect_near(faint, full, 2e-6, "faint");
 }
 
-// (128, 128) in eight bits stands for no direction.
+// (128, 128) in eight bits encodes no direction.
 TEST(direction_map, a_texel_without_direction_is_isotropic)
 {
     const double nan = std::nan("");
@@ -229,7 +229,7 @@ TEST(direction_map, a_texel_without_direction_is_isotropic)
     }
 }
 
-// The mean of two texels' tensors gives the mean of their covariances: filtering tensors filters the covariance.
+// Averaging two texels' tensors averages their covariances, so filtering tensors filters covariances.
 TEST(direction_map, filtering_is_exact)
 {
     const double alpha = .09, strength = .8, turn = .4;
@@ -240,7 +240,7 @@ TEST(direction_map, filtering_is_exact)
     expect_near(got, mixed(by_definition_khr(alpha, strength * .7, turn + .3), by_definition_khr(alpha, strength, turn + 2)), 1e-7, "mean");
 }
 
-// A direction and its opposite are the same grain, and a grain of any strength turns an override's axis.
+// A direction and its opposite are one grain, and a grain of any strength turns an override's axis.
 TEST(direction_map, strength_does_not_change_an_override)
 {
     for (double angle : {0.0, .3, 1.4, 2.9})

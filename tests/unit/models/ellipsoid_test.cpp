@@ -1,4 +1,4 @@
-// Known values and laws of the ellipsoid distribution and of the dielectric made of it.
+// Known values and laws for the ellipsoid distribution and its dielectric.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -49,13 +49,13 @@ TEST(ellipsoid_vectors, distribution_masking_brdf_and_densities_are_known)
         expect(half_pdf("ellipsoid", c.params, c.wo, c.wi), c.p_h);
         expect(value("ellipsoid", true, c.params, c.wo, c.wi), c.p_o);
     }
-    const EllipsoidCase& lit = kEllipsoids[3]; // the view's minimum is at work
+    const EllipsoidCase& lit = kEllipsoids[3]; // the view's minimum limits G1
     std::vector<double> in = lit.params;
     in.insert(in.end(), lit.wo.begin(), lit.wo.end());
     EXPECT_NEAR(call(oracle_fns(), "ellipsoid_k", in)[0] * lit.wo[2], 1.17413963, 2e-8);
 }
 
-// Smith's G2 of G1s whose microfacets' heights are one for both directions, where a minimum is at work too.
+// Derives the height-correlated G2 from both directions' G1, including cases where a minimum limits G1.
 TEST(ellipsoid_vectors, correlated_masking_follows_from_that_of_either_direction)
 {
     for (const EllipsoidCase& c : kEllipsoids) {
@@ -104,7 +104,8 @@ TEST(ellipsoid_vectors, tilts_move_the_commonest_normal)
     expect_near({y[0], y[1], y[2]}, {-.19866933, 0, .98006658}, 1e-8);
 }
 
-// .14 of the samples; accepted they would give an albedo of .858 (quadrature in double of the paper's formulas, 3000^2 half vectors).
+// A part .14 of the samples lies below the horizon; accepted, they would give an albedo of .858. Expected values are double-precision
+// quadratures of the paper's formulas (3000^2 half vectors).
 TEST(ellipsoid_vectors, directions_below_the_horizon_reflect_nothing)
 {
     const Setting setting = {{.3, .5, 0, 0, 0, 0}, {.3, .5}};
@@ -115,8 +116,8 @@ TEST(ellipsoid_vectors, directions_below_the_horizon_reflect_nothing)
     EXPECT_EQ(eval("ellipsoid", {.3, .5, .3, .2, 0}, unit({.5, 0, -.5}), unit({-.5, 0, .1})), 0);
 }
 
-// The normals' areas add up to the surface's; those that u sees, times G1, cover no more than the surface that u sees, and all of
-// it unless G1's minimum is at work, which is nowhere on an upright ellipsoid.
+// The projected areas of the normals add up to the surface's area. The areas visible from u, times G1, equal the surface's projected area,
+// or less where G1's minimum applies. The minimum never applies to an upright ellipsoid.
 TEST(ellipsoid_vectors, masking_leaves_the_projected_area)
 {
     int limited = 0;

@@ -1,5 +1,4 @@
-// How far float results are from the double oracle, in units of the last place and in units of what no float version can be
-// held to less than.
+// Float errors against the double oracle, in units of the last place (ulp) and in units of unavoidable rounding.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,25 +7,24 @@
 
 namespace burnish::test {
 
-// The last place of a float of the size of `truth`, or of `least` where truth is smaller. 1e-24: what is left of a lobe there
-// may be cut off.
+// Returns the last place of a float as large as `truth`, or as large as `least` if truth is smaller. Below 1e-24 a lobe's tail may be cut
+// off.
 double ulp(double truth, double least = 1e-24);
 
-// How far results of `exact` move when arguments move by a float's step or not at all: the largest of
-// six tries. The density of a lobe of width 0.001 moves by thousands of ulp, a refraction's cosine without bound where the facet
-// is seen edge on.
+// Returns how far `exact`'s results move when arguments move by one float step or stay: the largest of six tries. The density of a lobe of
+// width 0.001 moves by thousands of ulp. A refraction's cosine moves without bound where the facet is seen edge on.
 std::vector<double> sway(const Kernel& exact, const std::vector<double>& in);
 
-// The largest of many errors, and that which one in a thousand exceeds.
+// The largest of many errors, and the error that one in a thousand exceeds.
 struct Extent {
     double largest, common;
 };
 
-// Errors of one kind of result: in ulp, and as multiples of ulp and sway together.
+// Errors for one kind of result, in ulp and in multiples of ulp plus sway.
 class Errors {
   public:
     void add(double value, double truth, double last_place, double moved);
-    // Prints both; expects the multiples of ulp and sway to stay within `bound`.
+    // Prints both. Expects the multiples of ulp plus sway to stay within `bound`.
     void expect_within(Extent bound, const char* function, const char* result);
 
   private:

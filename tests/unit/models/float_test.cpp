@@ -1,5 +1,4 @@
-// The float versions of every model: the same bits on every instruction set, close to the double oracle, and
-// finite everywhere.
+// Float versions of every model: equal bits on every instruction set, close to the double oracle, and finite everywhere.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -37,7 +36,7 @@ Batch random_samples(const Setting& setting, std::size_t n, std::uint64_t seed)
     return batch;
 }
 
-// Random pairs, pairs near the mirror direction, and pairs that the model samples, which find the narrowest lobe.
+// Returns random pairs, pairs near the mirror direction, and pairs sampled from the model, which find the narrowest lobe.
 Batch random_pairs(const ModelCase& model, const Setting& setting, bool halves, std::size_t n, std::uint64_t seed)
 {
     const Batch draws = random_samples(setting, n, seed + 1000);
@@ -59,8 +58,8 @@ Batch random_pairs(const ModelCase& model, const Setting& setting, bool halves, 
     return batch;
 }
 
-// Numbers that models are brought up to, and beyond: widths, exponents, tilts, indices. Every model gets them
-// in every place.
+// Returns parameters at and beyond the limits that models clamp to: widths, exponents, tilts, indices. Every model gets them in every
+// position.
 std::vector<std::vector<double>> harsh_params()
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -154,8 +153,8 @@ TEST_P(float_models, degenerate_inputs_give_finite_results)
     });
 }
 
-// In multiples of sway and ulp, twice what was seen, rounded up. An ellipsoid's sample takes its density where its normal was
-// rounded to, which a tilted lobe of width 0.001 magnifies.
+// Bounds in multiples of ulp plus sway: twice the observed errors, rounded up. An ellipsoid's sample evaluates its density at the rounded
+// normal, which a tilted lobe of width 0.001 magnifies.
 constexpr std::size_t kKinds = 7;
 constexpr const char* kKindNames[kKinds] = {"eval", "pdf", "half_pdf", "direction", "weight", "density", "cosine"};
 struct Bound {
@@ -177,8 +176,8 @@ constexpr Bound kBounds[] = {
     {"ellipsoid_dielectric", {{7, 4}, {8, 4}, {1, 1}, {31, 5}, {54, 8}, {790, 250}, {6, 3}}},
 };
 
-// Of samples the direction, weight and cosine are measured in 2^-24. Both versions reject the same samples, but at the horizon,
-// of wi or of the half vector, where either answer is right.
+// Adds the errors of samples. Direction, weight and cosine count in units of 2^-24. Both versions reject the same samples, except where wi
+// or the half vector lies at the horizon and either answer is right.
 void sample_errors(const ModelCase& model, const Setting& setting, std::size_t n, Errors* of)
 {
     const Batch samples = random_samples(setting, n, 44);

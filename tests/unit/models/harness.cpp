@@ -35,7 +35,7 @@ Vec direction(double theta, double phi)
 {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
-// volatile: GCC 12.2 -O3 turns two neighbouring conversions to float and back into nothing.
+// volatile: GCC 12.2 -O3 removes two neighbouring conversions to float and back.
 Vec rounded(Vec a)
 {
     for (double& x : a) {
@@ -128,7 +128,7 @@ Chart::Point Chart::at(double u, double v) const
         p.per_wi = 2 * std::numbers::pi * steepest * std::sin(steepest * u);
         return p;
     }
-    const double rest = (1 - u) * (1 - u); // finer where the lobe is thin: what grazing views see grows there
+    const double rest = (1 - u) * (1 - u); // finer where the lobe is thin, since grazing views magnify it
     const double t2 = (1 - rest) / rest;
     const double t = std::sqrt(t2);
     p.h = unit({widths[0] * t * std::cos(phi), widths[1] * t * std::sin(phi), 1});

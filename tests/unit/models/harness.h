@@ -1,5 +1,4 @@
-// What the tests of models share: the list of models with their settings, directions, random numbers,
-// integrals over directions.
+// Shared parts of the model tests: models with settings, directions, random numbers, integrals over directions.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,7 +17,7 @@ Vec operator*(Vec a, double s);
 double dot(Vec a, Vec b);
 Vec unit(Vec a);
 Vec direction(double theta, double phi);
-Vec rounded(Vec a); // to float
+Vec rounded(Vec a); // rounded to float
 
 enum Traits : unsigned {
     kNoTraits = 0,
@@ -31,7 +30,7 @@ enum Traits : unsigned {
 
 struct Setting {
     std::vector<double> params;
-    std::array<double, 2> widths; // of a GGX lobe that covers the model's; 0 where no integral resolves it
+    std::array<double, 2> widths; // of a GGX lobe that covers the model's lobe; 0 where no integral resolves it
     bool integrable() const { return widths[0] > 0; }
 };
 
@@ -40,7 +39,7 @@ struct ModelCase {
     unsigned traits;
     std::vector<Setting> settings;
 };
-inline void PrintTo(const ModelCase& model, std::ostream* out) // gtest would print bytes, addresses among them
+inline void PrintTo(const ModelCase& model, std::ostream* out) // gtest would print bytes, including addresses
 {
     *out << model.name;
 }
@@ -57,7 +56,7 @@ class Random { // splitmix64
     std::uint64_t state;
 };
 
-// Arguments of ModelFns for many pairs at once.
+// Arguments of ModelFns for many pairs.
 class Batch {
   public:
     Batch(const std::vector<double>& params, std::size_t count);
@@ -72,29 +71,28 @@ class Batch {
     std::vector<double> in;
 };
 
-// Directions wi as functions of the square: in models with half vectors through a GGX lobe, else uniform over
-// (hemi)sphere.
+// Maps the unit square to directions wi: through a GGX lobe for models with half vectors, else uniform over the (hemi)sphere.
 struct Chart {
     Vec wo;
     bool half;
-    double steepest; // uniform: angles to the normal up to here, rad
+    double steepest; // uniform: largest angle to the normal, rad
     std::array<double, 2> widths;
 
     struct Point {
         Vec wi, h;
         double per_wi,
-            per_h; // d wi / d(square), d h / d(square), sr; per_wi 0 where wo cannot be reflected to wi
+            per_h; // d wi / d(square), d h / d(square), sr; per_wi is 0 where wo does not reflect to wi
     };
     Point at(double u, double v) const;
-    std::array<double, 2> of(Vec wi) const; // the square's point; what `at` maps to wi
+    std::array<double, 2> of(Vec wi) const; // inverse of `at`: the square's point for wi
 };
 Chart chart_of(const ModelCase& model, const Setting& setting, Vec wo);
 
 enum class Integrand { albedo, pdf, half_pdf };
-// Midpoint rule on grid x grid points, on the widest instruction set.
+// Integrates with the midpoint rule on grid x grid points, on the widest instruction set.
 double integral(const ModelCase& model, const Setting& setting, Vec wo, Integrand what, int grid);
 
-// Views at which models are tested, unit; downward ones too for those that transmit.
+// Returns the unit views for testing a model, including downward views for transmitting models.
 std::vector<Vec> views(const ModelCase& model);
 
 } // namespace burnish::test

@@ -1,4 +1,4 @@
-// Every reflection model, and the functions that go with them.
+// Every reflection model and its helper functions.
 #include "tests/unit/lanes/run_lanes.h"
 #include "tests/unit/models/model_fns.h"
 
@@ -22,10 +22,10 @@ struct RandomNumbers {
     operator real3() const { return vec3_of(x, y, z); }
 };
 
-// p of models without parameters, whose functions have none.
+// Stands for p in models without parameters, whose functions take none.
 struct no_params {};
 
-// A model's function with p, without p where it takes none, or 0 where there is no such function.
+// Calls a model's function with p, or without p if it takes none. Returns 0 if there is no such function.
 #define BN_CALL(fn, ...)                                                                                                                   \
     [](auto p, auto... rest) {                                                                                                             \
         if constexpr (requires { fn(p, rest...); })                                                                                        \

@@ -1,4 +1,4 @@
-// What physics and probability ask of every model of shading/models.def.
+// Physical and statistical laws for every model of shading/models.def.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +24,7 @@ std::string case_name(const testing::TestParamInfo<ModelCase>& info)
     return info.param.name;
 }
 
-// model_laws hold for all; where the others do not, model_limits or dielectric_vectors say what holds instead.
+// All models satisfy model_laws. For models that break another law, model_limits or dielectric_vectors states the replacement.
 #define BN_LAWS(suite, traits)                                                                                                             \
     class suite : public testing::TestWithParam<ModelCase> {};                                                                             \
     INSTANTIATE_TEST_SUITE_P(models, suite, testing::ValuesIn(models_with(traits)), case_name);
@@ -76,7 +76,7 @@ TEST_P(reciprocity_laws, is_reciprocal)
     }
 }
 
-// Over wi, with what is rejected, the density adds up to one.
+// The density over wi and the rejected part add up to one.
 TEST_P(model_laws, pdf_and_rejections_add_up_to_one)
 {
     const ModelFns fns = fns_of(fast_fns(), GetParam());
@@ -106,15 +106,14 @@ TEST_P(half_vector_laws, half_vector_density_integrates_to_one)
             EXPECT_NEAR(integral(GetParam(), setting, wo, Integrand::half_pdf, 192), 1, 1e-3) << label(setting, wo);
 }
 
-// weight = eval cos / pdf, with the same density that pdf gives, and the direction it gives is unit and above
-// the horizon.
+// weight = eval cos / pdf, with the density that pdf returns. Directions are unit and above the horizon.
 TEST_P(model_laws, samples_agree_with_eval_and_pdf)
 {
     const ModelFns fns = fns_of(oracle_fns(), GetParam());
-    const bool cosine_inside = std::string(GetParam().name) == "heidrich_seidel"; // its eval is BRDF times cosine
+    const bool cosine_inside = std::string(GetParam().name) == "heidrich_seidel"; // its eval includes the cosine
     for (const Setting& setting : GetParam().settings)
         for (Vec view : views(GetParam())) {
-            const Vec wo = unit(view); // views are unit to float only
+            const Vec wo = unit(view); // views are unit to float precision only
             Random random(13);
             const std::size_t n = 2048;
             Batch batch(setting.params, n), pairs(setting.params, n);
@@ -126,7 +125,7 @@ TEST_P(model_laws, samples_agree_with_eval_and_pdf)
             const std::vector<double> f = pairs.run(fns.eval), pdf = pairs.run(fns.pdf);
             for (std::size_t k = 0; k < n; ++k) {
                 const Vec wi = {s[k], s[n + k], s[2 * n + k]};
-                ASSERT_NEAR(dot(wi, wi), 1, 2e-8); // fits of logarithms leave 1e-8 in half vectors
+                ASSERT_NEAR(dot(wi, wi), 1, 2e-8); // fits of logarithms leave errors of 1e-8 in half vectors
                 if (s[6 * n + k] == 0) {
                     ASSERT_EQ(s[3 * n + k], 0);
                     continue;
@@ -159,9 +158,9 @@ TEST_P(weight_laws, weights_are_at_most_one)
     EXPECT_GT(largest, 0.9);
 }
 
-// What models have in place of the laws that they break by nature.
+// Replacements for the laws that models break by nature.
 
-// fn(wo, wi, sample's numbers) for many valid samples of every setting.
+// Calls fn(wo, wi, sample's numbers) for many valid samples of every setting.
 template <class Fn> void each_sample(const ModelCase& model, const Fn& fn)
 {
     for (const Setting& setting : model.settings) {
@@ -180,7 +179,7 @@ template <class Fn> void each_sample(const ModelCase& model, const Fn& fn)
     }
 }
 
-// Weights (wo.h) h.z^3 sqrt(wi.z / wo.z), without h.z^3 for the cheap exponent: at most 1 / sqrt(wo.z), and beyond 1.
+// Weights are (wo.h) h.z^3 sqrt(wi.z / wo.z), without h.z^3 for the cheap exponent: at most 1 / sqrt(wo.z), which exceeds 1.
 TEST(model_limits, weights_of_ward_grow_as_the_root_of_the_cosine)
 {
     struct Case {
@@ -202,7 +201,7 @@ TEST(model_limits, weights_of_ward_grow_as_the_root_of_the_cosine)
     }
 }
 
-// Of the cheap exponent's half vectors the share exp(-2 / alpha^2) lies below the horizon and is rejected.
+// With the cheap exponent a part exp(-2 / alpha^2) of the half vectors lies below the horizon and is rejected.
 TEST(model_limits, wide_lobes_of_the_cheap_exponent_lose_half_vectors)
 {
     const ModelCase& model = model_case("ward_cheap");
@@ -218,14 +217,14 @@ TEST(model_limits, wide_lobes_of_the_cheap_exponent_lose_half_vectors)
         double valid = 0;
         for (std::size_t k = 0; k < n; ++k)
             valid += s[6 * n + k];
-        // Seen along the normal light leaves the surface where 1 - h.z is below 1 - sqrt(1/2).
+        // Seen along the normal, light leaves the surface where 1 - h.z is below 1 - sqrt(1/2).
         const double above = 1 - std::exp(-2 * (1 - std::sqrt(.5)) / (alpha * alpha));
         EXPECT_NEAR(valid / static_cast<double>(n), above, 6e-3);
         EXPECT_NEAR(integral(model, setting, {0, 0, 1}, Integrand::pdf, 256), above, 2e-3);
     }
 }
 
-// Towards grazing views; widths .4 and .2; quadrature in double of Ward's formulas (2000^2 half vectors).
+// Albedo at views towards grazing, for widths .4 and .2; double-precision quadrature of Ward's formulas (2000^2 half vectors).
 TEST(model_limits, ward_gains_energy_at_grazing_views)
 {
     const Setting setting = {{.4, .2, 0, 0, 0, 0}, {.4, .2}};
@@ -237,8 +236,8 @@ TEST(model_limits, ward_gains_energy_at_grazing_views)
     }
 }
 
-// Weights G2 (wo.h) / (wo.z h.z) have no bound but that of masking alone, G2 <= G1(wo), but for the 6e-5 by which the rational
-// Lambda dips below 0 where it ends.
+// Weights G2 (wo.h) / (wo.z h.z) are bounded by masking alone, G2 <= G1(wo). The rational Lambda exceeds the bound by 6e-5, where it dips
+// below 0 at its end.
 TEST(model_limits, weights_of_beckmann_are_bounded_by_its_masking)
 {
     double largest = 0;
@@ -253,8 +252,8 @@ TEST(model_limits, weights_of_beckmann_are_bounded_by_its_masking)
     EXPECT_GT(largest, 2);
 }
 
-// Threads are not normalised: the diffuse term's integral over the hemisphere is pi^2 / 2 whatever the view, and that of
-// the gloss, seen along the normal, half the surface integral of sine^p, pi^(3/2) Gamma(p / 2 + 1) / Gamma(p / 2 + 3 / 2).
+// Threads are not normalised. The diffuse term's integral over the hemisphere is pi^2 / 2 for every view. The gloss, seen along the normal,
+// integrates to half the surface integral of sine^p, pi^(3/2) Gamma(p / 2 + 1) / Gamma(p / 2 + 3 / 2).
 TEST(model_limits, threads_reflect_their_known_integrals)
 {
     const ModelCase& model = model_case("heidrich_seidel");
@@ -282,7 +281,7 @@ TEST(model_limits, threads_reflect_their_known_integrals)
     }
 }
 
-// Only their gloss is reciprocal. Samples are uniform: weight = 2 pi eval, at most 2 pi (kd + ks).
+// Only the gloss is reciprocal. Samples are uniform: weight = 2 pi eval, at most 2 pi (kd + ks).
 TEST(model_limits, threads_are_reciprocal_in_their_gloss_alone)
 {
     const ModelCase& model = model_case("heidrich_seidel");

@@ -1,5 +1,5 @@
-// Special functions, Fresnel's equations and slope covariances in float: the same bits on every instruction set, finite
-// everywhere, close to the double oracle.
+// Special functions, Fresnel's equations and slope covariances in float: equal bits on every instruction set, finite everywhere, close to
+// the double oracle.
 #include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 struct Argument {
     double low, high;
-    std::vector<double> harsh; // every second value is one of these
+    std::vector<double> harsh; // every second value comes from this list
 };
 const Argument kCosine = {0, 1, {0, 1e-20, 1e-8, 1e-4, 0.5, 0.99999994, 1}};
 const Argument kIndex = {0.1, 10, {1e-3, 0.6, 0.99999994, 1, 1.0000001, 1.5, 1e4}};
@@ -24,14 +24,14 @@ const Argument kTurn = {-1, 1, {-1, -0.6, -1e-8, 0, 1e-8, 0.8, 1}};
 const Argument kVariance = {0, 0.5, {0, 1e-30, 5e-13, 1e-9, 5e-7, 0.125, 0.5}};
 const Argument kMixed = {-0.5, 0.5, {-0.5, -1e-5, -1e-25, 0, 1e-25, 1e-9, 0.125}};
 
-enum class Measure { each, together }; // errors in the last place of each result, or of the point's largest
+enum class Measure { each, together }; // in the last place of each result, or of the point's largest result
 struct Function {
     const char* name;
     std::vector<Argument> arguments;
-    std::vector<std::size_t> tensors; // the first of three arguments xx, yy, xy, of which xy counts in units of 2 sqrt(xx yy)
+    std::vector<std::size_t> tensors; // first of three arguments xx, yy, xy; xy counts in units of 2 sqrt(xx yy)
     Measure measure;
-    Extent bound;     // in multiples of that and of sway, twice what was seen
-    double low, high; // results lie within
+    Extent bound;     // in multiples of the measure plus sway, twice the observed error
+    double low, high; // range of results
 };
 const std::vector<Function>& functions()
 {

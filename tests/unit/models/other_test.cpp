@@ -19,7 +19,7 @@ double as_float(double x)
     return rounded({x, 0, 0})[0];
 }
 
-// Largest relative error of a float function of one argument over [low, high].
+// Returns the largest relative error of a one-argument float function over [low, high].
 double largest_error(const char* name, double (*exact)(double), double low, double high)
 {
     double worst = 0;
@@ -49,7 +49,7 @@ TEST(special_functions, error_function_of_its_inverse_is_the_argument)
     for (int i = -9999; i <= 9999; ++i) {
         const double x = as_float(i / 10000.0);
         const double y = at("erfinv", {x});
-        // 1e-6 of y, seen through the derivative of erf.
+        // 1e-6 of y, multiplied by the derivative of erf.
         const double slope = 2 / std::sqrt(std::numbers::pi) * std::exp(-y * y);
         ASSERT_NEAR(std::erf(y), x, 1e-6 * std::abs(y) * slope + 1e-12) << x;
     }
@@ -66,7 +66,7 @@ TEST(special_functions, ends_of_the_domains_are_finite)
     EXPECT_EQ(at("log1p", {0}), 0);
 }
 
-// Fresnel's equations as they stand in books, in complex double.
+// Returns Fresnel's reflectance from the textbook equations, in complex double.
 double fresnel_exact(double c, std::complex<double> n)
 {
     const std::complex<double> g = std::sqrt(n * n - 1.0 + c * c);
@@ -113,7 +113,7 @@ TEST(fresnel, limits_are_exact)
     EXPECT_EQ(at("fresnel_dielectric", {0, 1}), 0);
     EXPECT_EQ(at("fresnel_dielectric", {0.5, 0.6}), 1); // total reflection
     EXPECT_EQ(at("fresnel_dielectric", {0, 0.6}), 1);
-    const double brewster = std::cos(std::atan(1.5)); // only light polarised across is left
+    const double brewster = std::cos(std::atan(1.5)); // only light polarised across the plane is left
     EXPECT_NEAR(at("fresnel_dielectric", {brewster, 1.5}), 0.5 * std::pow((1 - 2.25) / (1 + 2.25), 2), 1e-6);
     EXPECT_EQ(at("fresnel_conductor", {0, 0.2, 3.9}), 1);
     EXPECT_EQ(at("fresnel_conductor", {0.5, 1, 0}), 0);

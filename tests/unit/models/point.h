@@ -1,4 +1,4 @@
-// Models of the double oracle at single points, for tests of known values.
+// Evaluates the double oracle's models at single points, for tests with known values.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -56,7 +56,7 @@ TEST(grain, points_where_the_extrema_point)
         }
 }
 
-// The middle sample mirrors the view about the normal, at the width across; a round lobe is one such sample however many are asked for.
+// The middle sample mirrors the view about the normal, at the narrower width. A round lobe gives this one sample for every requested count.
 TEST(grain, middle_samples_and_round_lobes_are_mirrors)
 {
     const Vec o = direction(.5, .8);
@@ -65,7 +65,7 @@ TEST(grain, middle_samples_and_round_lobes_are_mirrors)
     EXPECT_NEAR(middle[0], -o[0], 1e-6);
     EXPECT_NEAR(middle[1], -o[1], 1e-6);
     EXPECT_NEAR(middle[2], o[2], 1e-6);
-    for (double c : {0.0, .6, -.9}) { // from the front: aside, even a round lobe is long
+    for (double c : {0.0, .6, -.9}) { // from the front: from the side even a round lobe is long
         const std::vector<double> g = at("grain_sample", {0, 0, 1, sigma, sigma, 1, c, std::sqrt(1 - c * c), .3});
         EXPECT_NEAR(g[0], 0, 1e-4) << c;
         EXPECT_NEAR(g[1], 0, 1e-4) << c;
@@ -91,7 +91,7 @@ TEST(grain, degenerate_inputs_stay_finite)
                 }
 }
 
-// theta_x tilts the commonest normal to +y, theta_y to -x.
+// theta_x tilts the most common normal to +y, theta_y to -x.
 TEST(tilt, turns_the_commonest_normal_as_the_ellipsoid_does)
 {
     for (const auto& [x, y] : {std::pair{.2, 0.0}, {0.0, .2}, {.3, -.5}}) {

@@ -1,4 +1,4 @@
-// Lobes as tensors: every form to every other and back, in doubles and in floats; frames of normals, and what SGGX makes of them.
+// Lobes as tensors: all conversions between forms and back, in doubles and floats; frames of normals, and SGGX.
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Numbers tensor_of(const Lobe& l)
     return exact("tensor_axes_in", {l.u, l.v, std::cos(l.angle), std::sin(l.angle)});
 }
 
-// Both ways, by the definition of each form: M = R diag(u, v) R^T, A its adjugate, Sigma = M^2 / 2.
+// Converts both ways, by each form's definition: M = R diag(u, v) R^T, A its adjugate, Sigma = M^2 / 2.
 TEST(tensor, forms_go_to_each_other_and_back)
 {
     for (const Lobe& l : kLobes) {
@@ -103,7 +103,7 @@ Numbers unit(const std::array<double, 3>& n)
     return {n[0], n[1], std::sqrt(1.0 - n[0] * n[0] - n[1] * n[1])};
 }
 
-// To a normal's frame and back; by numbers: how normals about n turn in its frame as their slopes change.
+// Converts to a normal's frame and back. The expected values turn normals about n numerically in its frame as their slopes change.
 TEST(tensor, frames_are_reached_and_left_as_normals_turn)
 {
     for (const auto& of : kNormals) {
@@ -115,7 +115,7 @@ TEST(tensor, frames_are_reached_and_left_as_normals_turn)
             EXPECT_NEAR(back[i], own[i], 1e-12);
         const double k = 1.0 / (1.0 + n[2]), step = 1e-6;
         const double t[3] = {1 - n[0] * n[0] * k, -n[0] * n[1] * k, -n[0]}, b[3] = {-n[0] * n[1] * k, 1 - n[1] * n[1] * k, -n[1]};
-        double turn[2][2]; // of slope to the frame
+        double turn[2][2]; // d(turn in the frame) / d(slope)
         for (int axis = 0; axis < 2; ++axis) {
             double m[3] = {n[0] / n[2] + (axis == 0 ? step : 0.0), n[1] / n[2] + (axis == 1 ? step : 0.0), 1.0};
             double along[3] = {};
@@ -130,7 +130,7 @@ TEST(tensor, frames_are_reached_and_left_as_normals_turn)
         EXPECT_NEAR(turned(0, 0), own[0], 1e-6);
         EXPECT_NEAR(turned(1, 1), own[1], 1e-6);
         EXPECT_NEAR(turned(0, 1), own[2], 1e-6);
-        // the same frame in space, which is that of the shortest turn
+        // the same frame in space, by the shortest turn
         const Numbers space = exact("covariance_into_space", {n[0], n[1], n[2], own[0], own[1], own[2]});
         const Numbers seen =
             exact("covariance_out_of_space", {n[0], n[1], n[2], space[0], space[1], space[2], space[3], space[4], space[5]});
@@ -154,7 +154,7 @@ Numbers joined(std::initializer_list<Numbers> parts)
     return all;
 }
 
-// An SGGX matrix of one normal is the lobe about it; of any, and in any frame, S_tt / S_nn - (S_tn / S_nn)^2.
+// The SGGX matrix of one normal is the lobe about it. For any matrix in any frame, the slopes are S_tt / S_nn - (S_tn / S_nn)^2.
 TEST(tensor, slopes_of_an_sggx_matrix_are_its_schur_complement)
 {
     for (const auto& of : kNormals) {
@@ -173,11 +173,11 @@ TEST(tensor, slopes_of_an_sggx_matrix_are_its_schur_complement)
         EXPECT_NEAR(flat[2], (s[0] + n[0] * n[0]) / nn - mean[0] * mean[0], 1e-12);
         EXPECT_NEAR(flat[3], (s[1] + n[1] * n[1]) / nn - mean[1] * mean[1], 1e-12);
         EXPECT_NEAR(flat[4], (s[3] + n[0] * n[1]) / nn - mean[0] * mean[1], 1e-12);
-        const Numbers along = exact("sggx_product", joined({n, s, n})); // n is an axis of it, of eigenvalue 1
+        const Numbers along = exact("sggx_product", joined({n, s, n})); // n is an axis of the matrix with eigenvalue 1
         for (std::size_t i = 0; i < 3; ++i)
             EXPECT_NEAR(along[i], n[i], 1e-12);
     }
-    // narrow lobes keep their digits in floats, where the matrix itself has lost them
+    // narrow lobes keep their digits in floats, although the matrix has lost them
     const Numbers n = unit(kNormals[1]), small = exact("tensor_covariance", {0.002, 0.002, 0.0});
     const Numbers s = exact("covariance_into_space", joined({n, {2 * small[0], 2 * small[1], 2 * small[2]}}));
     const Numbers in = joined({{0, 0, 1}, n, s});

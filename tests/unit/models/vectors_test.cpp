@@ -1,4 +1,4 @@
-// Known values of every model, most computed by independent means in double precision.
+// Known values of every model, mostly computed by independent means in double precision.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -71,8 +71,8 @@ TEST(beckmann_vectors, albedo_is_known)
         EXPECT_NEAR(albedo("beckmann", {{.5, .1}, {.5, .1}}, direction(c[0], 0), 512), c[1], 1.5e-3);
 }
 
-// Smith's integral for Gaussian slopes: Lambda = (exp(-c^2) / (c sqrt(pi)) - erfc(c)) / 2; the rational function is within 0.35 %
-// of the masking that follows (Walter et al. 2007).
+// Smith's integral for Gaussian slopes: Lambda = (exp(-c^2) / (c sqrt(pi)) - erfc(c)) / 2. The rational function is within 0.35 % of the
+// resulting masking (Walter et al. 2007).
 TEST(beckmann_vectors, masking_is_that_of_gaussian_slopes)
 {
     double worst = 0;
@@ -109,7 +109,7 @@ TEST(ward_vectors, exponents_differ_by_a_fifth)
     EXPECT_NEAR(half_pdf("ward_cheap", {.4, .2}, h, h) * std::numbers::pi * .08, .19851765, 2e-8);
 }
 
-// The exact exponent gives less; both by quadrature in double of Ward's formulas (2000^2 half vectors).
+// The exact exponent gives less; both from double-precision quadrature of Ward's formulas (2000^2 half vectors).
 TEST(ward_vectors, albedos_are_known)
 {
     const double cases[][3] = {{.2, .838, .76881}, {1, .527, .46193}, {1.4, .366, .29151}, {1.5, .407, .30906}};
@@ -120,7 +120,7 @@ TEST(ward_vectors, albedos_are_known)
     }
 }
 
-// With xi.y = 1 - exp(-2 E (1 - cos)) the half vector's cosine is known, along either axis.
+// With xi.y = 1 - exp(-2 E (1 - cos)) the half vector's cosine is known along either axis.
 TEST(ward_vectors, half_vectors_of_the_cheap_exponent_are_known)
 {
     for (const IsaFns& isa : {float_fns()[0], oracle_fns()})
@@ -163,7 +163,7 @@ TEST(ashikhmin_shirley_vectors, half_vectors_are_known_in_all_quadrants)
 
 TEST(ashikhmin_shirley_vectors, both_parts_of_the_albedo_are_known)
 {
-    // nu nv theta phi; shares of the light that go with f0 and with 1 - f0 of Schlick's factor
+    // nu nv theta phi; shares of the light that multiply f0 and 1 - f0 in Schlick's factor
     const double cases[][6] = {{20, 20, .5, 0, .80441089, .00032332},
                                {100, 10, 1.2, .7, .60681231, .04751581},
                                {5, 50, 1.4, 1.3, .42194661, .13549095},

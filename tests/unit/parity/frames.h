@@ -8,7 +8,7 @@
 
 namespace burnish::test {
 
-// Two pixels of two samples: the first shows triangle 0 and the background, the second triangle 1. Every word of a float is 1.
+// Returns two pixels of two samples: the first shows triangle 0 and the background, the second shows triangle 1. Every float is 1.
 inline Frame two_pixels()
 {
     constexpr std::uint32_t kOne = std::bit_cast<std::uint32_t>(1.0f);

@@ -102,7 +102,7 @@ RaceRow raced(double tile_cpu, double device_cpu, double flip, const char* shade
 {
     RaceRow row;
     row.shader = shader;
-    row.scene.push_back('s'), row.technique.push_back('t'), row.device.push_back('d'); // GCC 12 warns of assigning them
+    row.scene.push_back('s'), row.technique.push_back('t'), row.device.push_back('d'); // GCC 12 warns about assignments
     row.tile_cpu_ms = tile_cpu, row.device_cpu_ms = device_cpu, row.flip_mean = row.flip_whole = flip;
     return row;
 }
@@ -129,7 +129,7 @@ TEST(race_report, counts_rows_with_the_same_picture)
     EXPECT_NE(table.find("out of memory"), std::string::npos);
 }
 
-// Two draws of two triangles each; pixels of two samples.
+// Two draws with two triangles each, two samples a pixel.
 TEST(race_report, silhouettes_are_where_draws_meet)
 {
     DrawTables tables;

@@ -1,4 +1,4 @@
-// Stage by stage: what is counted, where, and why a pixel differs.
+// Comparison by stage: counts, places, and the cause of a pixel's difference.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -44,7 +44,7 @@ TEST(compare_stages, names_the_stage_the_words_and_the_pixel)
     const Frame a = two_pixels();
     const struct {
         const char* stage;
-        std::size_t word; // of the pair of pixel 1
+        std::size_t word; // in the pair of pixel 1
     } cases[] = {{"interpolants", 1 + 4}, {"material inputs", 1 + kInterpolantWords + 2}, {"shaded colour", kPairWords - 1}};
     for (const auto& c : cases) {
         Frame b = a;
@@ -69,7 +69,7 @@ TEST(compare_stages, names_the_stage_the_words_and_the_pixel)
 TEST(compare_stages, leaves_out_samples_that_show_another_triangle_and_no_others)
 {
     const Frame a = two_pixels();
-    Frame b = a; // pixel 0: sample 0 another triangle, sample 1 the same background
+    Frame b = a; // pixel 0: sample 0 has another triangle, sample 1 the same background
     b.triangle_ids[0] = 9;
     b.stages.pairs[1] = 77, b.color.f32()[0] = 9.0f;
     b.stages.depths[0] = 1;
@@ -81,7 +81,7 @@ TEST(compare_stages, leaves_out_samples_that_show_another_triangle_and_no_others
     EXPECT_EQ(stage_of(counts, "interpolants").values, std::uint64_t{kInterpolantWords});
     EXPECT_EQ(stage_of(counts, "shaded colour").values, 2u * 3u); // the background of pixel 0 and pixel 1
     EXPECT_EQ(stage_of(counts, "resolved colour").values, 3u);
-    b.stages.pairs[1 * kPairWords + kPairWords - 3] ^= 1u; // the background of pixel 0, which both show
+    b.stages.pairs[1 * kPairWords + kPairWords - 3] ^= 1u; // the background of pixel 0, visible in both
     EXPECT_EQ(stage_of(compare_stages(a, b, 2), "shaded colour").words_differ, 1u);
 }
 

@@ -1,4 +1,4 @@
-// The adaptive major axis: no seam where the number of samples changes, and what it is for: fewer fetches at no greater error.
+// Adaptive major-axis sampling: no seam where the sample count changes, and fewer fetches at no greater error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Judge {
         environment = *load_environment("builtin:studio", options, Limits{}, jobs);
         renderer = make_tile_renderer({scene, tables, environment, dfg, jobs}, best_isa());
     }
-    // The middle sphere fills the picture's width: 512 pixels in a row are a sweep over the sphere.
+    // The middle sphere fills the image's width: a row of 512 pixels sweeps over the sphere.
     Frame sphere(const char* technique, int samples, float roughness, float anisotropy) const
     {
         FrameDesc d;
@@ -37,7 +37,7 @@ struct Judge {
     }
 };
 
-// Display values by a curve without a kink, which would hide seams behind its own.
+// Maps radiance to a display value. The curve has no kink, which would hide seams.
 double shown(float linear)
 {
     return std::pow(static_cast<double>(linear) / (1.0 + static_cast<double>(linear)), 1.0 / 2.2);
@@ -45,7 +45,7 @@ double shown(float linear)
 
 constexpr int kNext = 3; // floats to the next pixel
 
-// Largest second difference along the rows, in display values.
+// Returns the largest second difference along rows, in display values.
 double roughest(const Frame& f)
 {
     double most = 0.0;
@@ -58,10 +58,9 @@ double roughest(const Frame& f)
     return most;
 }
 
-// A fixed number of samples moves them smoothly; the adaptive number must not add steps to that. Both fixed counts are asked: sixteen equal
-// samples leave sharper edges in narrow lobes, sixteen by density, as the adaptive ones are placed, more ripples in wide ones (alpha_lin
-// 0.5, eta 0.8 and above, where adaptive exceeds equal samples by 1.26 / 255 and samples by density by less than 1 / 255). Samples that
-// come and go without fading differ from either by ten to a hundred times as much.
+// A fixed sample count moves its samples smoothly. The adaptive count must add no steps to that. The bound is the worse of two fixed
+// counts. Sixteen equally spaced samples leave sharper edges in narrow lobes. Sixteen samples by density leave more ripples in wide lobes.
+// Samples that appear without fading would exceed the bound many times over.
 TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
 {
     const Judge judge;
@@ -75,7 +74,7 @@ TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
         }
 }
 
-// Sum over the picture of |a - b|, in display values a pixel.
+// Returns the mean of |a - b| a pixel, summed over channels, in display values.
 double distance(const Frame& a, const Frame& b)
 {
     double sum = 0.0;
@@ -85,8 +84,8 @@ double distance(const Frame& a, const Frame& b)
     return sum / n;
 }
 
-// Truth here is Monte Carlo of the same integral. Over a grid of lobes, density along the axis beats sixteen equal samples by far, and an
-// adaptive count of a third of the fetches still does.
+// Monte Carlo integration of the same lobe is the reference. Over a grid of lobes, samples by density beat sixteen equal samples, and so
+// does an adaptive count with a third of the fetches.
 TEST(adaptive, samples_by_density_are_nearer_to_the_truth_than_equal_ones)
 {
     const Judge judge;

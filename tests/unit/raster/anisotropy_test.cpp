@@ -1,4 +1,4 @@
-// The direction of brushing comes by tangents, by a material's rotation or by a texture; the picture must not know by which.
+// Anisotropy directions from tangents, a material's rotation or a texture give the same image.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace burnish::test {
 namespace {
 
-// Where the angle from the geometric tangent is written down, radians counter-clockwise. `texel`: that of the texture's direction.
+// Angles from the geometric tangent, radians counter-clockwise: of mesh tangents, the material's rotation and the texture's direction.
 struct Written {
     float tangent, rotation, texel;
     bool textured;
@@ -39,14 +39,14 @@ Scene brushed_quad(const Written& w)
     return s;
 }
 
-// The angle of what 8 bits make of a direction.
+// Returns the angle that remains after a direction is stored in 8 bits a channel.
 float stored(float angle)
 {
     const auto byte = [](float x) { return static_cast<float>(std::lround((0.5f + 0.5f * x) * 255.0f)) / 255.0f * 2.0f - 1.0f; };
     return std::atan2(byte(std::sin(angle)), byte(std::cos(angle)));
 }
 
-// With its sun in the prefiltered levels: what a key light adds grows with a high power of a thin lobe's width (key_lights_test.cpp).
+// Keeps the sun in the prefiltered levels, since a key light grows with a high power of a thin lobe's width (key_lights_test.cpp).
 Environment sky()
 {
     EnvironmentOptions options;
@@ -56,7 +56,7 @@ Environment sky()
     return *load_environment("builtin:sky", options, Limits{}, jobs);
 }
 
-// Greatest difference, relative to the pixel of a.
+// Returns the largest difference, relative to a's value.
 float difference(const Frame& a, const Frame& b)
 {
     float most = 0.0f;
@@ -87,7 +87,7 @@ TEST_P(brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
         const float angle = stored(wanted);
         const Frame by_tangents = picture({angle, 0.0f, 0.0f, false});
         EXPECT_LT(difference(by_tangents, picture({0.0f, angle, 0.0f, false})), 1e-3f) << "rotation by " << angle;
-        // a lobe of one shape has its albedo from a slice, a textured one from the table of all widths
+        // A lobe of constant shape reads its albedo from a slice; a textured lobe reads the table over all widths.
         EXPECT_LT(difference(by_tangents, picture({0.0f, 0.0f, wanted, true})), 4e-3f) << "texture of " << angle;
         EXPECT_LT(difference(by_tangents, picture({-0.4f, 0.4f, wanted, true})), 4e-3f) << "all three for " << angle;
         least_turn = std::min(least_turn, difference(by_tangents, straight));
@@ -95,7 +95,7 @@ TEST_P(brushing, is_the_same_by_tangents_by_rotation_and_by_texture)
     EXPECT_GT(least_turn, 0.02f); // else nothing was compared
 }
 
-// What has no width shows the environment in the mirror direction, whatever the technique and the anisotropy.
+// A lobe without width shows the environment in the mirror direction, for every technique and anisotropy.
 TEST(anisotropy, a_mirror_shows_the_environment_by_every_technique)
 {
     Stage stage(brushed_quad({0.3f, 0.4f, 0.0f, false}));
@@ -113,7 +113,7 @@ TEST(anisotropy, a_mirror_shows_the_environment_by_every_technique)
     EXPECT_GT(difference(expected, stage.render(d, best_isa())), 0.05f); // else every direction looked the same
 }
 
-// A lobe that is hardly anisotropic is the isotropic one, and nothing jumps where lobes grow thin.
+// A slightly anisotropic lobe equals the isotropic lobe, and nothing jumps where lobes become thin.
 TEST(anisotropy, nothing_jumps_where_lobes_are_nearly_round_or_thin)
 {
     Stage stage(brushed_quad({0.3f, 0.4f, 0.0f, false}));
@@ -140,7 +140,7 @@ TEST(anisotropy, nothing_jumps_where_lobes_are_nearly_round_or_thin)
     EXPECT_LT(step, 0.1f);
 }
 
-// Words that the record of a pair ends with, from a material's input on: it, what follows it in material.def, and the colour.
+// Counts the words from `input` to the end of a pair's record: the rest of material.def and the colour.
 constexpr int words_from(std::string_view input)
 {
     int sum = 3;
@@ -152,7 +152,7 @@ constexpr int words_from(std::string_view input)
     return sum;
 }
 
-// A lobe of eta 0.95 is 39 times as wide along its axis as across: halves alone, with 11 bits, would bend its width across by a fifth.
+// A lobe of eta 0.95 is 39 times as wide along its axis as across. Plain halves, with 11 bits, would change its narrow width by a fifth.
 TEST(anisotropy, textures_keep_more_bits_than_a_half_has)
 {
     for (int i = 0; i < 64; ++i) {

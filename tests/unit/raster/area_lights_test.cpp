@@ -1,4 +1,4 @@
-// Area lights on a surface, by the tile renderer: what must hold exactly of them, and every way of finding their light against the others.
+// Area lights on a surface, by the tile renderer: exact properties, and each evaluation method against the others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ AreaLight area_light_of(AreaShape shape, const std::vector<glm::vec3>& points, f
     return light;
 }
 
-// One of each form, all over a plate in the plane z = 0; the quad goes below its horizon.
+// Returns one light of each shape, all above a plate in the plane z = 0. The quad reaches below the plate's horizon.
 std::vector<AreaLight> each_area_light()
 {
     return {area_light_of(AreaShape::quad, {{-1.5f, 1.0f, -0.3f}, {1.0f, 1.2f, -0.3f}, {1.0f, 1.2f, 1.0f}, {-1.5f, 1.0f, 1.0f}}),
@@ -54,7 +54,7 @@ class LitPlate {
         for (const AreaLight& light : lights)
             stage_.tables.area_lights.push_back(*place_area_light(light, world));
     }
-    // The picture of lights whose texture is 0; returns it as shading has it.
+    // Makes `image` the texture 0 of all lights. Returns the image as shading reads it.
     LightPicture hang(Image image)
     {
         Texture texture;
@@ -145,7 +145,7 @@ TEST(area_lights, of_one_side_are_dark_from_behind)
             d.area_way = way_named(way);
             AreaLight light = each_area_light()[which];
             room.light({light});
-            const bool shines = place_area_light(light, glm::mat4(1.0f))->normal.z < 0.0f; // on the plate, from above
+            const bool shines = place_area_light(light, glm::mat4(1.0f))->normal.z < 0.0f; // onto the plate, from above
             EXPECT_EQ(mean_radiance(room.seen(d)) > 0.0, shines) << way << " " << which;
             std::reverse(light.points.begin() + 1, light.points.end());
             room.light({light});
@@ -156,7 +156,7 @@ TEST(area_lights, of_one_side_are_dark_from_behind)
         }
 }
 
-// Mirrored nodes turn the way around the points, not the side that shines; scaled ones scale.
+// A mirrored node reverses the order of the points and keeps the side that shines. A scaled node scales the light.
 TEST(area_lights, go_with_their_nodes)
 {
     const AreaLight quad = area_light_of(AreaShape::quad, {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}});
@@ -170,18 +170,18 @@ TEST(area_lights, go_with_their_nodes)
     glm::mat4 flat(1.0f);
     flat[1][1] = 0.0f;
     EXPECT_FALSE(place_area_light(quad, flat));
-    // a sheared disc is an ellipse with axes of its own at right angles
+    // a sheared disc is an ellipse with new axes at right angles
     glm::mat4 sheared(1.0f);
     sheared[1][0] = 1.0f;
     const PlacedAreaLight disk = *place_area_light(area_light_of(AreaShape::disk, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), sheared);
     EXPECT_NEAR(glm::dot(disk.points[1], disk.points[2]), 0.0f, 1e-6f);
     EXPECT_NEAR(glm::length(disk.points[1]) * glm::length(disk.points[2]), 1.0f, 1e-6f);
-    EXPECT_NEAR(glm::dot(disk.points[1], disk.points[1]), 2.618034f, 1e-5f); // of the matrix's larger singular value
+    EXPECT_NEAR(glm::dot(disk.points[1], disk.points[1]), 2.618034f, 1e-5f); // from the matrix's larger singular value
     EXPECT_EQ(disk.normal, glm::vec3(0, 0, 1));
 }
 
-// The transformed cosine against the lobe's own mean over points of the light: off by what the fit is off, most where the light is in the
-// lobe's tail.
+// Compares the transformed cosine with the lobe's mean over points on the light. They differ by the fit's error, most where the light lies
+// in the lobe's tail.
 TEST(area_lights, by_cosines_are_what_sampling_finds)
 {
     const char* names[] = {"quad", "polygon", "disk", "sphere", "line"};
@@ -227,7 +227,7 @@ TEST(area_lights, of_round_lobes_by_the_round_table_are_what_sampling_finds)
             }
 }
 
-// Lobes that are tilted against their surface: of light from below it nothing arrives, and of the rest what sampling finds.
+// With lobes tilted against their surface, no light arrives from below the horizon, and the rest agrees with sampling.
 TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
 {
     for (const float metallic : {0.0f, 1.0f})
@@ -243,7 +243,7 @@ TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
                         d.area_way = way_named(way), d.light_samples = 1024;
                         return mean_radiance(room.seen(d));
                     };
-                    for (glm::vec3& p : light.points) // half below
+                    for (glm::vec3& p : light.points) // half of the light below
                         p.z -= 0.6f;
                     room.light({light});
                     const double ltc = found("ltc"), clipless = found("ltc-clipless"), mc = found("mc");
@@ -259,7 +259,7 @@ TEST(area_lights, are_cut_at_the_horizon_of_a_surface_whose_lobes_are_tilted)
                 }
 }
 
-// The greatest step between neighbours of a sweep over the greatest next to it; where light bends, steps change slowly.
+// Returns the largest ratio between a step and its larger neighbour. Where light bends smoothly, steps change slowly.
 double worst_step(const std::vector<double>& light)
 {
     double most = 0.0, worst = 0.0;
@@ -271,8 +271,7 @@ double worst_step(const std::vector<double>& light)
     return worst;
 }
 
-// Once around a quarter and a bit on both sides, and from one grain through none to the other: tables are mirrored at both ends and in the
-// middle. All pixels see one direction.
+// Sweeps the azimuth over a quarter turn and a little beyond, since tables are mirrored at both ends. All pixels see one direction.
 double sweep_of_eyes(const LitPlate& room, FrameDesc d, double theta)
 {
     std::vector<double> light;
@@ -308,7 +307,7 @@ TEST(area_lights, sweeps_have_no_step_where_tables_are_mirrored)
             EXPECT_LT(sweep_of_eyes(room, d, theta), 2.5) << way << " " << theta;
         EXPECT_LT(sweep_of_widths(room, d), 2.5) << way;
     }
-    // A table that breaks its symmetry, at eyes along the grain and where both widths are one, has them.
+    // A table whose symmetry is broken shows steps for eyes along the grain and where both widths are equal.
     d.area_way = way_named("ltc");
     ltc::Table broken = ltc::shipped_table();
     for (std::size_t node = 0; node < broken.grid.nodes(); ++node)
@@ -359,7 +358,7 @@ TEST(area_lights, a_picture_of_one_colour_is_none_word_for_word)
         }
 }
 
-// Mean absolute difference over the mean.
+// Returns the mean absolute difference divided by the mean.
 double mean_error(const Image& found, const Image& truth)
 {
     double error = 0.0, all = 0.0;
@@ -370,7 +369,7 @@ double mean_error(const Image& found, const Image& truth)
     return error / all;
 }
 
-// Two colours, side by side and one above the other, on a wall that fills much of the lobe: the row of fetches has no cosine in it.
+// Two colours, side by side or one above the other, on a light that fills much of the lobe. The texture fetches carry no cosine weight.
 TEST(area_lights, pictures_by_cosines_are_what_sampling_finds)
 {
     for (const float metallic : {0.0f, 1.0f})
@@ -417,7 +416,7 @@ TEST(area_lights, a_mirrored_node_mirrors_its_picture)
                 for (int c = 0; c < 3; ++c)
                     most = std::max(most, std::abs(static_cast<double>(straight.f32()[3 * (16 * y + x) + c]) -
                                                    static_cast<double>(mirrored.f32()[3 * (16 * y + 15 - x) + c])));
-        EXPECT_LT(most, way[0] == 'l' ? 1e-3 : 0.1) << way; // of samples by chance
+        EXPECT_LT(most, way[0] == 'l' ? 1e-3 : 0.1) << way; // random samples
     }
 }
 

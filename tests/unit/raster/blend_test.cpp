@@ -1,4 +1,4 @@
-// Blended surfaces: the exact "over" of all layers of a pixel, whatever their number and order, under multisampling.
+// Blended surfaces: the exact "over" of all layers in a pixel, for any number and order, with multisampling.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@ struct Sheet {
     glm::vec4 color;
     AlphaMode mode = AlphaMode::blend;
     float slope = 0.0f; // of z along x
-    glm::vec4 place{};  // left, top, right, bottom, pixels; or empty, for all of the picture
+    glm::vec4 place{};  // left, top, right, bottom in pixels; empty: the whole image
 };
 
 constexpr int kWidth = 24;
 
-// Unlit sheets over the whole picture but for `margin` pixels on each side, in the order of the list.
+// Builds unlit sheets in the list's order. They cover the image except for `margin` pixels on each side.
 Scene sheets_of(const std::vector<Sheet>& sheets, float margin)
 {
     std::vector<Triangle> triangles;
@@ -73,7 +73,7 @@ glm::dvec3 middle(const Frame& f)
     return glm::dvec3(c[0], c[1], c[2]);
 }
 
-// "Over" from the farthest sheet to the nearest, in double.
+// Composites the sheets with "over" from the farthest to the nearest, in double precision.
 glm::dvec3 over(std::vector<Sheet> sheets)
 {
     std::sort(sheets.begin(), sheets.end(), [](const Sheet& a, const Sheet& b) { return a.z < b.z; });
@@ -158,7 +158,7 @@ TEST(blend, both_sides_of_a_closed_mesh_are_seen)
 {
     Scene box = sheets_of({{0.2f, {1, 1, 1, 0.5f}}, {0.6f, {1, 1, 1, 0.5f}}}, 2.0f);
     EXPECT_NEAR(middle(Stage(box, 0.0f).render(desc_with(4), best_isa()))[0], 0.75, 1e-6);
-    box.materials[0].double_sided = false; // turned away from the eye or towards it: the first is drawn if it shows its front
+    box.materials[0].double_sided = false; // facing away or towards the eye: the first is drawn only if its front is visible
     std::swap(box.indices[1], box.indices[2]), std::swap(box.indices[4], box.indices[5]);
     EXPECT_NEAR(middle(Stage(box, 0.0f).render(desc_with(4), best_isa()))[0], 0.5, 1e-6);
 }
@@ -178,7 +178,7 @@ TEST(blend, alpha_and_parts_of_pixels_hold_what_shows_through)
     d.triangle_ids = d.parts = true;
     const Frame f = Stage(sheets_of({{0.2f, {1, 1, 1, 0.2f}}, {0.4f, {1, 1, 1, 0.5f}}}, 4.4f), 0.0f).render(d, best_isa());
     const Image rgba = with_coverage(f.color, f.triangle_ids, f.through);
-    for (int i = 0; i < kWidth * kWidth; ++i) // white before black: light is coverage
+    for (int i = 0; i < kWidth * kWidth; ++i) // white over black: light equals coverage
         EXPECT_NEAR(rgba.f32()[4 * i + 3], rgba.f32()[4 * i], 1e-6f);
     EXPECT_NEAR(rgba.f32()[4 * (12 * kWidth + 12) + 3], 0.6f, 1e-6f);
     std::vector<float> sums(std::size_t{kWidth} * kWidth, -1.0f);
@@ -203,7 +203,7 @@ TEST(blend, layers_show_a_surface_whose_alpha_is_above_a_half)
     EXPECT_NEAR(depth(0.6f), 0.4f, 1e-5f);
 }
 
-// A lit scene, half of whose balls blend.
+// A lit scene where every second material blends.
 Scene veiled_spheres()
 {
     Scene scene = *make_builtin_scene("spheres");
@@ -232,7 +232,7 @@ TEST(blend, words_are_the_same_for_every_isa_thread_count_and_tile_size)
     }
 }
 
-// Small and large sheets, blended and solid, before and behind each other, against the sum over all sheets of each pixel's centre.
+// Small and large sheets, blended and opaque, in any order, against the sum over all sheets at each pixel's centre.
 TEST(blend, sheets_of_all_sizes_hide_and_show_each_other)
 {
     Random random{11};
@@ -262,7 +262,7 @@ TEST(blend, sheets_of_all_sizes_hide_and_show_each_other)
     }
 }
 
-// Pixels without a blended surface are those of the scene without it, edges included.
+// Pixels without a blended surface keep the bits of the scene without it, edges included.
 TEST(blend, pixels_beside_a_sheet_keep_their_bits)
 {
     const std::vector<Sheet> solid = {{0.2f, {0.3f, 0.7f, 0.1f, 1}, AlphaMode::opaque, 0.01f},
@@ -270,7 +270,7 @@ TEST(blend, pixels_beside_a_sheet_keep_their_bits)
     std::vector<Sheet> both = solid;
     both.push_back({0.9f, {1, 1, 1, 0.5f}});
     Scene scene = sheets_of(both, 1.3f);
-    for (std::size_t i = 12; i < 18; ++i) // the sheet's corners, to the left half
+    for (std::size_t i = 12; i < 18; ++i) // moves the sheet's corners to the left half
         scene.vertices.px[i] *= 0.4f;
     const Frame with = Stage(scene, 0.0f).render(desc_with(8), best_isa()), without = draw(solid, 8, 1.3f);
     std::size_t same = 0, other = 0;

@@ -1,5 +1,5 @@
-// What a normal map does to a grain that a map has turned in the surface's plane: the grain turns first, then both with the normal
-// (n' = (.48, -.6, .64), by hand).
+// A normal map on a grain that a map turns in the surface's plane. The grain turns first, then grain and normal tilt together (n' = (.48,
+// -.6, .64), derived by hand).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ Scene bumped()
     return s;
 }
 
-// grain: unit, along the mesh's tangent and bitangent.
+// grain: unit vector along the mesh's tangent and bitangent.
 aniso_lobe lobe_of(int frame_map, const real2& grain)
 {
     const Stage stage(bumped());

@@ -1,4 +1,4 @@
-// Clipping against its planes in double precision.
+// Clipping against the clip planes in double precision.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kHalfWidth = 128.0f, kHalfHeight = 96.0f;
 
-// Distances from the planes that clipping cuts at, in double precision: negative where the point is outside.
+// Returns the smallest signed distance from the planes that clipping cuts at, in double precision; negative outside.
 double least_distance(const ShadingFrame& f, const double c[4])
 {
     const double gx = kCutBand / kSubpixel / static_cast<double>(kHalfWidth), gy = kCutBand / kSubpixel / static_cast<double>(kHalfHeight);
@@ -20,7 +20,7 @@ double least_distance(const ShadingFrame& f, const double c[4])
     return std::fmin(before, std::fmin(std::fmin(gx * c[2] - c[0], gx * c[2] + c[0]), std::fmin(gy * c[2] - c[1], gy * c[2] + c[1])));
 }
 
-// Twice the area of (a, b, p), each in barycentrics of the triangle.
+// Returns twice the area of (a, b, p), in barycentrics of the triangle.
 double side(const clip_corner& a, const clip_corner& b, const double p[3])
 {
     const double ax = a.bary[1], ay = a.bary[2], bx = b.bary[1], by = b.bary[2];
@@ -34,7 +34,7 @@ TEST(clip, leaves_what_lies_inside_of_all_planes)
         f.half_width = kHalfWidth, f.half_height = kHalfHeight;
         f.view.znear = 0.125f, f.view.orthographic = orthographic;
         f.view.right[0] = f.view.up[1] = f.view.forward[2] = f.view.inv_tan_x = f.view.inv_tan_y = 1.0f;
-        f.view.zfar = 2.0f, f.view.inv_depth = 1.0f; // so places are positions in clip space, or their depth is 2 - z
+        f.view.zfar = 2.0f, f.view.inv_depth = 1.0f; // so places are clip positions, or their depth is 2 - z
         Random random{17};
         int kept = 0, cut = 0, wrong = 0;
         double worst = 0.0;

@@ -1,4 +1,4 @@
-// Which samples a triangle covers: Vulkan's sample positions, watertight edges, near-plane clipping, depth order.
+// Samples that a triangle covers: Vulkan's sample positions, watertight edges, near-plane clipping, depth order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ std::int64_t cross(const Lattice& a, const Lattice& b, const Lattice& c)
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }
 
-// A rectangle of lattice points from -margin to side + margin, cut into a jittered grid of quads with random diagonals, then
-// random triangles are split at inner lattice points until there are `count`. All share corners exactly: a true partition.
+// Partitions the rectangle from -margin to side + margin into a jittered grid of quads with random diagonals. Then splits random triangles
+// at inner lattice points until there are `count`. Triangles share corners exactly.
 std::vector<LatticeTriangle> random_partition(int width, int height, int cells, std::size_t count, Random& random)
 {
     const int margin = 300;
@@ -132,8 +132,8 @@ TEST(coverage, sample_positions_equal_the_vulkan_table)
     }
 }
 
-// Where two triangles of equal depth cover a sample the first drawn stays; so if drawing them backwards gives the same owner
-// everywhere, no sample is covered twice, and if no sample is empty, each is covered exactly once.
+// At equal depth the triangle drawn first stays. If drawing in reverse order gives the same owner everywhere, no sample is covered twice.
+// If no sample is empty either, each is covered exactly once.
 TEST(coverage, random_partition_of_100000_triangles_covers_every_sample_exactly_once)
 {
     Random random{7};
@@ -159,7 +159,7 @@ TEST(coverage, random_partition_of_100000_triangles_covers_every_sample_exactly_
         }
 }
 
-// Random triangles of the given sizes in turn, 1/256 pixel, each at one of `levels` depths.
+// Random triangles that take the given sizes in turn (1/256 pixel), each at one of `levels` depths.
 struct FlatTriangles {
     std::vector<LatticeTriangle> lattice;
     std::vector<Triangle> world;
@@ -187,7 +187,7 @@ FlatTriangles flat_triangles(int width, int height, int count, const std::vector
     return out;
 }
 
-// Every sample against a plain per-sample model of the same rules, with overlaps and depth order: of equal depths the first wins.
+// Checks every sample against a brute-force model of the rules, with overlaps and depth order. At equal depths the first triangle wins.
 void expect_model(int width, int height, int msaa, const FlatTriangles& triangles)
 {
     const auto& [lattice, world, depth] = triangles;
@@ -234,7 +234,7 @@ TEST(coverage, random_triangles_equal_a_brute_force_model_sample_by_sample)
         expect_model(150, 90, msaa, triangles);
 }
 
-// Lanes draw the small ones together, before the large ones, of which there are more than a tile sorts.
+// Lanes draw the small triangles together, before the large ones. There are more large ones than a tile sorts.
 TEST(coverage, crowds_of_small_and_large_triangles_equal_a_brute_force_model)
 {
     Random random{12};
@@ -242,13 +242,13 @@ TEST(coverage, crowds_of_small_and_large_triangles_equal_a_brute_force_model)
         expect_model(60, 50, 4, flat_triangles(60, 50, 2000, sizes, 3, random));
 }
 
-// Where several threads draw, a tile of so many triangles is cut.
+// Where several threads draw, a tile with this many triangles is split.
 TEST(coverage, a_crowded_tile_is_the_same_by_one_thread_and_by_several)
 {
     Random random{77};
     std::vector<Triangle> triangles;
     for (int i = 0; i < 40000; ++i) {
-        const float size = i % 500 ? 3.0f : 60.0f, depth = i % 50 ? 0.1f : 2.0f; // some lie across the near plane
+        const float size = i % 500 ? 3.0f : 60.0f, depth = i % 50 ? 0.1f : 2.0f; // some cross the near plane
         const glm::vec3 c(random.unit() * 90, -random.unit() * 50, random.unit() * 1.2f - 0.1f);
         const auto corner = [&] {
             return c + glm::vec3((random.unit() - 0.5f) * size, (random.unit() - 0.5f) * size, (random.unit() - 0.5f) * depth);
@@ -268,8 +268,8 @@ TEST(coverage, a_crowded_tile_is_the_same_by_one_thread_and_by_several)
             }
 }
 
-// Lanes and blocks draw the same samples at the same depths: sloped triangles of few pixels, crossing each other, twice in the list, some
-// cut by the near plane. Where the material tests alpha they go by blocks, else by lanes.
+// Lanes and blocks draw the same samples at the same depths. The triangles are sloped, a few pixels in size, crossing, listed twice, and
+// some are cut by the near plane. Alpha-tested materials go by blocks, others by lanes.
 TEST(coverage, small_triangles_by_lanes_equal_those_by_blocks_bit_for_bit)
 {
     Random random{31};
@@ -300,14 +300,14 @@ TEST(coverage, small_triangles_by_lanes_equal_those_by_blocks_bit_for_bit)
     }
 }
 
-// From inside a closed box every sample sees a wall, however the walls cross the near plane and the guard band.
+// From inside a closed box every sample sees a wall, wherever the walls cross the near plane and the guard band.
 TEST(coverage, clipping_at_the_near_plane_and_guard_band_leaves_no_crack)
 {
     Random random{3};
     for (int cells : {1, 5}) {
         const Stage stage(scene_of(tessellated_box(10.0f, cells), true));
         for (int k = 0; k < 24; ++k) {
-            // near a wall or corner, so that walls pass close beside and behind the eye
+            // near a wall or corner, so that walls pass beside and behind the eye
             glm::vec3 eye(random.unit() * 19.98f - 9.99f, random.unit() * 19.98f - 9.99f, random.unit() * 19.98f - 9.99f);
             if (k % 2)
                 eye[k % 3] = k % 4 == 1 ? 9.99f : -9.99f;
@@ -324,7 +324,7 @@ TEST(coverage, clipping_at_the_near_plane_and_guard_band_leaves_no_crack)
     }
 }
 
-// A vertex between where whole triangles must end and where clipping cuts: both triangles of the edge must see it alike.
+// A vertex between the limit of whole triangles and the clip planes: both triangles of the edge must treat it alike.
 TEST(coverage, edges_into_the_guard_band_have_no_crack)
 {
     for (float far_x : {-14800.0f, -15140.0f, -15400.0f, -15700.0f, -15870.0f, -15900.0f, -16300.0f, -17000.0f}) {
@@ -354,8 +354,8 @@ TEST(coverage, an_orthographic_view_starts_at_its_near_plane)
     EXPECT_EQ(hits(-1.5f), 0); // beyond the far plane
 }
 
-// A flat quad, then a slope that is nearer to the right of column 40 and as near in it, the first of its blocks: where a tile draws
-// the nearest first, the slope comes before the quad.
+// A flat quad, then a sloped quad that has equal depth in column 40, the first of its block, and is nearer on its right. A tile that draws
+// the nearest first draws the slope first.
 TEST(coverage, of_equal_depths_the_first_in_the_list_is_seen)
 {
     constexpr int kColumn = 40;
@@ -364,7 +364,7 @@ TEST(coverage, of_equal_depths_the_first_in_the_list_is_seen)
         const glm::vec3 a = corner(-50, 50), b = corner(-50, -250), c = corner(250, -250), d = corner(250, 50);
         return std::array<Triangle, 2>{Triangle{a, b, c}, Triangle{a, c, d}};
     };
-    for (int more : {0, 140}) { // and, with 284 triangles, more than a tile sorts
+    for (int more : {0, 140}) { // with 284 triangles, more than a tile sorts
         std::vector<Triangle> triangles;
         for (const float slope : {0.0f, 1.0f / 512})
             for (const Triangle& t : quad(slope))
@@ -382,7 +382,7 @@ TEST(coverage, of_equal_depths_the_first_in_the_list_is_seen)
     }
 }
 
-// Slivers have steep depths: whatever rounds, it must not know the tile.
+// Slivers have steep depths. Rounding must not depend on the tile.
 TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
 {
     Random random{29};
@@ -393,7 +393,7 @@ TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
         const glm::vec3 side(random.unit() * 0.6f, random.unit() * 0.6f, random.unit() - 0.5f);
         slivers.push_back({a, a + d, a + side});
     }
-    for (int i = 0; i < 400; ++i) { // nearly coplanar: the last bit of depth decides which one is seen
+    for (int i = 0; i < 400; ++i) { // nearly coplanar: the last bit of depth decides
         const auto corner = [&] { return glm::vec3(random.unit() * 200, -random.unit() * 140, 0.5f + random.unit() * 4e-6f); };
         slivers.push_back({corner(), corner(), corner()});
     }
@@ -405,10 +405,10 @@ TEST(coverage, tiles_of_32_and_64_agree_on_crossing_slivers)
     EXPECT_TRUE(std::equal(a.triangle_ids.begin(), a.triangle_ids.end(), b.triangle_ids.begin()));
 }
 
-// A wall behind the near plane must not appear, and the cut must lie where the plane is.
+// A wall behind the near plane must not appear, and the cut must lie at the plane.
 TEST(coverage, near_plane_cuts_where_it_lies)
 {
-    // a floor at y = -1 seen from the origin: it comes closer than znear = 2 below the image's edge ray of 45 degrees only
+    // a floor at y = -1 seen from the origin: below the image's 45 degree edge ray alone is it nearer than znear = 2
     const Stage stage(scene_of({{glm::vec3(-50, -1, 50), glm::vec3(50, -1, 50), glm::vec3(50, -1, -50)},
                                 {glm::vec3(-50, -1, 50), glm::vec3(50, -1, -50), glm::vec3(-50, -1, -50)}},
                                true));
@@ -422,7 +422,7 @@ TEST(coverage, near_plane_cuts_where_it_lies)
             const bool expected = slope > 1.0f / 50.0f && 1.0f / slope > 2.0f;
             EXPECT_EQ(f.triangle_ids[static_cast<std::size_t>(y * 100 + 50)] != kNothing, expected) << y;
         }
-        for (const std::uint32_t id : f.triangle_ids) // pieces tell whose they are
+        for (const std::uint32_t id : f.triangle_ids) // clipped pieces keep their triangle's id
             ASSERT_TRUE(id == kNothing || id < 2) << id << " " << isa_name(isa);
     }
 }
@@ -451,7 +451,7 @@ TEST(coverage, back_faces_are_culled_and_mirrored_instances_are_not)
 TEST(coverage, culling_never_changes_the_picture)
 {
     Random random{5};
-    const Stage stage(scene_of(tessellated_box(1.0f, 24), false)); // clusters of half the walls face away
+    const Stage stage(scene_of(tessellated_box(1.0f, 24), false)); // half the walls' clusters face away
     for (int k = 0; k < 12; ++k) {
         FrameDesc d = id_desc(80, 60, 1);
         const glm::vec3 eye(random.unit() * 6 - 3, random.unit() * 6 - 3, random.unit() * 6 - 3);
@@ -467,7 +467,7 @@ TEST(coverage, culling_never_changes_the_picture)
     }
 }
 
-// Built-in scenes face outwards everywhere: from outside, culling their back faces takes nothing away.
+// Built-in scenes face outwards everywhere: from outside, back-face culling removes nothing.
 TEST(coverage, builtin_scenes_are_not_inside_out)
 {
     for (const char* name : {"teapot", "spheres", "plate"}) {

@@ -1,4 +1,4 @@
-// Which clusters a view leaves out.
+// Clusters that a view culls.
 #include <gtest/gtest.h>
 
 #include "raster/tile/cull.h"
@@ -6,7 +6,7 @@
 namespace burnish {
 namespace {
 
-// Triangles of a ball of 10 cm that all look along -Z but for a sixth of a turn.
+// Returns a cluster with radius 5 cm whose triangles face -Z within a sixth of a turn.
 DrawTables ball_that_looks_away(glm::vec3 center)
 {
     DrawTables tables;
@@ -19,7 +19,7 @@ DrawTables ball_that_looks_away(glm::vec3 center)
     return tables;
 }
 
-// Of the ball at z metres by an eye so far from it along +Z.
+// Counts the clusters that remain for the ball at z metres, seen from `distance` along +Z.
 std::size_t clusters_seen_from(float distance, float z = 0.0f)
 {
     View view;
@@ -27,8 +27,7 @@ std::size_t clusters_seen_from(float distance, float z = 0.0f)
     return cull(ball_that_looks_away({0.0f, 0.0f, z}), view).clusters.size();
 }
 
-// A float of a place six hundred kilometres away is a step of 6 cm: which way triangles of a centimetre look follows from how they are
-// rounded.
+// Floats step by 6 cm at six hundred kilometres, so rounding decides which way small triangles face.
 TEST(cull, clusters_that_look_away_are_left_out_but_not_where_floats_do_not_hold_how_they_look)
 {
     EXPECT_EQ(clusters_seen_from(1.0f), 0u);
@@ -37,12 +36,12 @@ TEST(cull, clusters_that_look_away_are_left_out_but_not_where_floats_do_not_hold
     EXPECT_EQ(clusters_seen_from(6e5f), 1u);
 }
 
-// Places are rounded once the eye is taken from them: what counts is how far it is from them, not where both are.
+// Positions are rounded after the eye is subtracted. The distance from the eye counts, and the origin does not.
 TEST(cull, clusters_that_look_away_are_told_by_their_distance_from_the_eye_wherever_both_are)
 {
     EXPECT_EQ(clusters_seen_from(6e5f, -6e5f), 1u); // the eye at the origin
     EXPECT_EQ(clusters_seen_from(6e5f, -3e5f), 1u);
-    EXPECT_EQ(clusters_seen_from(1.0f, 1e6f), 0u); // both far from it, close together
+    EXPECT_EQ(clusters_seen_from(1.0f, 1e6f), 0u); // both far from the origin, close together
     EXPECT_EQ(clusters_seen_from(1.0f, -1e6f), 0u);
     EXPECT_EQ(clusters_seen_from(100.0f, 1e6f), 0u);
 }

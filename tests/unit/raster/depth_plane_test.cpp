@@ -1,4 +1,4 @@
-// The plane of depths over a triangle, in double precision and in lanes.
+// The depth plane of a triangle, in double precision and in lanes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Which large triangles of a tile are drawn the nearest first.
+// Large triangles of a tile that are drawn nearest first.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace burnish {
 namespace {
 
-// Triangles of one tile of 64 x 64 pixels, whose corner is at (0, 0).
+// Triangles of one tile of 64 x 64 pixels with its corner at (0, 0).
 struct draw_order : ::testing::Test {
     static constexpr std::size_t kRoom = 64 * 64;
     std::array<float, kRoom> red;
@@ -18,7 +18,7 @@ struct draw_order : ::testing::Test {
     std::array<MaterialRecord, 2> materials = {};
     std::uint32_t count = 0;
 
-    // Half of the square from (x, y) on, of `side` pixels; its depth, which is greater where it is nearer.
+    // Adds half of the square at (x, y) with `side` pixels. Greater depths are nearer.
     void add(int x, int y, int side, float depth, int material = 0)
     {
         TriangleSetup& t = triangles[count];
@@ -44,7 +44,7 @@ TEST_F(draw_order, what_hides_the_rest_comes_first)
     for (int layer = 0; layer < 6; ++layer)
         add(0, 0, 64, 0.1f * static_cast<float>(layer % 3 + 1));
     ASSERT_TRUE(sorts());
-    for (std::uint32_t i = 0; i < count; ++i) // equal ones in turn
+    for (std::uint32_t i = 0; i < count; ++i) // equal ones keep their order
         EXPECT_EQ(singly[i], (std::array<std::uint32_t, 6>{2, 5, 1, 4, 0, 3})[i]) << i;
 }
 

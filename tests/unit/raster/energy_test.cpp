@@ -1,5 +1,5 @@
-// How much light lobes give back. Energy compensation: what single scattering between microfacets loses comes back, whatever the widths of
-// the lobe. Tilts: every technique gives back what Monte Carlo of the ellipsoid distribution does.
+// Light that lobes reflect. With energy compensation the single-scattering loss between microfacets returns, for all lobe widths. With
+// tilts every technique reflects as much as Monte Carlo of the ellipsoid distribution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Range {
     double least = 9.0, most = 0.0;
 };
 
-// What the floor gives back over lobes and views.
+// Returns the range of the floor's reflected light over lobes and views.
 Range range_over_lobes(const Floor& floor, FrameDesc d)
 {
     d.override_anisotropy = true;
@@ -36,7 +36,7 @@ Range range_over_lobes(const Floor& floor, FrameDesc d)
     return r;
 }
 
-// What mc gives back is the albedo table's doing; the others scale by the same albedo that is compensated for, or by their samples' own.
+// The albedo table alone determines mc's light. The other techniques scale by the compensated albedo or by their samples' albedo.
 TEST(energy, a_white_metal_gives_back_all_light_whatever_its_lobe)
 {
     const Floor floor;
@@ -55,7 +55,8 @@ TEST(energy, a_white_metal_gives_back_all_light_whatever_its_lobe)
     }
 }
 
-// A metal that absorbs and a dielectric, whose diffuse part gets what the lobe leaves: prefiltered techniques give back what sampling does.
+// For an absorbing metal and for a dielectric, whose diffuse part gets the light that the lobe leaves, prefiltered techniques match
+// sampling.
 TEST(energy, one_fetch_gives_back_what_sampling_does)
 {
     double largest = 0.0;
@@ -80,7 +81,7 @@ TEST(energy, one_fetch_gives_back_what_sampling_does)
     std::printf("largest difference %.4f\n", largest);
 }
 
-// Without compensation too: the light that a technique found is scaled by what its lobe of two widths gives back.
+// Without compensation, too, a technique's light is scaled by the albedo of its anisotropic lobe.
 TEST(energy, prefiltered_techniques_give_back_what_their_lobe_does)
 {
     const Floor floor;
@@ -105,8 +106,8 @@ TEST(energy, prefiltered_techniques_give_back_what_their_lobe_does)
     std::printf("largest relative difference %.4f\n", largest);
 }
 
-// What a tilted lobe loses, below the surface too, comes back, and no more. Of lobes that look away so far that hardly any light returns
-// less comes back, as compensation is limited.
+// The light that a tilted lobe loses, below the surface too, returns, and no more. Lobes that face so far away that hardly any light
+// returns get less back, since compensation is limited.
 TEST(energy, a_tilted_white_metal_gives_back_all_light)
 {
     const Floor floor;
@@ -132,12 +133,12 @@ TEST(energy, a_tilted_white_metal_gives_back_all_light)
                         }
         std::printf("%s: %.4f to %.4f, looking away at most %.4f\n", t.name, r.least, r.most, away.most);
         EXPECT_LT(away.most, mc ? 1.12 : 1.001) << t.name;
-        EXPECT_GT(r.least, mc ? 0.9 : 0.999) << t.name; // mc's own albedo is known by some samples
+        EXPECT_GT(r.least, mc ? 0.9 : 0.999) << t.name; // a few samples estimate mc's albedo
         EXPECT_LT(r.most, mc ? 1.1 : 1.001) << t.name;
     }
 }
 
-// Somewhere on every round thing the grain's axis turns to its opposite.
+// On every round object there is a place where the grain's axis flips.
 TEST(energy, samples_of_a_grid_lie_opposite_each_other)
 {
     for (int n = 1; n <= 8; ++n) {
@@ -172,7 +173,7 @@ struct Difference {
     double rms() const { return std::sqrt(squares / count); }
 };
 
-// An eye against the lobe's own normal, as floor.seen() takes it.
+// An eye against the lobe's normal, as floor.seen() takes it.
 struct EyeOfLobe {
     double cosine, azimuth_rad;
 };
@@ -185,8 +186,8 @@ EyeOfLobe eye_of_lobe(const glm::vec2& tilt_rad, double cosine, double azimuth_r
     return {glm::dot(eye, y * sx + across * cx), std::atan2(glm::dot(eye, y * cx - across * sx), glm::dot(eye, t))};
 }
 
-// A tilted lobe loses what looks away, what its microfacets mask and what it would send below the surface. Filtered samples have an albedo
-// of their own, tilted or not: of them the loss alone is compared.
+// A tilted lobe loses light that faces away, that microfacets mask, and that would leave below the surface. Filtered samples have another
+// albedo than the lobe, tilted or not, so the test compares their loss alone.
 TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
 {
     const Floor floor;
@@ -211,7 +212,7 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
                             const TechniqueInfo& t = techniques()[i];
                             d.technique = upright.technique = t.name, d.samples = upright.samples = t.default_samples;
                             double own = 1.0;
-                            if (level && (t.sampling == Sampling::grid || t.traits & kPhongGrid)) // lobes of their own
+                            if (level && (t.sampling == Sampling::grid || t.traits & kPhongGrid)) // lobes with another albedo
                                 own = floor.seen(upright, eye.cosine, eye.azimuth_rad) / of_level;
                             off[i].add(floor.seen(d, cosine, azimuth * kDegree) - truth * own);
                         }
@@ -220,13 +221,13 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
         const std::string name = techniques()[i].name;
         std::printf("%s: rms %.4f, at most %.4f\n", name.c_str(), off[i].rms(), off[i].largest);
         const bool phong = techniques()[i].traits & kPhongGrid, box = techniques()[i].traits & kReadsBox;
-        EXPECT_LT(off[i].rms(), phong ? 0.04 : 0.02) << name;               // whose lobe loses more the lower it is seen
+        EXPECT_LT(off[i].rms(), phong ? 0.04 : 0.02) << name;               // the Phong lobe loses more at lower views
         EXPECT_LT(off[i].largest, phong ? 0.4 : box ? 0.25 : 0.08) << name; // few samples see the eye from behind
     }
 }
 
-// A tilt of a thousandth of a degree is none, however light is found; where microfacets mask each other apart and the eye looks straight
-// down a long lobe, whose few samples then turn with the tilt, to 3e-4.
+// A tilt of a thousandth of a degree changes nothing. With separable masking and an eye straight down a long lobe, the few samples turn
+// with the tilt, so the bound is wider.
 TEST(tilt, that_is_next_to_none_changes_nothing)
 {
     const Floor floor;
@@ -240,7 +241,7 @@ TEST(tilt, that_is_next_to_none_changes_nothing)
                     for (float eta : {0.0f, 0.8f})
                         for (double cosine : {1.0, 0.7, 0.35, 0.1}) {
                             d.technique = t.name, d.samples = t.default_samples;
-                            if (t.traits & kSamplesLobe && masking) // the separable ones have samples of their own
+                            if (t.traits & kSamplesLobe && masking) // separable ones have other samples
                                 continue;
                             d.masking = masking, d.energy_compensation = compensated;
                             d.roughness = roughness, d.anisotropy = eta;
@@ -256,7 +257,7 @@ TEST(tilt, that_is_next_to_none_changes_nothing)
     std::printf("largest relative difference %.2e\n", largest);
 }
 
-// From 0 to 40 degrees what comes back bends, by up to 0.016 where the eye comes over the lobe's horizon, and nowhere jumps.
+// From 0 to 40 degrees the reflected light bends where the eye crosses the lobe's horizon, and jumps nowhere.
 TEST(tilt, dims_without_a_jump)
 {
     const Floor floor;
@@ -285,7 +286,7 @@ TEST(tilt, dims_without_a_jump)
     std::printf("largest second difference %.4f\n", largest);
 }
 
-// With masking of its own kind the white metal gives back what its samples do.
+// With separable masking the white metal reflects as much as Monte Carlo with the same masking.
 TEST(masking, every_technique_gives_back_what_monte_carlo_does)
 {
     const Floor floor;

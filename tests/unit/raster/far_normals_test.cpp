@@ -1,4 +1,4 @@
-// Strong normal maps from afar: mean light of a far plate by each mip filter, beside the mean over the texels of its map.
+// Strong normal maps from afar: a far plate's mean light by each mip filter, against the mean over its map's texels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ double part_of(double x)
     return x - std::floor(x);
 }
 
-// Bowls about scattered points, which meet in ridges.
+// Returns the slope of bowls around scattered points, which meet in ridges.
 glm::dvec2 hammered(double u, double v)
 {
     constexpr int kCells = 4;
@@ -46,14 +46,14 @@ glm::dvec2 hammered(double u, double v)
     return slope;
 }
 
-// Pyramids in diamonds: four slopes.
+// Returns the slope of diamond-shaped pyramids, which have four slopes.
 glm::dvec2 knurled(double u, double v)
 {
     const double a = part_of((u + v) * 4.0) < 0.5 ? 0.4 : -0.4, b = part_of((u - v) * 4.0) < 0.5 ? 0.4 : -0.4;
     return {a + b, b - a};
 }
 
-// A plain weave of round threads.
+// Returns the slope of a plain weave with round threads.
 glm::dvec2 woven(double u, double v)
 {
     const bool along = (static_cast<int>(u * 4.0) + static_cast<int>(v * 4.0)) % 2 == 0;
@@ -61,7 +61,7 @@ glm::dvec2 woven(double u, double v)
     return along ? glm::dvec2(0.0, across) : glm::dvec2(-across, 0.0);
 }
 
-// Grooves along u, some of them deep.
+// Returns the slope of grooves along u, some of them deep.
 glm::dvec2 scratched(double, double v)
 {
     const double deep = 0.15 * static_cast<double>(static_cast<int>(v * 8.0) % 4);
@@ -95,7 +95,7 @@ Scene far_plate(const SlopeAt& slope, MipFilter filter)
     return s;
 }
 
-// Mean radiance of points all over the map, by `mc`. footprint: of a pixel, in lengths of the map.
+// Returns the mean radiance of points all over the map, by `mc`. footprint: pixel size in lengths of the map.
 double mean_light(const ShadingFrame& f, const float* to_eye, float footprint, int points)
 {
     const MaterialRecord& m = f.materials[0];
@@ -124,7 +124,7 @@ FrameDesc desc_of(bool horizon)
     return d;
 }
 
-// The largest share by which the light of any filter is off, over the eyes.
+// Returns the largest relative error of the light over filters and eyes.
 double worst_of(const SlopeAt& slope, bool horizon, const Environment* environment)
 {
     double truth[std::size(kEyes)] = {}, worst = 0.0;

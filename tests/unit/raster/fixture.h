@@ -1,4 +1,4 @@
-// Small scenes built from bare triangles, and the tile renderer around them.
+// Small scenes built from bare triangles, and a tile renderer for them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace burnish::test {
 
-std::vector<Isa> available_isas(); // those that the tile renderer has here
+std::vector<Isa> available_isas(); // that the tile renderer supports on this machine
 
-// Numbers from a seed, the same on every machine (SplitMix64).
+// Seeded random numbers, equal on every machine (SplitMix64).
 struct Random {
     std::uint64_t state;
     std::uint64_t next();
@@ -24,16 +24,16 @@ struct Random {
 
 using Triangle = std::array<glm::vec3, 3>;
 
-// One mesh with one material; normals are the triangles' own.
+// Returns one mesh with one material and face normals.
 Scene scene_of(const std::vector<Triangle>& triangles, bool double_sided);
-// The walls of a cube about the origin, cells x cells squares each, seen from within and without.
+// Returns the walls of a cube around the origin, cells x cells squares each, visible from inside and outside.
 std::vector<Triangle> tessellated_box(float half, int cells);
-Scene plate(float metallic); // coloured, of x and y in [-1, 1] at z = 0, seen from above
-// A point light; intensity in candela, range in metres, 0 is unlimited.
+Scene plate(float metallic); // coloured, x and y in [-1, 1] at z = 0, seen from above
+// Adds a point light. Intensity in candela, range in metres (0: unlimited).
 void add_lamp(Scene& to, const glm::vec3& at, float intensity, float range = 0.0f);
 
-// A scene with everything a renderer needs, under an environment of one constant radiance. Sessions that draw it share its parts, which
-// tests may change between them.
+// A scene with everything that a renderer needs, under an environment of constant radiance. Sessions that draw it share its parts, and
+// tests may change the parts between them.
 class Stage {
     struct Parts;
     explicit Stage(const std::shared_ptr<Parts>& parts);
@@ -51,8 +51,8 @@ class Stage {
     Frame render(const FrameDesc& desc, Isa isa) const;
 };
 
-// An orthographic view of width x height pixels in which x and y are pixels from the image's top left corner, y up is negative:
-// the world position (x, -y, 0) lands on pixel position (x, y).
+// Returns an orthographic view with width x height pixels, measured from the top left corner. The world position (x, -y, 0) lands on pixel
+// position (x, y).
 View pixel_view(int width, int height);
 
 } // namespace burnish::test

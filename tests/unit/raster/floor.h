@@ -1,4 +1,4 @@
-// A floor of one material under light of one radiance: what it gives back is a number.
+// A floor of one material under constant radiance. Its reflected light is a single number.
 #pragma once
 #include <cmath>
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace burnish::test {
 
-// Two triangles facing +z, of a material without textures.
+// Returns two triangles that face +z, with an untextured material.
 inline Scene square(float metallic, float albedo)
 {
     Scene scene = scene_of(
@@ -23,7 +23,7 @@ struct Floor {
     explicit Floor(float metallic = 1.0f, float albedo = 1.0f) : Floor(square(metallic, albedo)) {}
     explicit Floor(Scene scene, float radiance = 1.0f) : stage(std::move(scene), radiance) { draw_again(); }
 
-    // Irradiance 1, from a direction (unit).
+    // Replaces the punctual lights by one of irradiance 1 from a unit direction.
     void put_lamp(const glm::dvec3& from)
     {
         PunctualLight l;
@@ -33,7 +33,7 @@ struct Floor {
         stage.tables.lights = {l};
         draw_again();
     }
-    // A key light of irradiance 1, a disc of this radius (radians).
+    // Replaces the key lights by a disc of irradiance 1 with this angular radius (radians).
     void put_sun(const glm::dvec3& from, double radius)
     {
         const glm::dvec3 u = glm::normalize(glm::cross(from, glm::dvec3(0.3, 1.0, 0.2))) * radius, v = glm::cross(from, u);
@@ -52,7 +52,7 @@ struct Floor {
         const double sine = std::sqrt(1.0 - cosine * cosine);
         return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
     }
-    // Mean radiance that it gives back to an eye at a cosine against the normal and an azimuth against x, which the grain is turned to.
+    // Returns the mean radiance towards an eye at a cosine against the normal and an azimuth against x, the grain's direction.
     glm::dvec3 colour(const FrameDesc& shading, double cosine, double azimuth_rad) const
     {
         FrameDesc d = shading;

@@ -1,5 +1,5 @@
-// Exact reflectances (FrameDesc::fresnel): of mirrors and under lamps and suns what Fresnel's equations say, in complex double; of rough
-// lobes by every technique what Monte Carlo finds.
+// Exact reflectances (FrameDesc::fresnel). Mirrors, lamps and suns match Fresnel's equations in complex double. Rough lobes match Monte
+// Carlo for every technique.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace burnish::test {
 namespace {
 
-// Born and Wolf 1999, "Principles of Optics", section 1.5.
+// Returns the unpolarised reflectance. Born and Wolf 1999, "Principles of Optics", section 1.5.
 double reflectance(double cosine, std::complex<double> index)
 {
     const std::complex<double> g = std::sqrt(index * index - 1.0 + cosine * cosine);
@@ -38,7 +38,7 @@ constexpr Metal kMetals[] = {{"gold", glm::vec3(0.143f, 0.375f, 1.44f), glm::vec
 
 Scene of_metal(const Metal& metal)
 {
-    Scene scene = square(1.0f, 0.5f); // whose colour the index takes the place of
+    Scene scene = square(1.0f, 0.5f); // the index replaces the colour
     scene.materials[0].conductor_eta = metal.eta, scene.materials[0].conductor_k = metal.k;
     return scene;
 }
@@ -77,7 +77,7 @@ TEST(fresnel, a_mirror_reflects_what_the_equations_say)
     std::printf("off by %.5f at most\n", largest);
 }
 
-// Each law is of what it names: metals without an index stay as they are, and Schlick's frames know no index.
+// Each law applies to its own kind of material: metals without an index keep Schlick's colour, and Schlick's frames ignore the index.
 TEST(fresnel, a_law_is_of_what_it_names)
 {
     const Floor plain(square(1.0f, 0.5f)), gold(of_metal(kMetals[0])), glass(of_glass(1.8f));
@@ -96,7 +96,7 @@ TEST(fresnel, a_law_is_of_what_it_names)
     EXPECT_GT(std::abs(seen(glass, kFresnelDielectric) - seen(glass, kFresnelSchlick)), 0.005);
 }
 
-// KHR_materials_specular dims all of a dielectric's reflection, whatever its shape; an index of 1 reflects nothing, one of 0 everything.
+// KHR_materials_specular scales all of a dielectric's reflection, under any law. An index of 1 reflects nothing, an index of 0 everything.
 TEST(fresnel, extensions_of_dielectrics_keep_their_meaning)
 {
     FrameDesc d = with_law(kFresnelDielectric);
@@ -111,7 +111,7 @@ TEST(fresnel, extensions_of_dielectrics_keep_their_meaning)
     }
 }
 
-// Against a white metal, whose reflectance is 1 whatever the angle, all that is left of one light is the reflectance at the half vector.
+// A white metal has reflectance 1 at every angle. The ratio to it under one light is the reflectance at the half vector.
 TEST(fresnel, lamps_and_suns_meet_it_at_the_half_vector)
 {
     const glm::dvec3 l = glm::normalize(glm::dvec3(0.7, 0.2, 0.4));
@@ -132,7 +132,7 @@ TEST(fresnel, lamps_and_suns_meet_it_at_the_half_vector)
             }
 }
 
-// One value of the reflectance takes the place of its mean over the lobe: see mean_v_dot_h().
+// One value of the reflectance replaces its mean over the lobe: see mean_v_dot_h().
 TEST(fresnel, one_fetch_gives_back_what_sampling_does)
 {
     for (const Metal& metal : kMetals) {
@@ -160,7 +160,7 @@ TEST(fresnel, one_fetch_gives_back_what_sampling_does)
     }
 }
 
-// A material that is half of each, on every instruction set.
+// Draws a material that is half metal and half dielectric on every instruction set.
 TEST(fresnel, is_the_same_for_every_isa)
 {
     Scene scene = of_metal(kMetals[0]);

@@ -1,4 +1,4 @@
-// That golden pictures are whole, and that a picture which is not golden is shown.
+// Golden images are complete, and a differing image leaves a visible report.
 #include "tests/unit/golden.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ TEST(golden, every_picture_has_its_checks)
     EXPECT_EQ(fault_of_golden(golden_place().kept), "");
 }
 
-// A folder that goes when the test ends.
+// A folder that is removed when the test ends.
 struct Place : GoldenPlace {
     Place()
     {
@@ -60,7 +60,7 @@ TEST(golden, a_picture_that_differs_is_left_beside_the_golden_one_with_its_place
     int shown = 0;
     for (int i = 0; i < 200; ++i)
         shown += static_cast<int>(difference->bytes[static_cast<std::size_t>(3 * i)]) > 20;
-    EXPECT_EQ(shown, 4); // where a row that differs crosses a column that does
+    EXPECT_EQ(shown, 4); // where a differing row crosses a differing column
 }
 
 TEST(golden, what_was_never_blessed_and_what_two_draw_differently_is_an_error)

@@ -1,4 +1,4 @@
-// The determinism promise: one picture, whatever runs it, and the same as when it was last looked at (tests/golden).
+// Determinism: every instruction set and thread count draws the same image, equal to the golden one (tests/golden).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Environment small_bake(const char* name)
     return std::move(*baked);
 }
 
-// The studio in small, baked once.
+// Returns the small studio environment, baked once.
 const Environment& studio()
 {
     static const Environment environment = small_bake("studio");
@@ -99,7 +99,7 @@ TEST(hash, of_every_technique_is_the_same_for_every_isa_and_thread_count)
     }
 }
 
-// On the same spheres, what a technique does not do unless asked.
+// Options that change the default image of the spheres.
 struct OptionCase {
     const char* name;
     void (*set)(FrameDesc& d);
@@ -153,7 +153,7 @@ TEST(golden, picture_of_every_option_is_as_it_was)
         }
 }
 
-// A long gleam of the sun, which has left the environment.
+// A long highlight of the sun, which has been extracted from the environment.
 TEST(golden, picture_of_the_sun_is_as_it_was)
 {
     const Case c = {"spheres", 96, 64, 4};
@@ -167,7 +167,7 @@ TEST(golden, picture_of_the_sun_is_as_it_was)
     }
 }
 
-// Every form of area light, on anisotropic metal, paint, floor and wall.
+// All shapes of area lights, on anisotropic metal, paint, floor and wall.
 TEST(golden, picture_of_area_lights_is_as_it_was)
 {
     Result<Scene> scene = make_builtin_scene("lights");
@@ -195,7 +195,7 @@ TEST(hash, of_a_second_frame_equals_the_first)
     black.background = false, black.view.eye.y += 0.1f;
     const Result<Frame> a = renderer->render(small), b = renderer->render(other);
     ASSERT_TRUE(a && b);
-    for (const FrameDesc& before : {other, black}) { // memory with another picture in it
+    for (const FrameDesc& before : {other, black}) { // memory that holds another picture
         Result<Frame> recycled = renderer->render(before);
         ASSERT_TRUE(recycled);
         ASSERT_NE(pixel_hash(a->color), pixel_hash(recycled->color));

@@ -10,12 +10,12 @@
 namespace burnish::test {
 namespace {
 
-using quad = __float128; // 113 bits: edge functions times a float are exact in it, one division rounds
+using quad = __float128; // 113 bits hold edge functions times a float exactly; one division rounds
 
 TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_rounding)
 {
     Random random{21};
-    double worst_fat = 0.0, worst_thin = 0.0; // relative to the condition of the triangle
+    double worst_fat = 0.0, worst_thin = 0.0; // relative to the triangle's condition number
     for (int k = 0; k < 200000; ++k) {
         const int size = 1 << (3 + random.below(17));
         float x[3], y[3], inv_w[3];
@@ -38,7 +38,7 @@ TEST(interpolation, perspective_weights_equal_exact_arithmetic_within_float_roun
             continue;
         const bary_weights w =
             perspective_weights(vec3_of(x[0], x[1], x[2]), vec3_of(y[0], y[1], y[2]), vec3_of(inv_w[0], inv_w[1], inv_w[2]));
-        // the rounding of the products, seen through the triangle's own size
+        // the products' rounding error, scaled by the triangle's size
         const double condition = static_cast<double>(scale / sum);
         const float got[3] = {w.b.x, w.b.y, w.b.z};
         for (int i = 0; i < 3; ++i) {

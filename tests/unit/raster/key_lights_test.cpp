@@ -1,5 +1,5 @@
-// Key lights on a surface: what a lobe makes of a small disc or ellipse on the sky, against the sum of many directional lights that lie
-// in it, and on the way from a mirror to a rough surface.
+// Key lights on a surface: the lobe's response to a small disc or ellipse on the sky, against a sum over directional lights inside it.
+// Roughness goes from a mirror to a rough surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Disc {
     glm::dvec3 centre, u, v; // unit; half axes as tangents, orthogonal to the centre
 };
 
-// Around the direction in which a plate that lies level mirrors the eye, and off it by angles along x and y.
+// Returns a disc around the direction in which a level plate mirrors the eye, offset by angles along x and y.
 Disc disc_near(const glm::dvec3& mirrored, double off_x, double off_y, double radius, double ratio, double turn)
 {
     Disc d;
@@ -29,7 +29,7 @@ Disc disc_near(const glm::dvec3& mirrored, double off_x, double off_y, double ra
     return d;
 }
 
-// A plate under nothing but one key light or the directional lights that are in it.
+// A plate under one key light, or under the directional lights that sample the key light.
 class Sun {
   public:
     explicit Sun(float metallic = 1.0f) : key_(plate(metallic), 0.0f), points_(plate(metallic), 0.0f) {}
@@ -45,7 +45,7 @@ class Sun {
         key_.environment.key_lights = {k};
         key_.environment.whole = key_.environment.specular;
         points_.tables.lights.clear();
-        for (int i = 0; i < count; ++i) { // evenly by the golden angle
+        for (int i = 0; i < count; ++i) { // spread evenly by the golden angle
             const double r = std::sqrt((i + 0.5) / count), a = i * 2.39996322972865332;
             PunctualLight l;
             l.directional = true;
@@ -71,10 +71,10 @@ class Sun {
 };
 
 struct Worst {
-    double of_peak = 0.0, ratio = 0.0; // differences over the largest value, and logarithms of ratios
+    double of_peak = 0.0, ratio = 0.0; // differences over the largest value; logarithms of ratios
 };
 
-// Over places of the light along both axes of the lobe.
+// Returns the largest errors over light positions along both axes of the lobe.
 Worst worst_of(Sun& sun, const FrameDesc& d, const glm::dvec3& eye, double radius, double ratio, int count)
 {
     const glm::dvec3 mirrored(-eye.x, -eye.y, eye.z);
@@ -103,7 +103,7 @@ glm::dvec3 eye_at(double cosine, double azimuth_rad)
     return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
 }
 
-// A small one is a directional light, for every technique, tilt and lobe, with the energy compensation of the lobe.
+// A small key light equals a directional light, for every technique, tilt and lobe, with and without energy compensation.
 TEST(key_lights, that_are_small_are_directional_lights)
 {
     Sun sun;
@@ -123,7 +123,7 @@ TEST(key_lights, that_are_small_are_directional_lights)
     std::printf("largest ratio %.2e\n", worst);
 }
 
-// Round ones on round lobes exactly, whatever the lobe's width against theirs; long lobes within what key.k.h says.
+// A key light matches the sum of its directional lights, for round and long lobes. The bounds widen for narrow lobes.
 TEST(key_lights, are_the_sum_of_the_light_in_them)
 {
     Sun sun;
@@ -148,7 +148,7 @@ TEST(key_lights, are_the_sum_of_the_light_in_them)
                 }
 }
 
-// Where eye and light both graze the surface, half vectors may lie anywhere: nothing flares up there.
+// Where eye and light both graze the surface, half vectors may lie anywhere. Nothing may flare up there.
 TEST(key_lights, that_graze_the_surface_are_no_brighter_than_the_light_in_them)
 {
     Sun sun;
@@ -172,7 +172,7 @@ TEST(key_lights, that_graze_the_surface_are_no_brighter_than_the_light_in_them)
     std::printf("at most %.3f of the light in them\n", most);
 }
 
-// What is not metal scatters it by its cosine.
+// A dielectric scatters the light by its cosine.
 TEST(key_lights, light_what_is_diffuse_by_their_cosine)
 {
     Sun sun(0.0f);
@@ -184,7 +184,7 @@ TEST(key_lights, light_what_is_diffuse_by_their_cosine)
         const double e = elevation * kOneDegree;
         sun.place(disc_near({std::cos(e), 0.0, std::sin(e)}, 0.0, 0.0, 0.01, 1.0, 0.0), 64);
         const double key = sun.seen(d, eye).key, lambert = 3.0 * 0.8 * std::sin(e) / std::numbers::pi;
-        EXPECT_NEAR(key / lambert, 0.97, 0.06) << elevation; // what the interface lets through, and its own gleam
+        EXPECT_NEAR(key / lambert, 0.97, 0.06) << elevation; // interface transmittance and specular reflection
         EXPECT_GT(key, before);
         before = key;
     }
@@ -192,8 +192,8 @@ TEST(key_lights, light_what_is_diffuse_by_their_cosine)
     EXPECT_EQ(sun.seen(d, eye).key, 0.0); // below the horizon
 }
 
-// A sun of two degrees seen in its mirror direction and at its edge, from a mirror to the roughest: brightness falls without a jump, and
-// the mirror shows what the environment has.
+// A sun of two degrees seen in its mirror direction and at its edge, from a mirror to the roughest lobe. Brightness falls without a jump,
+// and the mirror shows the environment.
 TEST(key_lights, grow_from_a_mirror_s_picture_to_a_wide_gleam_without_a_jump)
 {
     const glm::dvec3 eye = eye_at(0.8, 0.3), mirrored(-eye.x, -eye.y, eye.z);
@@ -233,7 +233,7 @@ TEST(key_lights, grow_from_a_mirror_s_picture_to_a_wide_gleam_without_a_jump)
                 for (float r = 0.002f; r < 1.0f; r = r < 0.1f ? r + 0.004f : r * 1.05f) {
                     d.roughness = r;
                     const double now = red(from);
-                    if (std::string(technique) != "mc" || off_deg < 2.0) // whose samples find the sky by chance
+                    if (std::string(technique) != "mc" || off_deg < 2.0) // mc's samples find the sky by chance
                         jump = std::max(jump, std::abs(now - before) / std::max({now, before, 1.0}));
                     before = now;
                 }

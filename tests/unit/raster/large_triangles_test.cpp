@@ -1,5 +1,5 @@
-// Triangles thousands to millions of times as large as the near plane is far: what they cover and what is interpolated over them, against
-// an oracle that neither clips nor snaps.
+// Triangles that are thousands to millions of times larger than the near plane's distance. Coverage and interpolated values are checked
+// against an oracle that neither clips nor snaps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@
 namespace burnish::test {
 namespace {
 
-// Corners lie on a grid of 1/256 pixel, which moves an edge by up to .0028 pixel; nothing else does.
+// Corners snap to a grid of 1/256 pixel, which moves an edge by at most .0028 pixel. Nothing else moves an edge.
 constexpr double kEdge = 1.0 / 256.0; // pixels
-// What is interpolated over a piece that clipping left is that of a place so near.
+// Values on a clipped piece equal the exact values at a place this near.
 constexpr double kPlace = 1.0 / 256.0; // pixels
-// Whole triangles end up to 15360 pixels away, and floats lose up to 2^-18 of that.
+// Whole triangles end at most 15360 pixels away, and floats lose up to 2^-18 of this distance.
 constexpr double kPlaceOfWhole = 1.0 / 16.0; // pixels
-constexpr double kRounding = 0x1p-20;        // of a value, and of the largest weight
+constexpr double kRounding = 0x1p-20;        // relative to a value and to the largest weight
 
 // One triangle through the front end of an instruction set.
 class OneTriangle {
@@ -41,7 +41,7 @@ class OneTriangle {
         vertices_.resize(3);
         material_.double_sided = 1;
     }
-    // Returns setups: the whole triangle, or the pieces that clipping leaves.
+    // Returns the whole triangle's setup, or the setups of its pieces after clipping.
     const std::vector<ClippedPiece>& draw(const View& view, int width, int height, const glm::vec3 corners[3])
     {
         FrameParams f = {};
@@ -94,7 +94,7 @@ class OneTriangle {
     MaterialRecord material_ = {};
 };
 
-// Whether a piece covers a place, 1/256 pixel from the centre pixel; its edges belong to it.
+// Returns true where a piece covers a place (1/256 pixel from the centre pixel). Edges belong to the piece.
 bool piece_covers(const TriangleSetup& t, int x, int y)
 {
     for (int i = 0; i < 3; ++i) {
@@ -105,13 +105,13 @@ bool piece_covers(const TriangleSetup& t, int x, int y)
     return true;
 }
 
-struct WorstOfLarge { // over all places that were looked at
+struct WorstOfLarge { // over all places tested
     std::size_t triangles = 0, cut = 0, places = 0, covered = 0, differing = 0;
-    double edge_px = 0.0;                                          // of those that differ: to the nearest edge
-    double w_px = 0.0, depth_px = 0.0, b_px = 0.0, whole_px = 0.0; // as how far away a place has the value that was found here
+    double edge_px = 0.0;                                          // largest distance to an edge where coverage differs
+    double w_px = 0.0, depth_px = 0.0, b_px = 0.0, whole_px = 0.0; // distance to the place with the value found
 };
 
-// Pixels that explain an error of a value that changes by `slope`, rounding aside.
+// Returns the distance in pixels that explains the error of a value with this slope, after rounding.
 double pixels_away(Long error, Long rounding, Long slope)
 {
     const Long left = std::fabs(error) - rounding;
@@ -140,7 +140,7 @@ void look_at_values(const FrameParams& f, const ClippedPiece& piece, const Proje
                                          double(std::min(s.z[0], std::min(s.z[1], s.z[2])))),
                                double(std::max(s.z[0], std::max(s.z[1], s.z[2]))));
     worst.depth_px = std::max(worst.depth_px, pixels_away(z / exact.znear - inv_w, kRounding * inv_w, slope));
-    // Weights are the shares over inv_w: their change by a pixel is looked at over twice as far as they may move.
+    // Weights are the shares divided by inv_w. The allowed change per pixel is doubled.
     if (inv_w < 4 * kPlaceOfWhole * slope)
         return; // at the horizon
     const real3 b = w.b;
@@ -220,7 +220,7 @@ glm::dvec3 any_direction(Random& random)
 
 enum Kind { floor_below, upright, through_space, around_the_eye, sliver, kKinds };
 
-// Corners at up to `extent` metres, seen from an eye that is `height` metres from their plane, or anywhere.
+// Draws corners within `extent` metres, seen from an eye `height` metres above their plane, or anywhere.
 void random_corners(Random& random, int kind, double extent, double height, const glm::dvec3& eye, glm::vec3 corners[3])
 {
     glm::dvec3 n = kind == floor_below ? glm::dvec3(0, 1, 0) : any_direction(random);
@@ -235,7 +235,7 @@ void random_corners(Random& random, int kind, double extent, double height, cons
             p = eye + extent * static_cast<double>(random.unit()) * any_direction(random);
         corners[k] = glm::vec3(p);
     }
-    if (kind == sliver) // as wide as a hundredth to a millionth of its length
+    if (kind == sliver) // width: a hundredth to a millionth of the length
         corners[2] = corners[1] + glm::vec3(exponential(random, 1e-6, 1e-2) * extent * any_direction(random));
 }
 
@@ -252,7 +252,7 @@ void random_triangles(Isa isa, std::uint64_t seed, int count, int places)
         glm::vec3 corners[3];
         random_corners(random, random.below(kKinds), extent, height, glm::dvec3(eye), corners);
         const float fov = 0.3f + 1.6f * random.unit();
-        // Looks anywhere, or at a place of the triangle.
+        // Looks in any direction, or at a place on the triangle.
         glm::dvec3 towards = any_direction(random);
         const double a = static_cast<double>(random.unit()), b = (1.0 - a) * static_cast<double>(random.unit());
         const glm::dvec3 place = glm::dvec3(corners[0]) * a + glm::dvec3(corners[1]) * b + glm::dvec3(corners[2]) * (1.0 - a - b);
@@ -277,7 +277,7 @@ TEST(large_triangles, million_are_those_of_rays)
     random_triangles(best_isa(), 12, 1000000, 24);
 }
 
-// A square floor of two triangles: every sample of whole frames, and each triangle by its number.
+// Checks a square floor of two triangles: every sample of whole frames, with triangle ids.
 void look_at_floor(double extent, float height, float pitch, float roll, float znear, int width, int height_px, int msaa)
 {
     const float e = static_cast<float>(extent);
@@ -329,7 +329,7 @@ TEST(large_triangles, that_are_floors_cover_all_below_the_horizon)
             }
 }
 
-// From within a closed box every sample sees a wall, however large the box is.
+// From inside a closed box every sample sees a wall, however large the box is.
 TEST(large_triangles, that_close_a_box_leave_no_crack)
 {
     Random random{3};
@@ -338,7 +338,7 @@ TEST(large_triangles, that_close_a_box_leave_no_crack)
         for (int k = 0; k < 12; ++k) {
             glm::vec3 eye(random.unit(), random.unit(), random.unit());
             eye = (2.0f * eye - 1.0f) * half * 0.999f;
-            eye[k % 3] = (k % 2 ? half : -half) * (1.0f - 1e-6f); // a pace from a wall, or a few
+            eye[k % 3] = (k % 2 ? half : -half) * (1.0f - 1e-6f); // within a few metres of a wall
             const glm::vec3 target = (2.0f * glm::vec3(random.unit(), random.unit(), random.unit()) - 1.0f) * half;
             FrameDesc desc;
             desc.width = 97, desc.height = 61, desc.msaa = 4, desc.triangle_ids = true, desc.technique = "split_isotropic";

@@ -1,4 +1,4 @@
-// Layers of a picture against the scene that is drawn, and the parts of pixels against the pixels.
+// An image's layers against the drawn scene, and the parts of pixels against the pixels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,14 +59,14 @@ TEST(layers, are_those_of_a_plate)
                 EXPECT_FLOAT_EQ(p.albedo[1], 0.5f);
                 EXPECT_NEAR(p.roughness[0], 0.7f, 1e-5f); // widths mix(.25, 1, .64) and .25
                 const auto whole = [&](int s) { return f.triangle_ids[static_cast<std::size_t>((y * kLayersSide + x) * msaa + s)] == id; };
-                bool centred = true; // shaded there
+                bool centred = true; // shaded at the centre
                 for (int s = 0; s < msaa; ++s)
                     centred = centred && whole(s);
                 const float across = (static_cast<float>(x) + 0.5f) / (kLayersSide / 2) - 1.0f,
                             up = 1.0f - (static_cast<float>(y) + 0.5f) / (kLayersSide / 2);
                 const glm::vec3 ray = d.view.forward + d.view.right * (across * d.view.tan_half_x) + d.view.up * (up * d.view.tan_half_y);
                 if (centred) {
-                    EXPECT_NEAR(p.depth[0], -2.0f / ray.z, 1e-4f) << x << " " << y; // whose length along the view is 1
+                    EXPECT_NEAR(p.depth[0], -2.0f / ray.z, 1e-4f) << x << " " << y; // the ray's length along the view is 1
                 }
             }
         EXPECT_GT(seen, 400);

@@ -1,4 +1,4 @@
-// Which tiles are cut into parts.
+// Tiles that are split into parts.
 #include <gtest/gtest.h>
 
 #include "raster/tile/long_tiles.h"
@@ -8,7 +8,7 @@ namespace {
 
 using Counts = std::vector<std::uint32_t>;
 
-// So many small tiles beside some others.
+// Returns `small` tiles with `each` triangles around some others.
 Counts beside(const Counts& others, std::size_t small, std::uint32_t each)
 {
     Counts counts(small, each);
@@ -20,14 +20,14 @@ TEST(long_tiles, are_left_whole_where_they_fill_all_threads)
 {
     const LongTiles found = long_tiles(beside({240000, 250000, 245000, 245000}, 500, 1), 2);
     EXPECT_EQ(found.cut, 0u);
-    EXPECT_EQ(found.tiles, (Counts{251, 252, 253, 250}));          // those of most first, equal ones in order
-    EXPECT_EQ(long_tiles(beside({300000}, 1000, 700), 3).cut, 0u); // as long as what is left for the others
+    EXPECT_EQ(found.tiles, (Counts{251, 252, 253, 250}));          // largest first, equal ones in order
+    EXPECT_EQ(long_tiles(beside({300000}, 1000, 700), 3).cut, 0u); // as long as the others' remaining work
 }
 
 TEST(long_tiles, are_cut_where_whole_ones_would_leave_a_thread_idle)
 {
     EXPECT_EQ(long_tiles(beside({900000}, 500, 10), 2).cut, 1u);
-    EXPECT_EQ(long_tiles(beside({250000, 250000, 250000}, 500, 10), 2).cut, 1u); // two whole, the third for both
+    EXPECT_EQ(long_tiles(beside({250000, 250000, 250000}, 500, 10), 2).cut, 1u); // two stay whole, both threads share the third
     EXPECT_EQ(long_tiles(beside({250000, 250000, 250000}, 500, 10), 8).cut, 3u);
 }
 

@@ -1,5 +1,5 @@
-// What a pinhole camera sees of one triangle, by its plane and edges in homogeneous coordinates: Olano and Greer 1997, "Triangle Scan
-// Conversion using 2D Homogeneous Coordinates". Nothing is clipped or snapped, and arithmetic has 64 bits or more.
+// Exact projection of one triangle by a pinhole camera, with the plane and edges in homogeneous coordinates: Olano and Greer 1997,
+// "Triangle Scan Conversion using 2D Homogeneous Coordinates". Nothing is clipped or snapped, and arithmetic has at least 64 bits.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -27,12 +27,12 @@ inline Long3 long3(const float v[3])
     return {v[0], v[1], v[2]};
 }
 
-// Value that is linear over the screen: at + by_x x + by_y y, pixels from the top left corner.
+// A value that is linear over the screen: at + by_x x + by_y y, in pixels from the top left corner.
 struct Linear {
     Long at, by_x, by_y;
     Long value(Long x, Long y) const { return at + by_x * x + by_y * y; }
-    Long slope() const { return std::hypot(by_x, by_y); } // by pixel
-    // Pixels to where the value is 0, negative beyond.
+    Long slope() const { return std::hypot(by_x, by_y); } // per pixel
+    // Returns the distance in pixels to where the value is 0, negative beyond.
     Long distance(Long x, Long y) const
     {
         const Long v = value(x, y), s = slope();
@@ -46,7 +46,7 @@ struct ProjectedTriangle {
     Long znear;
     bool seen_at_all; // not edge-on
 
-    // Pixels to the nearest edge or the near plane where the point shows the triangle; else as many below 0 as it is beyond the farthest.
+    // Returns the distance in pixels to the nearest edge or near plane; negative outside, by the distance to the farthest violated one.
     Long inside(Long x, Long y) const
     {
         Long least = Linear{1 - znear * inv_w.at, -znear * inv_w.by_x, -znear * inv_w.by_y}.distance(x, y);
@@ -56,7 +56,7 @@ struct ProjectedTriangle {
     }
 };
 
-// corners: world space, as the renderer has them. width, height: pixels. Perspective views only.
+// Projects the corners (world space, float as in the renderer) to an image of width x height pixels. Perspective views only.
 inline ProjectedTriangle project(const ViewRecord& v, int width, int height, const glm::vec3 corners[3])
 {
     Long3 p[3]; // clip space x, y, w
@@ -69,7 +69,7 @@ inline ProjectedTriangle project(const ViewRecord& v, int width, int height, con
     t.znear = v.znear, t.seen_at_all = volume != 0;
     for (int k = 0; k < 3; ++k) {
         const Long3 edge = cross(p[(k + 1) % 3], p[(k + 2) % 3]);
-        // of (2 x / width - 1, 1 - 2 y / height, 1)
+        // linear form in (2 x / width - 1, 1 - 2 y / height, 1)
         t.share[k] = {(edge.z - edge.x + edge.y) / volume, 2 * edge.x / width / volume, -2 * edge.y / height / volume};
         t.inv_w.at += t.share[k].at, t.inv_w.by_x += t.share[k].by_x, t.inv_w.by_y += t.share[k].by_y;
     }

@@ -1,4 +1,4 @@
-// Parallax: where rays meet heights whose meeting points are known, on planes however texture coordinates lie on them.
+// Parallax: rays meet height maps at known points, on planes with any mapping of texture coordinates.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace burnish::test {
 namespace {
 
-constexpr float kDepth = 0.2f; // lengths of texture coordinates
+constexpr float kDepth = 0.2f; // in texture coordinates
 
-// A plane of one triangle whose heights are the texels of a row.
+// Returns a plane of one triangle whose heights are one texel row.
 Scene plane_of(const std::vector<int>& heights)
 {
     Scene s = scene_of({Triangle{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}}, true);
@@ -39,7 +39,7 @@ struct Moved {
     visible_point p;
 };
 
-// v: to the eye, any length, along (u, v against the bitangent, normal) of a plane whose tangent is along_u.
+// v: direction to the eye, any length, as (u, negative bitangent, normal) on a plane whose tangent is along_u.
 Moved moved(const Stage& stage, const Plane& plane, const glm::vec3& v, const glm::vec2& from, int metric, float scale = 1.0f)
 {
     FrameDesc desc;
@@ -63,8 +63,8 @@ Moved moved(const Stage& stage, const Plane& plane, const glm::vec3& v, const gl
     return {{p.uv0.x, p.uv0.y}, p};
 }
 
-// What shading reads there as depth, 0 at the surface and 1 at the deepest; that it is not the height is what
-// relief.of_height_one_is_the_surface says, and nothing else here.
+// Returns the depth that shading reads: 0 at the surface, 1 at the deepest place. relief.of_height_one_is_the_surface alone tells depth
+// from height.
 double depth_read(const Stage& stage, float u)
 {
     FrameDesc desc;
@@ -81,7 +81,7 @@ int code_of_surface()
     return depth_read(Stage(plane_of({255, 255})), 0.5f) < 0.5 ? 255 : 0;
 }
 
-// Where a ray that goes down to depth d (in lengths of texture coordinates) below `from` leaves it, in double precision.
+// Returns where a ray from `from` reaches depth d (in texture coordinates), in double precision.
 glm::dvec2 expected(const Plane& plane, const glm::dvec3& v, const glm::dvec2& from, double d)
 {
     const glm::dvec3 u = plane.along_u, w = plane.along_v, n = glm::normalize(glm::cross(w, u));
@@ -119,7 +119,7 @@ TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
                 if (plane.along_v == kEven.along_v) {
                     EXPECT_LT(off, 1e-5);
                 } else if (way > 1e-6) {
-                    EXPECT_GT(off, 0.4 * way); // by the root of 3 along each axis
+                    EXPECT_GT(off, 0.4 * way); // off by a root of 3 along each axis
                 }
                 EXPECT_EQ(on.p.uv0_dx.x, 0.01f);
                 EXPECT_EQ(on.p.uv0_dy.y, 0.02f);
@@ -139,7 +139,7 @@ TEST(relief, knows_skewed_coordinates)
     }
 }
 
-// Between two texels heights are a ramp, which a ray meets where two lines cross.
+// Between two texels heights form a ramp. A ray meets the ramp where two lines cross.
 TEST(relief, of_a_ramp_is_met_where_lines_cross)
 {
     const int surface = code_of_surface();
@@ -156,18 +156,18 @@ TEST(relief, of_a_ramp_is_met_where_lines_cross)
     EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.6f, 0.5f}, kReliefOnSurface, 0.0f).uv, glm::vec2(0.6f, 0.5f)); // no depth
 }
 
-// A wall in the way: what lies behind it is not seen, at any angle that steps are taken at.
+// A ridge hides the ground behind it, at every angle of the ray.
 TEST(relief, hides_what_lies_behind)
 {
     const int surface = code_of_surface();
     std::vector<int> heights(64, 255 - surface);
     for (int i = 24; i < 32; ++i)
         heights[static_cast<std::size_t>(i)] = surface;
-    const Stage stage(plane_of(heights)); // a ridge from u = .375 to .5, as high as the surface
+    const Stage stage(plane_of(heights)); // a ridge from u = .375 to .5, level with the surface
     for (const float slope : {1.0f, 2.0f, 3.0f}) {
         const glm::vec2 at = moved(stage, kEven, {slope, 0.0f, 1.0f}, {0.55f, 0.5f}, kReliefOnSurface).uv;
         const float step = slope * kDepth / kLeastReliefSteps;
-        EXPECT_GT(at.x, 0.5f - step) << slope; // its ridge, to within a step, not the ground beyond
+        EXPECT_GT(at.x, 0.5f - step) << slope; // the ridge, within a step, and not the ground beyond
         EXPECT_LT(at.x, 0.52f);
     }
 }

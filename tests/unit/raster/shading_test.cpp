@@ -1,4 +1,4 @@
-// Colours whose value is known: furnaces, punctual lights, textures, alpha.
+// Colours with known values: furnaces, punctual lights, textures, alpha.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ const float* pixel(const Frame& f, int x, int y)
     return f.color.f32() + 3 * (y * f.color.width + x);
 }
 
-// Under radiance 1 everywhere a dielectric of albedo 1 gives back exactly what it gets: what is not reflected is diffused.
+// Under constant radiance 1 a dielectric of albedo 1 reflects exactly 1: light that is not reflected is diffused.
 TEST(furnace, white_dielectric_disappears_in_a_constant_environment)
 {
     Scene scene = *make_builtin_scene("spheres");
@@ -50,7 +50,7 @@ TEST(furnace, white_dielectric_disappears_in_a_constant_environment)
         ASSERT_NEAR(f.color.f32()[i], 1.0f, 3e-3f) << "pixel " << i / 3;
 }
 
-// A metal of reflectance 1 gives back its directional albedo: the DFG table's scale + bias.
+// A metal of reflectance 1 reflects its directional albedo: scale + bias of the DFG table.
 TEST(furnace, metal_gives_back_its_directional_albedo)
 {
     for (float roughness : {0.0f, 0.3f, 0.7f, 1.0f}) {
@@ -71,7 +71,7 @@ TEST(furnace, metal_gives_back_its_directional_albedo)
     }
 }
 
-// The analytic fit gives back Pesce and Iwanicki's own numbers, which are off from the table's.
+// The analytic fit reproduces the numbers of Pesce and Iwanicki, which differ from the table.
 TEST(furnace, the_analytic_fit_of_the_albedo_can_be_chosen)
 {
     for (double roughness : {0.3, 0.9}) {
@@ -88,7 +88,7 @@ TEST(furnace, the_analytic_fit_of_the_albedo_can_be_chosen)
     }
 }
 
-// With energy compensation a metal that absorbs nothing gives back all light, however rough: it disappears.
+// With energy compensation a metal that absorbs nothing reflects all light at any roughness, and disappears.
 TEST(furnace, energy_compensation_makes_a_white_metal_disappear)
 {
     Scene scene = *make_builtin_scene("spheres");
@@ -109,7 +109,7 @@ TEST(furnace, energy_compensation_makes_a_white_metal_disappear)
     }
 }
 
-// What every technique must agree on: a perfect mirror shows the environment itself, and a constant environment the lobe's albedo.
+// All techniques agree on two cases: a perfect mirror shows the environment, and a constant environment shows the lobe's albedo.
 TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo)
 {
     Scene scene = *make_builtin_scene("spheres");
@@ -128,14 +128,14 @@ TEST(technique, a_mirror_is_a_mirror_and_a_constant_environment_gives_the_albedo
             ASSERT_NEAR(mirror.color.f32()[i], 1.0f, 4e-3f) << t.name << " pixel " << i / 3;
         d.roughness = 0.5f;
         const Frame rough = stage.render(d, best_isa());
-        const bool sampled_lobe = std::string(t.name).rfind("filtered_is", 0) == 0; // a handful of samples overshoots a little
-        for (int i = 0; i < 160 * 100 * 3; ++i)                                     // a lobe never gives back more than it gets
+        const bool sampled_lobe = std::string(t.name).rfind("filtered_is", 0) == 0; // few samples overshoot a little
+        for (int i = 0; i < 160 * 100 * 3; ++i)                                     // a lobe never reflects more than it receives
             ASSERT_LT(rough.color.f32()[i], sampled_lobe ? 1.1f : 1.005f) << t.name;
     }
 }
 
-// Light below the surface's own horizon does not arrive, and lobes that look away are not seen: what is left of a tilted lobe is what Monte
-// Carlo of the ellipsoid distribution says, over whole spheres. (energy_test.cpp asks it of single views.)
+// No light arrives from below the surface's horizon, and lobes that face away are invisible. A tilted lobe's remaining light matches Monte
+// Carlo of the ellipsoid distribution over whole spheres. (energy_test.cpp tests single views.)
 TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
 {
     const Stage stage(*make_builtin_scene("spheres"));
@@ -158,21 +158,20 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                 const double truth = light("mc", 256);
                 for (const TechniqueInfo& t : techniques()) {
                     const double ratio = light(t.name, t.default_samples) / truth;
-                    const bool beckmann =
-                        std::string(t.name) == "filtered_is"; // without tails, of which all samples may be below the horizon
-                    const bool phong = t.traits & kPhongGrid; // which loses light where it is rough, upright too
+                    const bool beckmann = std::string(t.name) == "filtered_is"; // no tails: all samples may be below the horizon
+                    const bool phong = t.traits & kPhongGrid;                   // loses light where rough, upright too
                     EXPECT_GT(ratio, phong      ? 0.7
                                      : beckmann ? 0.85
                                                 : 0.97)
                         << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
-                    const bool own = t.sampling == Sampling::grid; // whose samples have an albedo of their own, tilted or not
+                    const bool own = t.sampling == Sampling::grid; // samples with another albedo than the lobe
                     EXPECT_LT(ratio, own ? 1.25 : 1.06)
                         << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                 }
             }
 }
 
-// Every technique on lobes of every kind, grazing views, poles and silhouettes included, with few samples and many, upright and tilted.
+// Every technique on all kinds of lobes, with grazing views, poles and silhouettes, few and many samples, upright and tilted.
 TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
 {
     const Stage stage(*make_builtin_scene("spheres"));
@@ -209,8 +208,8 @@ TEST(light, a_point_light_follows_the_inverse_square_and_lambert)
     EXPECT_NEAR(pixel(f, 16, 16)[2], expected, 1e-4f);
 }
 
-// Lights are left out where none of the places that are shaded together lies in their range: here every pixel has others, and some pixels
-// lie near to the end of a range.
+// Lights are skipped where no place of a group that is shaded together lies in their range. Here every pixel has different lights, and some
+// pixels lie near the end of a range.
 TEST(light, of_many_each_shines_as_far_as_its_range)
 {
     constexpr int kPlate = 33;
@@ -244,7 +243,7 @@ TEST(light, of_many_each_shines_as_far_as_its_range)
     }
 }
 
-// A metal quad facing +z under one directional light, seen from straight above: the lobe's value in closed form.
+// A metal quad that faces +z under one directional light, seen from straight above: the lobe's value in closed form.
 TEST(light, an_anisotropic_metal_answers_a_light_with_its_anisotropic_lobe)
 {
     const double roughness = 0.5, eta = 0.8, slant = 0.35; // of the light, radians
@@ -306,8 +305,8 @@ Scene textured_floor(float repeats)
     return scene;
 }
 
-// A mirror whose normal map leans 63 degrees: seen from the front it mirrors from below the quad. With the horizon nothing arrives from
-// there, by any technique; without, the map is taken at its word.
+// A mirror whose normal map leans by 63 degrees. Seen from the front it mirrors directions below the quad. With the horizon no light
+// arrives from there, for any technique. Without the horizon the map applies unchanged.
 TEST(material, a_normal_map_with_a_horizon_reflects_nothing_from_below)
 {
     Scene scene = textured_floor(1.0f);
@@ -330,7 +329,7 @@ TEST(material, a_normal_map_with_a_horizon_reflects_nothing_from_below)
     }
 }
 
-// An override of roughness leaves a texture's metalness alone.
+// A roughness override leaves a texture's metalness unchanged.
 TEST(material, a_roughness_override_keeps_metalness)
 {
     Scene scene = textured_floor(1.0f);
@@ -342,10 +341,10 @@ TEST(material, a_roughness_override_keeps_metalness)
     const Stage stage(std::move(scene));
     FrameDesc d = quad_desc(33, 1);
     d.roughness = 0.4f;
-    EXPECT_NEAR(pixel(stage.render(d, best_isa()), 16, 16)[0], 0.5f, 2e-3f); // all of it diffused
+    EXPECT_NEAR(pixel(stage.render(d, best_isa()), 16, 16)[0], 0.5f, 2e-3f); // fully diffuse
 }
 
-// Far away the checkerboard must become its mean, without moire, in anisotropic perspective too.
+// From afar the checkerboard must become its mean without moire, in grazing perspective too.
 TEST(texture, a_minified_checkerboard_becomes_its_mean)
 {
     const Stage stage(textured_floor(40.0f), 0.0f);
@@ -359,7 +358,7 @@ TEST(texture, a_minified_checkerboard_becomes_its_mean)
             EXPECT_NEAR(pixel(top, x, y)[0], 0.5f, 0.02f);
 }
 
-// Texels larger and smaller than pixels side by side, holes among them: what is found for many pixels at once is what each has alone.
+// Texels larger and smaller than pixels side by side, with holes: pixels that are shaded together get the values of pixels shaded alone.
 TEST(texture, of_pixels_shaded_together_is_what_each_has_alone)
 {
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
@@ -389,7 +388,7 @@ TEST(texture, a_magnified_texel_keeps_its_colour_and_place)
     FrameDesc d = quad_desc(64, 1);
     d.view = make_view({0, 0, 4}, {0, 0, 0}, 2.0f * std::atan(0.25f), 64, 64);
     const Frame f = stage.render(d, best_isa());
-    // texel (0,0), top left, is black; (1,0) white: their centres lie at a quarter and three quarters
+    // texel (0,0), top left, is black; (1,0) is white; their centres lie at a quarter and three quarters
     EXPECT_NEAR(pixel(f, 16, 16)[0], 0.0f, 0.05f);
     EXPECT_NEAR(pixel(f, 48, 16)[0], 1.0f, 0.05f);
     EXPECT_NEAR(pixel(f, 16, 48)[0], 1.0f, 0.05f);
@@ -411,7 +410,7 @@ TEST(alpha, a_mask_cuts_and_a_blend_lets_its_share_through)
 
 TEST(resolve, an_edge_pixel_is_the_mean_of_its_samples)
 {
-    // a white triangle edge through pixel centres: half of each pixel's samples
+    // the edge of a white triangle runs through pixel centres: half of each pixel's samples
     Scene scene = scene_of({{glm::vec3(10.5f, 0, 0), glm::vec3(10.5f, -40, 0), glm::vec3(60, -20, 0)}}, true);
     scene.materials[0].unlit = true;
     const Stage stage(std::move(scene), 0.0f);

@@ -1,4 +1,4 @@
-// The filter of stochastic shadows: what must hold exactly, and where it does not look.
+// The filter of stochastic shadows: exact properties, and edges that the filter does not cross.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr int kRatioSide = 24;
 
 enum class Edge { none, step, ridge };
 
-// A plane, the right half of which lies nearer, or faces elsewhere.
+// Returns a plane whose right half lies nearer or faces another direction.
 Column<PixelLayers> layers_of_plane(Edge edge)
 {
     Column<PixelLayers> layers(kRatioSide * kRatioSide);
@@ -67,7 +67,7 @@ TEST(shadow_ratio, of_noise_is_its_mean_and_light_without_area_lights_stays)
     for (int y = 4; y < kRatioSide - 4; ++y)
         for (int x = 4; x < kRatioSide - 4; ++x) {
             const int i = 3 * (kRatioSide * y + x);
-            EXPECT_NEAR(ratio.f32()[i], 0.25f, 0.22f); // of deviation 0.14 a pixel
+            EXPECT_NEAR(ratio.f32()[i], 0.25f, 0.22f); // standard deviation 0.14 a pixel
             EXPECT_NEAR(shaded.f32()[i], 1.0f + 4.0f * ratio.f32()[i], 1e-6f);
         }
 }

@@ -1,4 +1,4 @@
-// Moments of slopes in place of slopes: what a texel of tilts, a mean of texels, and lobes of maps of roughness look like to shading.
+// Slope moments: the lobe that shading makes from a tilt texel, from a texel mean, and from roughness maps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Maps {
     bool roughness = false, direction = false;
 };
 
-// A quad whose texels lean to one side and to the other of an axis.
+// Returns a quad whose texels lean to both sides of an axis.
 Scene leaning_quad(int axis, const Maps& maps)
 {
     const std::array<glm::vec3, 4> p = {glm::vec3(-1, -1, 0), glm::vec3(1, -1, 0), glm::vec3(1, 1, 0), glm::vec3(-1, 1, 0)};
@@ -44,7 +44,7 @@ Scene leaning_quad(int axis, const Maps& maps)
     const std::array<int, 3> down = axis == 0 ? std::array{1, 128, 7} : std::array{128, 1, 7};
     m.tilt_tex.texture = add_texture(s, row_of({up, down}));
     if (maps.roughness)
-        m.metallic_roughness_tex.texture = add_texture(s, row_of({{0, 255, 255}})); // smaller than the other
+        m.metallic_roughness_tex.texture = add_texture(s, row_of({{0, 255, 255}})); // smaller than the other map
     if (maps.direction)
         m.anisotropy_strength = 0.5f, m.anisotropy_tex.texture = add_texture(s, row_of({{255, 128, 255}, {255, 128, 255}}));
     return s;
@@ -78,7 +78,7 @@ double squared(float x)
     return static_cast<double>(x) * static_cast<double>(x);
 }
 
-// Two texels of +s and -s: mean 0, and s^2 more along that axis; each alone: s, and nothing more.
+// Two texels of +s and -s have mean 0 and add s^2 along their axis. Each texel alone has mean s and adds nothing.
 TEST(slopes, of_opposite_texels_are_a_wider_lobe)
 {
     for (const int axis : {0, 1})
@@ -123,7 +123,7 @@ TEST(slopes, of_one_value_are_a_tilt)
     const glm::vec2 tilt = glm::radians(glm::vec2(15.0f, -10.0f));
     image.f32()[0] = std::tan(tilt.y), image.f32()[1] = -std::tan(tilt.x) / std::cos(tilt.y), image.f32()[2] = 0.0f;
     scene.images[0] = image, scene.materials[0].tilt_scale = 1.0f;
-    scene.materials[0].anisotropy_strength = 0.5f; // a round lobe's axes are any
+    scene.materials[0].anisotropy_strength = 0.5f; // a round lobe's axes are arbitrary
     Scene plain = scene;
     plain.materials[0].tilt_tex = {};
     const Stage mapped(std::move(scene)), bare(std::move(plain));

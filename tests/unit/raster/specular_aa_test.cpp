@@ -1,4 +1,5 @@
-// Lobes that grow by how normals differ between pixels: by how much on a surface that bends evenly, and where nothing bends.
+// Specular antialiasing widens lobes by the variation of normals between pixels: the amount on a uniformly bent surface, and none on a flat
+// one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,9 +11,9 @@ namespace burnish::test {
 namespace {
 
 constexpr int kAaSide = 64;
-constexpr double kFilter = 1.0 / 12.0; // variance of a pixel, square pixels
+constexpr double kFilter = 1.0 / 12.0; // variance of a pixel's box, square pixels
 
-// A plate whose normals lean by `slope` a metre along x.
+// Returns a plate whose normals lean by `slope` a metre along x.
 Scene bent_plate(float slope)
 {
     Scene scene = plate(1.0f);
@@ -47,7 +48,7 @@ TEST(specular_aa, lobes_grow_by_the_covariance_of_a_pixel)
             scene.materials[0].roughness = roughness;
             const Stage round(scene);
             EXPECT_NEAR(roughness_in_the_middle(round.render(d, best_isa())), std::pow(2.0 * (sigma2 + along2 / 2.0), 0.25), 2e-3);
-            scene.materials[0].anisotropy_strength = 1e-3f; // two widths, though equal ones
+            scene.materials[0].anisotropy_strength = 1e-3f; // anisotropic, with nearly equal widths
             const Stage brushed(scene);
             const double mean = (std::sqrt(sigma2 + along2) + std::sqrt(std::max(sigma2, 5e-7))) / std::sqrt(2.0);
             EXPECT_NEAR(roughness_in_the_middle(brushed.render(d, best_isa())), std::sqrt(mean), 2e-3);

@@ -1,4 +1,4 @@
-// What is interpolated at visible points against double precision, and what is recorded of them against a list written by hand.
+// Interpolated values at visible points against double precision, and recorded values against a list written by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace burnish::test {
 namespace {
 
-// What assembly asks of recorders and of triangles (shading/lang).
+// Types that assembly requires of recorders and triangles (shading/lang).
 struct Words {
     std::vector<float> at;
 };
@@ -56,7 +56,7 @@ ShadingFrame frame_of_four_samples()
     return f;
 }
 
-// In double precision: the attributes of a triangle, and whether it covers a point, 1/256 pixel from the centre pixel.
+// The attributes of a triangle in double precision, and whether it covers a point (1/256 pixel from the centre pixel).
 struct Exact {
     double b[3];
     bool inside;

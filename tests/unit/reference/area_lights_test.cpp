@@ -1,5 +1,4 @@
-// Area lights in the reference: three ways to find their light that must agree, the tile renderer's cosines beside it, and what is in the
-// way.
+// Area lights in the reference: three estimators that must agree, the tile renderer's transformed cosines beside them, and occluders.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,11 +87,11 @@ TEST(area_lights, by_cosines_are_the_reference_s)
                             shiny ? "metal" : "paint", static_cast<double>(roughness), truth.mean, truth.deviation,
                             100.0 * (mean / truth.mean - 1.0));
                 EXPECT_NEAR(mean, truth.mean, shiny ? 0.05 * truth.mean + 0.06 : 0.03 * truth.mean)
-                    << kAreaShapeNames[i] << ", roughness " << roughness; // of a radiance of 2
+                    << kAreaShapeNames[i] << ", roughness " << roughness; // relative to a radiance of 2
             }
 }
 
-// A wall between: nothing arrives. The surface that shows the light is in no ray's way.
+// A wall between light and plate blocks all light. The surface that shows the light occludes no ray.
 TEST(area_lights, are_shadowed_by_what_is_in_between)
 {
     BN_NEEDS_EMBREE();
@@ -116,8 +115,8 @@ TEST(area_lights, are_shadowed_by_what_is_in_between)
     EXPECT_EQ(seen(walled, ReferenceMode::path), 0.0); // the wall is black
 }
 
-// In a closed room of albedo a with a small light the light of all bounces is 1 / (1 - a) times the mean of the first one; the light itself
-// is counted once. A solid light ends what meets it.
+// In a closed room of albedo a with a small light, all bounces together give 1 / (1 - a) times the first one. The light itself counts once.
+// A solid light absorbs the paths that hit it.
 TEST(area_lights, are_counted_once_along_a_path)
 {
     BN_NEEDS_EMBREE();
@@ -125,7 +124,7 @@ TEST(area_lights, are_counted_once_along_a_path)
     FrameDesc d = desc_of(8, 8, make_view(glm::vec3(0.0f, 0.0f, 0.9f), glm::vec3(0.3f, 0.2f, 2.0f), 0.3f, 8, 8));
     ReferenceOptions o;
     o.samples = 4096, o.bounces = 60;
-    // on a ball around it the first light is even: radiance r^2 / R^2 times albedo; half of what leaves a wall may meet the light again
+    // on a ball around the light the first bounce is even: radiance r^2 / R^2 times albedo
     const auto seen = [&](ReferenceMode mode, bool solid) {
         o.mode = mode;
         AreaLight lamp = light;
@@ -136,7 +135,7 @@ TEST(area_lights, are_counted_once_along_a_path)
     EXPECT_NEAR(once, 2.0 * 0.25 * 0.5, 0.01); // mean radiance 2
     const double passed = seen(ReferenceMode::path, false), ended = seen(ReferenceMode::path, true);
     EXPECT_NEAR(passed, once / (1.0 - 0.5), 0.01 * passed);
-    EXPECT_NEAR(ended, once / (1.0 - 0.5 * (1.0 - 0.25)), 0.01 * ended); // a quarter of what leaves a wall ends at the light
+    EXPECT_NEAR(ended, once / (1.0 - 0.5 * (1.0 - 0.25)), 0.01 * ended); // a quarter of the light that leaves a wall ends at the lamp
 }
 
 } // namespace

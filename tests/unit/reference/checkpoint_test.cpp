@@ -1,4 +1,4 @@
-// The same bits whatever runs them, however often they are interrupted.
+// Renders give equal bits on all instruction sets and thread counts, however often they are interrupted.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -132,7 +132,7 @@ TEST(checkpoint, a_run_that_is_stopped_again_and_again_loses_nothing)
         ReferenceOptions o = options_of(ReferenceMode::path, samples);
         o.checkpoint = file.path();
         o.stop = &stop;
-        const double share = 0.15 * at_once.stats.ms; // of the whole: several stops, each after some progress
+        const double share = 0.15 * at_once.stats.ms; // of the whole time: several stops, with progress before each
         std::thread bell([&] {
             std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(share * (1.0 + 0.2 * run)));
             stop = true;
@@ -236,7 +236,7 @@ TEST(target_error, ends_early_and_is_met)
     EXPECT_LE(f.stats.sampling.relative_error, 0.01);
     EXPECT_LT(f.stats.sampling.samples, 1u << 18);
     EXPECT_GE(f.stats.sampling.samples, 8u * kPassSamples);
-    // The interval holds what it promises: a far better estimate lies within it about as often as it should.
+    // Checks the confidence interval: a far better estimate lies inside about as often as promised.
     FrameDesc d = small_desc();
     d.seed = 77;
     const Frame truth = render_reference(stage, d, options_of(ReferenceMode::shadowed, 16 * f.stats.sampling.samples));
@@ -253,7 +253,7 @@ TEST(target_error, ends_early_and_is_met)
     EXPECT_LT(static_cast<double>(inside) / static_cast<double>(n), 0.97);
 }
 
-// Where a run ends must not depend on where it was stopped: what a stop left uneven is finished before its error is looked at.
+// The end of a run must not depend on its interruptions. The run completes an uneven round before it evaluates the error.
 TEST(target_error, is_looked_at_after_whole_rounds_only)
 {
     BN_NEEDS_EMBREE();
@@ -270,7 +270,7 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     ASSERT_TRUE(*read_checkpoint(file.path(), key, one));
     o.samples = 2 * round;
     render_reference(stage, d, o);
-    ASSERT_TRUE(*read_checkpoint(file.path(), key, uneven)); // after a whole second round, but for one block
+    ASSERT_TRUE(*read_checkpoint(file.path(), key, uneven)); // a whole second round, except for one block
     uneven.passes[0] = one.passes[0];
     const PixelBlock first = block_of(one, 0, 0);
     for (int y = first.y0; y < first.y0 + first.height; ++y)
@@ -289,7 +289,7 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     EXPECT_EQ(pixel_hash(resumed.color), pixel_hash(at_once.color));
 }
 
-// A pass of a large picture takes minutes: its checkpoint is written on the way, not only between passes.
+// A pass of a large image takes minutes, so checkpoints are also written within a pass.
 TEST(checkpoint, of_a_large_picture_is_written_within_a_pass)
 {
     BN_NEEDS_EMBREE();

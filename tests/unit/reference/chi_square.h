@@ -1,4 +1,4 @@
-// How unlikely counts in bins are, in deviations.
+// Deviation of bin counts from their expectation, in standard deviations.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 
 namespace burnish::test {
 
-// Deviations by which a chi-square exceeds its degrees of freedom (Wilson and Hilferty 1931).
+// Returns the standard deviations by which a chi-square exceeds its degrees of freedom (Wilson and Hilferty 1931).
 inline double chi_square_sigmas(double chi2, double degrees)
 {
     const double k = 2.0 / (9.0 * degrees);
     return (std::cbrt(chi2 / degrees) - (1.0 - k)) / std::sqrt(k);
 }
 
-// Of counts `seen` where `expected` were. Bins of small expectation are pooled.
+// Returns the deviation of counts `seen` from `expected`. Pools bins with small expectations.
 inline double sigmas_of(const std::vector<double>& seen, const std::vector<double>& expected)
 {
     double chi2 = 0.0, pool_seen = 0.0, pool_expected = 0.0;

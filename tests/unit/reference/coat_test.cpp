@@ -1,4 +1,4 @@
-// Clear coats: in lanes and in the reference, against closed forms and each other.
+// Clear coats: the tile renderer and the reference against closed forms and each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ bool same_words(const Frame& a, const Frame& b)
     return a.color.bytes == b.color.bytes;
 }
 
-// KHR_materials_clearcoat: Schlick's factor of index 1.5 at the cosine of the view.
+// KHR_materials_clearcoat: Schlick's Fresnel factor for index 1.5 at the view's cosine.
 double weight_at(double cosine, double coat)
 {
     return coat * (0.04 + 0.96 * std::pow(1.0 - cosine, 5.0));
@@ -77,7 +77,7 @@ FrameDesc coat_view(float cosine, const char* technique, int samples)
     return d;
 }
 
-// What lies below has the rest of what the coat reflects, and the coat its lobe's albedo of that.
+// The base gets the light that the coat does not reflect. The coat gets its share times its lobe's albedo.
 TEST(coat, of_constant_light_both_renderers_give_back_the_same_known_share)
 {
     BN_NEEDS_EMBREE();
@@ -106,7 +106,7 @@ TEST(coat, of_constant_light_both_renderers_give_back_the_same_known_share)
                 }
 }
 
-// mc samples the coat, too: over a lobe of two widths, whose light and the coat's come from different places.
+// mc samples the coat as well, above an anisotropic lobe that reflects light from other places.
 TEST(coat, mc_agrees_with_the_reference_under_a_sky)
 {
     BN_NEEDS_EMBREE();
@@ -122,15 +122,15 @@ TEST(coat, mc_agrees_with_the_reference_under_a_sky)
                 o.strategy = strategy;
                 const Estimate e = estimate(render_reference(stage, d, o));
                 if (strategy == ReferenceStrategy::light && roughness < 0.1f)
-                    continue; // lobes that light's directions do not find
+                    continue; // sampling the light does not find such narrow lobes
                 EXPECT_NEAR(drawn, e.mean, kCoatSigmas * e.deviation + 1.5e-3)
                     << roughness << ' ' << cosine << ' ' << static_cast<int>(strategy);
             }
         }
 }
 
-// Of the coat alone, over what reflects nothing. A fetch takes a lobe for a round one about the mirror direction: rough ones under light
-// from one side are not.
+// Compares the coat alone, over a black base. One fetch replaces the lobe by a round lobe about the mirror direction, which is inexact for
+// rough lobes under light from one side.
 TEST(coat, one_fetch_is_near_what_its_samples_find)
 {
     for (float roughness : {0.0f, 0.02f, 0.15f, 0.4f, 0.7f, 1.0f})
@@ -162,7 +162,7 @@ TEST(coat, of_no_share_is_no_coat_word_for_word)
     }
 }
 
-// In the mirror direction at 45 degrees, over a black base that reflects nothing: D G / (4 cos) times the weight.
+// Seen in the mirror direction at 45 degrees, over a black base: D G / (4 cos) times the weight.
 TEST(coat, a_lamp_glints_by_the_coat_s_lobe_in_both_renderers)
 {
     for (float roughness : {0.3f, 0.6f}) {
@@ -183,7 +183,7 @@ TEST(coat, a_lamp_glints_by_the_coat_s_lobe_in_both_renderers)
     }
 }
 
-// The coat lies over what gives off light.
+// The coat lies above the emission.
 TEST(coat, dims_what_its_surface_gives_off)
 {
     Material glowing = coat_base();
@@ -196,7 +196,7 @@ TEST(coat, dims_what_its_surface_gives_off)
     }
 }
 
-// Lobes of the frame are those below; the coat stays what it is. Over a black base no such option changes a word.
+// The frame's lobe options change the base and not the coat. Over a black base no such option changes a bit.
 TEST(coat, knows_nothing_of_the_lobes_below)
 {
     Scene scene = plane_scene(coated(black_base(), 0.3f));

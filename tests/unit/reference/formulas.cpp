@@ -52,13 +52,13 @@ Facets tilted_by(Facets f, double x, double y)
 
 namespace {
 
-// A u, where A turns directions to the axes and stretches them by the widths.
+// Returns A u, where A turns directions to the axes and stretches them by the widths.
 glm::dvec3 stretched(const Facets& f, const glm::dvec3& u)
 {
     return glm::dvec3(f.along, f.across, 1.0) * (u * f.axes);
 }
 
-// Of GGX (Heitz 2014), about the facets' own normal.
+// Returns the GGX density (Heitz 2014) about the facets' normal.
 double ggx_density(const Facets& f, const glm::dvec3& m)
 {
     const glm::dvec3 w = (m * f.axes) / glm::dvec3(f.along, f.across, 1.0);
@@ -67,20 +67,20 @@ double ggx_density(const Facets& f, const glm::dvec3& m)
 
 } // namespace
 
-// By area of the surface: the ellipsoid projects to |A n| of the unit sphere's area there.
+// Per surface area: the ellipsoid projects to |A n| of the unit sphere's area.
 double facet_density(const Facets& f, const glm::dvec3& m)
 {
     return ggx_density(f, m) / glm::length(stretched(f, {0.0, 0.0, 1.0}));
 }
 
-// Adds half of the ellipse that u sees to what the surface's outline leaves of its other half.
+// Adds half of the ellipse visible from u to the part of its other half inside the surface's outline.
 double area_seen(const Facets& f, const glm::dvec3& u)
 {
     const glm::dvec3 au = stretched(f, u), an = stretched(f, {0.0, 0.0, 1.0});
     return 0.5 * (glm::length(au) + glm::dot(au, an) / glm::length(an)) / glm::length(an);
 }
 
-// Returns 1 / G1: 1 + Lambda of GGX (Heitz 2014), or of tilted facets Walter et al. 2014, eq. 6.
+// Returns 1 / G1: 1 + Lambda of GGX (Heitz 2014), or, for tilted facets, Walter et al. 2014, eq. 6.
 double inverse_g1(const Facets& f, const glm::dvec3& u)
 {
     if (!f.level())
@@ -97,7 +97,7 @@ double g2(const Facets& f, const glm::dvec3& o, const glm::dvec3& i)
     return f.correlated ? 1.0 / (a + b - 1.0) : 1.0 / (a * b);
 }
 
-// Without Fresnel's factor.
+// Returns the BRDF without the Fresnel factor.
 double facet_brdf(const Facets& f, const glm::dvec3& o, const glm::dvec3& i)
 {
     return facet_density(f, glm::normalize(o + i)) * g2(f, o, i) / (4.0 * o.z * i.z);
@@ -105,7 +105,7 @@ double facet_brdf(const Facets& f, const glm::dvec3& o, const glm::dvec3& i)
 
 } // namespace
 
-// Normals lie as densely as GGX has them. An ellipsoid has as many opposite ones: they take the place of those below the surface.
+// Normals follow the GGX density. An ellipsoid has as many opposite normals, which replace those below the surface.
 void for_each_facet(const Facets& f, int rings, const std::function<void(const glm::dvec3&, double)>& add)
 {
     const int turns = 2 * rings;
@@ -124,7 +124,7 @@ glm::dvec3 reflected_light(const Facets& f, const glm::dvec3& o, const Fresnel& 
     for_each_facet(f, rings, [&](const glm::dvec3& m, double solid_angle) {
         const double cosine = glm::dot(o, m);
         const glm::dvec3 i = 2.0 * cosine * m - o;
-        if (cosine > 0.0 && i.z > 0.0) // light's solid angle is 4 (o.m) times the normal's
+        if (cosine > 0.0 && i.z > 0.0) // the light's solid angle is 4 (o.m) times the normal's
             sum += fresnel(cosine) * sky(i) * (facet_brdf(f, o, i) * i.z * 4.0 * cosine * solid_angle);
     });
     return sum;

@@ -1,4 +1,4 @@
-// Analytic scenes: what comes back from a surface is known in closed form, or from the table of directional albedo.
+// Analytic scenes: the reflected radiance is known in closed form, or from the directional albedo table.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ ReferenceOptions to_samples(ReferenceMode mode, std::uint64_t samples)
     return o;
 }
 
-// Radiance of a square of the material under the stage's environment.
+// Returns the radiance of a square with this material under the stage's environment.
 Estimate seen_from(const Stage& stage, const glm::vec3& direction, const ReferenceOptions& options, FrameDesc d = {})
 {
     d.width = d.height = 8, d.msaa = 1;
@@ -93,7 +93,7 @@ TEST(furnace, energy_compensation_returns_what_an_anisotropic_metal_loses)
             }
 }
 
-// The albedo of a lobe of two widths by quadrature over directions, in double.
+// Returns an anisotropic lobe's albedo by quadrature over directions, in double precision.
 double anisotropic_albedo(double ax, double ay, glm::dvec3 o)
 {
     const auto stretch = [&](const glm::dvec3& w) { return std::sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); };

@@ -1,4 +1,4 @@
-// What lets light through: rough interfaces in paths and alone.
+// Transmission: rough interfaces in paths and alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ glm::vec3 sky_gradient(const glm::vec3& d)
     return glm::vec3(1.0f + 0.5f * d.x + 0.3f * d.y + 0.1f * d.z);
 }
 
-// Nothing is absorbed: a ball gives back all that it gets, less what single scattering loses, or with compensation everything.
+// Nothing is absorbed. A ball returns all light except the single-scattering loss, and all light with energy compensation.
 TEST(glass, a_ball_in_a_constant_environment_is_not_seen)
 {
     BN_NEEDS_EMBREE();
@@ -68,7 +68,7 @@ TEST(glass, passes_what_the_diffuse_part_does_not)
             EXPECT_NEAR(e.mean, 1.0, 4.5 * e.deviation + 2e-3) << transmission << ' ' << from.z;
         }
         const FrameDesc d = desc_of(16, 16, view_from({0.3f, 0.2f, 1.0f}, 0.6f));
-        Stage tinted(ball_scene(glass(0.0f, 1.0f, transmission), false), 1.0f, 2); // no reflection: half of what passes, twice
+        Stage tinted(ball_scene(glass(0.0f, 1.0f, transmission), false), 1.0f, 2); // no reflection: half of the light passes, twice
         tinted.scene.materials[0].base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
         const Estimate half = estimate(render_reference(tinted, d, by(ReferenceMode::direct, 256)));
         EXPECT_NEAR(half.mean, 0.5, 4.5 * half.deviation + 2e-3) << transmission;
@@ -82,11 +82,11 @@ double reflectance(double cosine, double ior)
     return 0.5 * (s * s + p * p);
 }
 
-// Of a smooth ball of radius 1 seen along -z at the distance b from its middle, in the plane of x and z.
+// Returns the radiance through a smooth ball with radius 1, seen along -z at distance b from its centre, in the xz plane.
 double seen_through_ball(double b, double ior)
 {
     const double in = std::asin(b), out = std::asin(b / ior), r = reflectance(std::cos(in), ior);
-    const auto sky = [](double turned) { // by which the ray that came along -z has turned towards -x
+    const auto sky = [](double turned) { // angle by which the ray along -z has turned towards -x
         return static_cast<double>(sky_gradient({static_cast<float>(-std::sin(turned)), 0.0f, static_cast<float>(-std::cos(turned))}).x);
     };
     double sum = r * sky(-(kHalfTurn - 2.0 * in)), share = (1.0 - r) * (1.0 - r);
@@ -128,7 +128,7 @@ TEST(glass, of_index_1_is_invisible)
     }
 }
 
-// One interface, from the front and from behind, tilted, of two widths, coloured, partly a metal.
+// One interface from the front and from behind: tilted, anisotropic, coloured, partly metal.
 TEST(glass, mc_shows_what_the_reference_does_through_one_interface)
 {
     BN_NEEDS_EMBREE();
@@ -162,7 +162,7 @@ TEST(glass, mc_shows_what_the_reference_does_through_one_interface)
             }
 }
 
-// In the mirror direction, at 45 degrees: the interface's own masking and Fresnel's exact factor, eq. 20.
+// Seen in the mirror direction at 45 degrees: the interface's masking and the exact Fresnel factor, eq. 20.
 TEST(glass, a_lamp_glints_by_the_interface_s_lobe)
 {
     BN_NEEDS_EMBREE();

@@ -1,4 +1,4 @@
-// Normals of maps that lean: a surface reflects nothing that lies below itself, by any renderer, of any light.
+// Leaning normal maps: a surface reflects no light from below itself, for each renderer and each kind of light.
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 constexpr double kLean = 0.75; // sine of the angle between both normals
 const double kUp = std::sqrt(1.0 - kLean * kLean);
 
-// A plate whose normal map says (kLean, 0, kUp) everywhere.
+// Returns a plate whose normal map holds (kLean, 0, kUp) everywhere.
 Scene leaning_plate(Material material)
 {
     Scene scene = plane_scene(material);
@@ -26,7 +26,7 @@ Scene leaning_plate(Material material)
     return scene;
 }
 
-// `above` from above the plate and from the texels at its edge, `below` from the rest.
+// Lights the scene by `above` from above the plate and its edge texels, and by `below` elsewhere.
 Stage halves(Scene scene, float above, float below)
 {
     Stage stage(std::move(scene), 1.0f, 2);
@@ -42,7 +42,7 @@ FrameDesc seen_from(const glm::vec3& eye)
     return d;
 }
 
-// Of the cosine-weighted directions about the map's normal, (1 + cos) / 2 lie above the plate.
+// A part (1 + cos) / 2 of the cosine-weighted directions around the map's normal lies above the plate.
 TEST(horizon, leaves_a_diffuse_plate_what_lies_above_it)
 {
     BN_NEEDS_EMBREE();
@@ -58,13 +58,13 @@ TEST(horizon, leaves_a_diffuse_plate_what_lies_above_it)
         }
         const double tile = mean_of(stage.render(d, best_isa()));
         std::printf("below %.0f: closed form %.4f, tile renderer %.4f\n", static_cast<double>(below), above, tile);
-        EXPECT_NEAR(tile, above, (0.015 + 0.01 * static_cast<double>(below)) * above) << below; // by a picture of irradiance
+        EXPECT_NEAR(tile, above, (0.015 + 0.01 * static_cast<double>(below)) * above) << below; // from the prefiltered irradiance
         d.horizon = 0;
         EXPECT_NEAR(mean_of(stage.render(d, best_isa())), above + static_cast<double>(below) * (0.8 - above), 0.04) << below;
     }
 }
 
-// A metal of reflectance 1 under light from below only is black; without the horizon it is not.
+// A metal of reflectance 1 under light from below alone is black; without the horizon it is not.
 TEST(horizon, leaves_a_metal_nothing_of_what_lies_below_it)
 {
     BN_NEEDS_EMBREE();
@@ -84,7 +84,7 @@ TEST(horizon, leaves_a_metal_nothing_of_what_lies_below_it)
     EXPECT_GT(mean_of(stage.render(d, best_isa())), 0.1);
 }
 
-// Where no normal is of a map the horizon is not asked for: neither pixels nor checkpoints know the option.
+// Without a normal map the option has no effect: pixels and checkpoint keys stay equal.
 TEST(horizon, is_nothing_where_no_normal_is_of_a_map)
 {
     const auto both = [](Scene scene) {

@@ -1,4 +1,4 @@
-// Area lights beside each other, against closed forms: they stand in nobody's way unless they are solid, and never in their own.
+// Several area lights against closed forms: lights occlude nothing unless they are solid, and never themselves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ AreaLight solid(AreaLight light)
     return light;
 }
 
-// A square over the origin that shines down, or up.
+// Returns a square over the origin that shines down or up.
 AreaLight square(float z, float half, bool down, float radiance = 1.0f)
 {
     const float s = down ? half : -half;
@@ -40,14 +40,14 @@ AreaLight ball(float z, float radius, float radiance = 1.0f)
     return lamp(AreaShape::sphere, {{0.0f, 0.0f, z}}, radiance, radius);
 }
 
-// An upright square beside the z axis, which it shows its light at grazing angles only.
+// Returns an upright square beside the z axis. The axis receives light at grazing angles alone.
 AreaLight upright(float beside)
 {
     return lamp(AreaShape::quad, {{beside, -0.5f, 0.5f}, {beside, -0.5f, 1.5f}, {beside, 0.5f, 1.5f}, {beside, 0.5f, 0.5f}});
 }
 
-// Part of a plate's cosine-weighted sky that a light fills, seen from the origin: Lambert's formula for polygons above the plate, and
-// (r / h)^2 for a sphere over it.
+// Returns the part of a plate's cosine-weighted sky that a light fills, seen from the origin. Uses Lambert's formula for polygons above the
+// plate, and (r / h)^2 for a sphere over it.
 double form_factor(const AreaLight& light)
 {
     const std::vector<glm::vec3>& p = light.points;
@@ -62,7 +62,7 @@ double form_factor(const AreaLight& light)
     return std::fabs(sum) / kTau;
 }
 
-// Light of a lambertian plate at the origin, seen from a side on which none of these lights is in the camera's way.
+// Returns the light of a Lambertian plate at the origin, from a side where no light is between plate and camera.
 Estimate seen(const std::vector<AreaLight>& lights, float sky, ReferenceMode mode, bool only_lights = false)
 {
     FrameDesc d = desc_of(8, 8, view_from({-1.0f, 0.0f, 0.1f}, 1e-4f));
@@ -131,8 +131,7 @@ TEST(lamps, that_are_solid_stand_in_other_light_s_way)
     EXPECT_GT(seen({solid(square(0.4f, 60.0f, false)), kSquare, kBall}, 0.0f, ReferenceMode::direct).mean, 0.1);
 }
 
-// Surfaces whose light shines through a lamp, and lamps beside surfaces: a wall behind a lamp hides what is behind it, a wall that a lamp
-// lies in hides none of its light.
+// Surfaces near lamps: a wall behind a lamp hides the things behind it, and a wall through a lamp hides none of its light.
 TEST(lamps, lie_before_behind_and_in_walls)
 {
     BN_NEEDS_EMBREE();
@@ -151,7 +150,7 @@ TEST(lamps, lie_before_behind_and_in_walls)
     EXPECT_EQ(walled(kSquare, 1.19f), 0.0);
 }
 
-// By the same samples shadows take not a bit of the light that nothing is in the way of, so their ratio to it is 1.
+// With equal samples shadows remove no bit of unoccluded light, so the ratio to the unshadowed light is 1.
 TEST(lamps, without_anything_else_have_no_shadows)
 {
     BN_NEEDS_EMBREE();
@@ -183,8 +182,8 @@ TEST(lamps, without_anything_else_have_no_shadows)
     }
 }
 
-// In a room of albedo .5 whose walls shine, a path meets the lamp in its middle and goes on: the walls' light is that of the room without
-// the lamp, and the lamp's is found once at every wall.
+// In an emissive room of albedo .5 a path passes the open lamp in its middle. The walls' light is unchanged by the lamp, and each wall
+// finds the lamp's light once.
 TEST(lamps, let_paths_go_on)
 {
     BN_NEEDS_EMBREE();
@@ -197,7 +196,7 @@ TEST(lamps, let_paths_go_on)
         o.mode = ReferenceMode::path, o.samples = 256, o.bounces = 24;
         return estimate(render_reference(Stage(lit_by(ball_scene(wall, true), lights, true), 0.0f, 2), d, o));
     };
-    // On a ball the first light of the lamp is even: radiance times r^2 / R^2 times albedo. The room has 64 x 32 faces.
+    // On a ball the lamp's first bounce is even: radiance times r^2 / R^2 times albedo. The room has 64 x 32 faces.
     const double open = 2.0 + 2.0 * 0.25 * 0.5 / (1.0 - 0.5), once = 2.0 * 0.25 * 0.5, back = 0.5 * (1.0 - 0.25);
     const Estimate none = in_room({}), some = in_room({light}), hard = in_room({solid(light)});
     std::printf("no lamp %.4f, open lamp %.4f +- %.1g, solid lamp %.4f\n", none.mean, some.mean, some.deviation, hard.mean);
@@ -222,7 +221,7 @@ TEST(lamps, do_not_hide_point_lights)
     EXPECT_EQ(shadowed(solid(kAway)), 0.0);
 }
 
-// Checkpoints of pictures in which lights once stood in each other's way are not gone on with; others are.
+// Traced modes with area lights have separate checkpoint keys. Checkpoints whose open lights occluded each other are not continued.
 TEST(lamps, have_keys_of_their_own_where_rays_are_traced)
 {
     const auto key_of = [](const std::vector<AreaLight>& lights, ReferenceMode mode) {

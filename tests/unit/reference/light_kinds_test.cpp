@@ -1,5 +1,5 @@
-// One surface under one light of everywhere, given as an environment, as directional lights and as area lights: what its diffuse and its
-// specular part make of it is the same, in the tile renderer and in the reference.
+// One surface under uniform light from an environment, from directional lights and from area lights. Its diffuse and specular parts are
+// equal for all three, in the tile renderer and in the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ const std::vector<Surface>& each_surface()
 
 constexpr glm::vec3 kEyes[] = {{0.1f, 0.0f, 1.0f}, {1.0f, 0.3f, 0.6f}, {1.0f, 0.2f, 0.25f}};
 
-// Radiance 1 from above, as directional lights: evenly by the golden angle.
+// Adds radiance 1 from above as directional lights, spread evenly by the golden angle.
 void light_by_lamps(Stage& stage, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ void light_by_lamps(Stage& stage, int count)
     }
 }
 
-// The same as the five sides of a box that stands on the surface.
+// Adds radiance 1 from above as the five sides of a box that stands on the surface.
 void light_by_box(Stage& stage)
 {
     constexpr float k = 10.0f;
@@ -67,7 +67,7 @@ void light_by_box(Stage& stage)
     }
 }
 
-// The same plane under 1 from everywhere: of the environment, of lamps, of area lights.
+// One plane under radiance 1 from everywhere: by the environment, by lamps, by area lights.
 struct Lit {
     Stage around, lamps, box;
     explicit Lit(const Material& material)

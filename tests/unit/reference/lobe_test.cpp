@@ -1,4 +1,4 @@
-// The contract of every lobe that can lie on a surface (BN_LOBE in shading/models.def): value, density, sample and albedo agree.
+// The contract of every surface lobe (BN_LOBE in shading/models.def): value, density, sample and albedo agree.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr LobeLine kLobes[] = {
 #include "shading/models.def"
 };
 
-// On a surface whose axes are no coordinates'. tilt: of the lobe's normal, as sines, where it can be tilted.
+// Places a lobe on a surface whose axes are not aligned with coordinates. tilt: sines of the lobe normal's tilt, if it can tilt.
 placed_lobe lobe_on_surface(const LobeLine& line, float alpha_u, float alpha_v, real3 eye, real2 tilt = {0.0f, 0.0f})
 {
     const surface_frame axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
@@ -38,11 +38,11 @@ real3 direction_at(double z, double phi)
     return {static_cast<float>(c * std::cos(phi)), static_cast<float>(c * std::sin(phi)), static_cast<float>(z)};
 }
 
-constexpr int kZ = 16, kPhi = 24, kFine = 12; // bins of the hemisphere, and points along a side of each
+constexpr int kZ = 16, kPhi = 24, kFine = 12; // bins of the hemisphere, and points along each side of a bin
 
 struct Integral {
     double albedo = 0.0, inside = 0.0;
-    std::vector<double> share = std::vector<double>(kZ * kPhi + 1); // of samples, by bin; the last: those that are none
+    std::vector<double> share = std::vector<double>(kZ * kPhi + 1); // part of samples in each bin; the last bin holds rejected samples
 };
 
 Integral integral_of(const placed_lobe& lobe)
@@ -61,7 +61,7 @@ Integral integral_of(const placed_lobe& lobe)
     return sum;
 }
 
-// Widths that the integrals resolve, and views from above to grazing.
+// Calls check for widths that the integrals resolve, and for views from above to grazing.
 template <class Check> void for_each_lobe(Check check)
 {
     for (const LobeLine& line : kLobes)
@@ -125,7 +125,7 @@ TEST(lobe, samples_follow_their_density_and_weigh_value_over_it)
     });
 }
 
-// What a lobe is scaled by where it is tilted away from the eye, down to a mirror's, which is the limit of a narrow one's.
+// The albedo of a lobe decreases as it tilts away from the eye. A mirror's albedo is the limit of a narrow lobe's.
 TEST(lobe, leaves_less_the_farther_it_is_tilted_away)
 {
     for (const LobeLine& line : kLobes) {
@@ -136,7 +136,7 @@ TEST(lobe, leaves_less_the_farther_it_is_tilted_away)
         for (const float tilt : {0.0f, 0.2f, 0.48f, 0.78f, 0.963f}) {
             const auto away = [&](float alpha_u, float alpha_v) {
                 placed_lobe lobe = lobe_on_surface(line, alpha_u, alpha_v, eye, {-tilt, 0.0f});
-                const surface_frame axes = lobe.axes; // the eye in the plane of the tilt
+                const surface_frame axes = lobe.axes; // the eye lies in the plane of the tilt
                 lobe.o = k_normalize3(vec3_of(0.0f, eye.y, eye.z));
                 lobe.axes = axes;
                 return lobe;

@@ -1,4 +1,4 @@
-// The reference against integrals of the tests' own, which share nothing with the shading text.
+// The reference against integrals of these tests, which share nothing with the shading text.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ ChannelEstimate reference_of(const Stage& stage, const FrameDesc& d, ReferenceMo
     return estimate_channels(render_reference(stage, d, o));
 }
 
-// Prints the deviations, and returns whether they are within the bounds.
+// Prints the deviations, and returns true where they are within the bounds.
 bool is_near(const std::string& name, const ChannelEstimate& e, const glm::dvec3& expected)
 {
     const glm::dvec3 off = 100.0 * (e.mean / expected - 1.0), error = 100.0 * e.deviation / expected;
@@ -95,7 +95,7 @@ TEST(outside, an_anisotropic_metal_follows_its_formula)
         m.anisotropy_strength = 0.7f, m.anisotropy_rotation = radians_of(rotation);
         expect("factors, " + std::to_string(rotation) + " degrees", plane_scene(m), gltf_facets(0.4, 0.7, rotation));
 
-        m.anisotropy_strength = 1.0f, m.anisotropy_rotation = radians_of(-40.0); // the texture's directions are turned by it
+        m.anisotropy_strength = 1.0f, m.anisotropy_rotation = radians_of(-40.0); // turns the texture's directions
         Scene mapped = plane_scene(m);
         const double a = radians_of(rotation + 40.0);
         const glm::ivec3 code(glm::round(255.0 * glm::dvec3(0.5 + 0.5 * std::cos(a), 0.5 + 0.5 * std::sin(a), 0.7)));
@@ -111,7 +111,7 @@ TEST(outside, an_anisotropic_metal_follows_its_formula)
     expect("factors, left-handed tangents", left_handed, gltf_facets(0.4, 0.7, -30.0));
 }
 
-// The frame's own anisotropy has a sign: widths are alpha (1 + eta) along the grain and alpha (1 - eta) across it.
+// The frame's anisotropy has a sign: widths are alpha (1 + eta) along the grain and alpha (1 - eta) across it.
 TEST(outside, an_anisotropy_of_either_sign_follows_its_formula)
 {
     BN_NEEDS_EMBREE();
@@ -145,7 +145,7 @@ TEST(outside, a_tilted_lobe_follows_the_ellipsoid_s_formula)
             }
 }
 
-// The surface stands in the way of light from behind it, whatever the mode.
+// The surface blocks light from behind, in each mode.
 TEST(outside, a_tilt_turns_the_diffuse_part)
 {
     BN_NEEDS_EMBREE();
@@ -160,7 +160,7 @@ TEST(outside, a_tilt_turns_the_diffuse_part)
         }
 }
 
-// The diffuse part has what the lobe does not give back of light from everywhere (shading/README.md).
+// The diffuse part gets the light that the lobe does not reflect under uniform light (shading/README.md).
 glm::dvec3 dielectric_light(const Facets& f, const glm::dvec3& o, double index)
 {
     const glm::dvec3 f0(std::pow((index - 1.0) / (index + 1.0), 2.0));
@@ -185,7 +185,7 @@ TEST(outside, a_dielectric_shares_light_with_its_diffuse_part)
             }
 }
 
-// KHR_materials_clearcoat: a layer of index 1.5, whose share of light is that of the view's angle.
+// KHR_materials_clearcoat: a layer with index 1.5 whose share of the light depends on the view angle.
 TEST(outside, a_clear_coat_lies_over_metals_and_dielectrics)
 {
     BN_NEEDS_EMBREE();
@@ -222,7 +222,7 @@ TEST(outside, rough_glass_refracts_by_its_formula)
     }
 }
 
-// Half of what is not reflected passes. The diffuse part has the other half by the rule of all dielectrics.
+// Half of the unreflected light passes. The diffuse part gets the other half, as for all dielectrics.
 TEST(outside, partly_clear_glass_shares_light_with_its_diffuse_part)
 {
     BN_NEEDS_EMBREE();

@@ -1,4 +1,4 @@
-// Rays between surfaces: shadows, light from surface to surface, transparency, culling.
+// Rays between surfaces: shadows, interreflection, transparency, culling.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ Frame look(const Scene& scene, const FrameDesc& d, ReferenceMode mode, std::uint
     return render_reference(stage, d, o);
 }
 
-// From the side, so that what hangs over the origin is not in the way.
+// Views the origin from the side, so that objects above it are not in the way.
 FrameDesc of_the_origin()
 {
     return desc_of(8, 8, view_from({1.0f, 0.0f, 0.3f}, 0.01f));
@@ -31,7 +31,7 @@ TEST(paths, a_ball_above_a_plane_takes_its_form_factor)
     EXPECT_NEAR(open.mean, 0.8, 4.5 * open.deviation + 1e-4);
     for (ReferenceMode mode : {ReferenceMode::shadowed, ReferenceMode::path}) {
         const Estimate shadowed = estimate(look(scene, of_the_origin(), mode, 4096));
-        // (r / h)^2 of the cosine-weighted sky; the ball has 64 x 32 faces and is that much smaller
+        // (r / h)^2 of the cosine-weighted sky; the ball has 64 x 32 faces and is slightly smaller
         EXPECT_NEAR(shadowed.mean, 0.8 * (1.0 - 0.25), 4.5 * shadowed.deviation + 2e-3);
         EXPECT_LT(shadowed.deviation, 2e-3);
     }
@@ -51,7 +51,7 @@ TEST(paths, a_closed_room_sums_the_geometric_series)
             series += std::pow(0.5, k);
         const double emitted = (1.0 + 0.5 + 2.0) / 3.0;
         const Estimate e = estimate(f);
-        // Without any specular part every path carries the same light: no noise at all.
+        // Without a specular part every path carries equal light, so there is no noise.
         EXPECT_NEAR(e.mean, emitted * series, 1e-4 * emitted * series) << bounces;
         EXPECT_LT(e.deviation, 1e-5) << bounces;
     }
@@ -100,7 +100,7 @@ TEST(paths, what_lets_light_through_casts_half_a_shadow)
     veil.base_color.a = 0.5f;
     add_scene(scene, ball_scene(veil, false), {0, 0, 1.0f}, 0.5f);
     const Estimate e = estimate(look(scene, of_the_origin(), ReferenceMode::shadowed, 4096));
-    // A ray that crosses the ball crosses it twice: a quarter of the light passes.
+    // A ray that crosses the ball crosses it twice, so a quarter of the light passes.
     EXPECT_NEAR(e.mean, 0.8 * (1.0 - 0.25 * 0.75), 4.5 * e.deviation + 2e-3);
 }
 
@@ -112,7 +112,7 @@ TEST(paths, backs_of_single_sided_surfaces_are_culled_for_the_camera_alone)
     both.double_sided = true;
     EXPECT_NEAR(estimate(look(plane_scene(single), d, ReferenceMode::direct, 128)).mean, 1.0, 1e-6);
     EXPECT_NEAR(estimate(look(plane_scene(both), d, ReferenceMode::direct, 128)).mean, 0.25, 1e-6);
-    // A single-sided card that turns its back to the plane below still shades it.
+    // A single-sided card with its back to the plane below still shades the plane.
     Scene scene = plane_scene(lambert(0.8f));
     add_scene(scene, plane_scene(lambert(0.0f)), {0, 0, 0.001f}, 1.0f);
     FrameDesc under = desc_of(8, 8, view_from({0, 0, 1}, 0.5f));

@@ -1,4 +1,4 @@
-// One scene written in several ways: both renderers draw the same picture of it.
+// One scene written in several ways: both renderers draw equal images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using Techniques = std::vector<std::string>;
 
 const Techniques kEveryTechnique = {"split_isotropic", "bent_normal", "major_axis", "lobe_line", "filtered_is", "mc", "as_mc"};
 
-// A perspective view of a plate about the place, some of it beside the plate. Its numbers have few digits, so that none is lost far away.
+// Returns a perspective view of a plate around `place`, partly beside the plate. Its numbers have few digits, so far away none is lost.
 FrameDesc plate_seen_at(const glm::vec3& place)
 {
     FrameDesc d = desc_of(32, 32, make_view(place + glm::vec3(0.75f, -0.5f, 1.5f), place, 1.0f, 32, 32));
@@ -26,10 +26,10 @@ FrameDesc plate_seen_at(const glm::vec3& place)
 
 struct Written {
     Scene scene;
-    glm::vec3 place = glm::vec3(0.0f); // of its plate
+    glm::vec3 place = glm::vec3(0.0f); // position of the plate
 };
 
-// bound: of the relative difference of pixels.
+// bound: on the relative difference of pixels.
 void expect_same_pictures(const std::string& name, const Stage& one, const FrameDesc& of_one, const Stage& other, const FrameDesc& of_other,
                           const Techniques& by, double bound)
 {
@@ -64,7 +64,7 @@ void expect_same(const std::string& name, const Written& one, const Written& oth
         EXPECT_NEAR(x.mean[c], y.mean[c], 4.5 * std::hypot(x.deviation[c], y.deviation[c])) << name << ", channel " << c;
 }
 
-// Of every part that a surface has, with a grain that lies along neither axis.
+// Returns a material with every part of a surface. Its grain lies along neither axis.
 Material grained(float rotation)
 {
     Material m;
@@ -95,7 +95,7 @@ TEST(outside, a_mirrored_node_is_a_mirrored_mesh)
     for (std::size_t i = 0; i < by_mesh.indices.size(); i += 3)
         std::swap(by_mesh.indices[i], by_mesh.indices[i + 2]);
     expect_same("by node and by mesh", {by_node}, {by_mesh});
-    // The other techniques place samples by the lobe's axes, of which one has turned about.
+    // The other techniques place samples by the lobe's axes, one of which has flipped.
     expect_same("by node and by rotation", {by_node}, {plane_scene(grained(-0.5f))},
                 {"split_isotropic", "bent_normal", "major_axis", "filtered_is"});
     const Stage turned = under_coloured_sky(by_node), level = under_coloured_sky(plain);
@@ -133,7 +133,7 @@ TEST(outside, split_triangles_are_the_whole_ones)
     expect_same("split and whole", {split}, {plane_scene(grained(0.5f))});
 }
 
-// Halves hold these numbers, so that nothing is rounded on the way.
+// Halves hold these numbers exactly, so that nothing is rounded.
 Material of_short_numbers(float strength)
 {
     Material m = grained(std::atan2(0.5f, 1.0f));
@@ -161,14 +161,14 @@ TEST(outside, a_texture_of_one_texel_is_a_factor)
                     to.clearcoat = to.clearcoat_roughness = 1.0f;
                     to.clearcoat_tex = to.clearcoat_roughness_tex = add_texel(s, glm::vec3(0.5f, 0.25f, 0.0f));
                 }));
-    // as_mc finds half vectors in other ways where roughness has a texture.
+    // as_mc finds half vectors in another way where roughness has a texture.
     expect_same("roughness and metal", {plane_scene(round)},
                 with_change(round,
                             [](Scene& s, Material& to) {
                                 to.roughness = to.metallic = 1.0f, to.metallic_roughness_tex = add_texel(s, glm::vec3(0.0f, 0.5f, 0.25f));
                             }),
                 {"split_isotropic", "bent_normal", "major_axis", "lobe_line", "filtered_is", "mc"});
-    // Halves round colours of 8 bits.
+    // Halves round 8-bit colours.
     Material coded = m;
     for (int c = 0; c < 3; ++c)
         coded.base_color[c] = std::pow((static_cast<float>(200 - 20 * c) / 255.0f + 0.055f) / 1.055f, 2.4f);
@@ -180,7 +180,7 @@ TEST(outside, a_texture_of_one_texel_is_a_factor)
                 kEveryTechnique, 0x1p-11);
 }
 
-// The albedo of a lobe is its own where no texture changes it, and elsewhere that of a coarser table of all lobes.
+// A lobe without textures has its exact albedo. With a texture the albedo comes from a coarser table over all lobes.
 TEST(outside, an_anisotropy_texture_of_one_texel_is_a_factor)
 {
     BN_NEEDS_EMBREE();

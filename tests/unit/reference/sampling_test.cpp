@@ -1,4 +1,4 @@
-// What random numbers become: uniform and stratified points, directions by the densities that are claimed for them.
+// Random numbers become uniform and stratified points, and directions with their claimed densities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ TEST(sobol, points_of_a_pass_are_stratified_whatever_the_seed)
                 ++hit[static_cast<std::size_t>(owen_sobol(table, i, d, seed) * kPassSamples)];
             EXPECT_EQ(std::count(hit.begin(), hit.end(), 1), kPassSamples) << "dimension " << d;
         }
-        for (int split = 0; split <= 6; ++split) { // (0, 6, 2)-net: every box of area 1/64, whatever its shape
+        for (int split = 0; split <= 6; ++split) { // (0, 6, 2)-net: every box of area 1/64, of any shape
             std::vector<int> hit(kPassSamples);
             const int nx = 1 << split, ny = kPassSamples / nx;
             for (int i = 0; i < kPassSamples; ++i) {
@@ -54,13 +54,13 @@ TEST(sobol, points_are_those_of_joe_and_kuo)
             x |= (sobol_table().points[dimension][index] >> b & 1u) << (31 - b);
         return static_cast<double>(x) * 0x1p-32;
     };
-    // the first eight in three dimensions, in the order of their binary index
+    // the first eight points in three dimensions, in the order of their binary index
     constexpr double kFirst[8][3] = {{0, 0, 0},          {.5, .5, .5},       {.25, .75, .75},    {.75, .25, .25},
                                      {.125, .625, .375}, {.625, .125, .875}, {.375, .375, .625}, {.875, .875, .125}};
     for (int i = 0; i < 8; ++i)
         for (int d = 0; d < 3; ++d)
             EXPECT_EQ(coordinate(d, i), kFirst[i][d]) << "point " << i << " dimension " << d;
-    // Sobol's property A, which the set has: of the first 2^5 points one lies in every orthant of the five-dimensional cube
+    // Sobol's property A: every orthant of the five-dimensional cube holds one of the first 2^5 points
     std::vector<int> hit(32);
     for (int i = 0; i < 32; ++i) {
         unsigned orthant = 0;
@@ -120,7 +120,7 @@ TEST(environment_sampler, directions_follow_the_density_and_miss_no_light)
     const Jobs jobs(1);
     const Environment environment = environment_of(sky, 32, jobs);
     const EnvironmentSampler s = make_environment_sampler(environment.specular, jobs);
-    constexpr int kSide = 16, kFine = 8, kSamples = 1 << 19; // bins of a face's side; quadrature points of a bin's side
+    constexpr int kSide = 16, kFine = 8, kSamples = 1 << 19; // bins along a face's side; quadrature points along a bin's side
     std::vector<double> seen(6 * kSide * kSide), expected(6 * kSide * kSide);
     double integral = 0.0, mean = 0.0;
     for (int face = 0; face < 6; ++face)

@@ -189,7 +189,7 @@ Material lambert(float albedo)
     Material m;
     m.base_color = glm::vec4(albedo, albedo, albedo, 1.0f);
     m.metallic = 0.0f;
-    m.specular = 0.0f; // no interface: nothing is lost to it
+    m.specular = 0.0f; // no interface: nothing is reflected
     return m;
 }
 
@@ -197,7 +197,7 @@ Material metal(float alpha_lin, float eta)
 {
     Material m;
     m.roughness = alpha_lin;
-    m.anisotropy_strength = eta != 0.0f ? 0.5f : 0.0f; // whatever it is, FrameDesc overrides it
+    m.anisotropy_strength = eta != 0.0f ? 0.5f : 0.0f; // FrameDesc overrides any nonzero value
     return m;
 }
 

@@ -1,4 +1,4 @@
-// Scenes and environments whose radiance is known, and the reference around them.
+// Scenes and environments with known radiance, and a reference renderer for them.
 #pragma once
 #include <functional>
 #include <memory>
@@ -12,34 +12,34 @@
 
 namespace burnish::test {
 
-// From the radiance of directions, through a cube of `size` texels a side.
+// Bakes an environment from radiance by direction, through a cube with `size` texels a side.
 Environment environment_of(const std::function<glm::vec3(const glm::vec3&)>& radiance, int size, const Jobs& jobs);
-Stage under_coloured_sky(const Scene& scene); // that of formulas.h
+Stage under_coloured_sky(const Scene& scene); // coloured_sky() of formulas.h
 
 // A square of 2 m at the origin that faces +z, its tangent along +x.
 Scene plane_scene(const Material& material);
-// A ball of radius 1 at the origin, normals outwards or, for rooms, inwards.
+// A ball of radius 1 at the origin. Normals point outwards or, for rooms, inwards.
 Scene ball_scene(const Material& material, bool inside);
-Scene room_scene(const Material& material); // a cube from -1 to 1, seen from within
-// With area lights in world space. shown: as surfaces, too.
+Scene room_scene(const Material& material); // a cube from -1 to 1, seen from inside
+// Adds area lights in world space. shown: also as visible surfaces.
 Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown);
 TextureRef add_texel(Scene& to, const glm::ivec3& code);                            // a 1x1 texture of 8 bits
 TextureRef add_texel(Scene& to, const glm::vec3& values);                           // a 1x1 texture of floats
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
 
 Material lambert(float albedo);                                // diffuse only
-Material metal(float alpha_lin, float eta);                    // of reflectance 1 everywhere; eta by FrameDesc::anisotropy
-View view_from(const glm::vec3& direction, float half_extent); // orthographic, of a small square about the origin
+Material metal(float alpha_lin, float eta);                    // reflectance 1 everywhere; eta by FrameDesc::anisotropy
+View view_from(const glm::vec3& direction, float half_extent); // orthographic, of a small square around the origin
 Frame render_reference(const Stage& stage, const FrameDesc& desc, const ReferenceOptions& options);
 FrameDesc desc_of(int width, int height, const View& view);
 
-struct Estimate {                       // of the mean over a picture's pixels and channels
-    double mean = 0.0, deviation = 0.0; // deviation: of `mean`
+struct Estimate {                       // of the mean over an image's pixels and channels
+    double mean = 0.0, deviation = 0.0; // deviation: standard error of `mean`
 };
 Estimate estimate(const Frame& frame);
-double mean_of(const Frame& frame); // of all channels of all pixels
+double mean_of(const Frame& frame); // over all channels of all pixels
 
-struct ChannelEstimate { // of the means over a picture's pixels
+struct ChannelEstimate { // of the means over an image's pixels
     glm::dvec3 mean{0.0}, deviation{0.0};
 };
 ChannelEstimate estimate_channels(const Frame& frame);

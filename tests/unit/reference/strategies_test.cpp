@@ -1,4 +1,4 @@
-// Three ways to choose directions, one integral: they must agree within their own error bars, picture by picture and pixel by pixel.
+// Three sampling strategies for one integral must agree within their error bars, per image and per pixel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,14 +16,14 @@ glm::vec3 lamps(const glm::vec3& d)
     if (glm::dot(d, glm::normalize(glm::vec3(0.5f, 0.6f, 0.6f))) > 0.98f)
         c += glm::vec3(20.0f, 15.0f, 9.0f);
     if (d.y < -0.3f)
-        c = glm::vec3(0.0f); // there is nothing to sample
+        c = glm::vec3(0.0f); // nothing to sample
     return c;
 }
 
 struct Agreement {
-    double picture = 0.0;   // difference of the means over its deviation
-    double worst_share = 0; // of pixels and channels that are more than 4 deviations apart
-    double mean_square = 0; // of the differences over their deviations: 1 where the error bars tell the truth
+    double picture = 0.0;   // difference of the means over its standard error
+    double worst_share = 0; // part of pixels and channels more than 4 deviations apart
+    double mean_square = 0; // mean square of differences over deviations: 1 for correct error bars
 };
 
 Agreement compare(const Frame& a, const Frame& b)
@@ -55,7 +55,7 @@ void expect_agreement(const Stage& stage, const FrameDesc& desc, ReferenceMode m
         o.mode = mode, o.samples = samples, o.strategy = strategies[i];
         o.bounces = 2;
         FrameDesc d = desc;
-        d.seed = static_cast<std::uint32_t>(i + 1); // of their own: error bars are for independent estimates
+        d.seed = static_cast<std::uint32_t>(i + 1); // separate seeds: error bars hold for independent estimates
         frames[i] = render_reference(stage, d, o);
     }
     for (int i = 0; i < 3; ++i) {
@@ -63,7 +63,7 @@ void expect_agreement(const Stage& stage, const FrameDesc& desc, ReferenceMode m
         std::printf("%s, mode %d, %d against %d: picture %.2f sigma, mean square %.3f, beyond 4 sigma %.2g\n", what, static_cast<int>(mode),
                     i, (i + 1) % 3, a.picture, a.mean_square, a.worst_share);
         EXPECT_LT(a.picture, 4.0) << what;
-        EXPECT_LT(a.worst_share, 4e-3) << what; // of a normal distribution 6e-5; few passes and small lamps have longer tails
+        EXPECT_LT(a.worst_share, 4e-3) << what; // 6e-5 for a normal distribution; few passes and small lamps have longer tails
         EXPECT_LT(a.mean_square, 1.3) << what;
         EXPECT_GT(a.mean_square, 0.8) << what;
     }
@@ -99,17 +99,17 @@ TEST(strategies, agree_on_the_textured_plate)
     stage.environment = environment_of(lamps, 64, stage.jobs);
     FrameDesc d = desc_of(32, 32, auto_frame(stage.tables, 32, 32));
     d.background = false;
-    expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf finds the lamp rarely
+    expect_agreement(stage, d, ReferenceMode::direct, 32768, "plate"); // brdf sampling rarely finds the lamp
 }
 
-// Under no occlusion the technique `mc` of the tile renderer estimates the same integral, one shading point a pixel.
+// Without occlusion the tile renderer's technique `mc` estimates this integral, with one shading point a pixel.
 TEST(strategies, agree_with_the_tile_renderer_s_mc)
 {
     BN_NEEDS_EMBREE();
     Stage stage(plane_scene(metal(0.5f, 0.7f)), 1.0f, 2);
     stage.environment = environment_of(lamps, 64, stage.jobs);
     for (const glm::vec2 tilt : {glm::vec2(0.0f), glm::vec2(0.35f, -0.2f)}) {
-        FrameDesc d = desc_of(16, 16, view_from({0.2f, 0.3f, 1.0f}, 0.5f)); // every point of the plane looks the same
+        FrameDesc d = desc_of(16, 16, view_from({0.2f, 0.3f, 1.0f}, 0.5f)); // every point of the plane looks alike
         d.roughness = 0.5f, d.anisotropy = 0.7f, d.override_anisotropy = true;
         d.tilt_rad = tilt;
         ReferenceOptions o;
@@ -128,7 +128,7 @@ TEST(strategies, agree_with_the_tile_renderer_s_mc)
     }
 }
 
-// A mirror's one direction, and a lamp without size, see of a tilted lobe what masking leaves, in both renderers.
+// A mirror's single direction and a lamp without size see a tilted lobe reduced by masking, in both renderers.
 TEST(strategies, agree_with_the_tile_renderer_on_tilted_mirrors_and_under_lights)
 {
     BN_NEEDS_EMBREE();

@@ -1,4 +1,4 @@
-// Textures of the reference: at full detail a pixel is the mean of what its points show, whatever a filter would make of the texture.
+// Textures in the reference: at full detail a pixel is the mean over its points, unlike a filtered texture.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace burnish::test {
 namespace {
 
 constexpr int kChecks = 64;               // along a side of the plane
-constexpr int kTexels = 64;               // along a side of a check: few points lie between two of them, where texels are mixed
+constexpr int kTexels = 64;               // along a side of a check: few points lie between two checks, where texels are mixed
 constexpr int kSmooth = 51, kRough = 204; // of 255
 
 Scene plane_of_roughness(float roughness)
@@ -21,7 +21,7 @@ Scene plane_of_roughness(float roughness)
     return plane_scene(m);
 }
 
-// Repeated over the plane.
+// Adds a texture that repeats over the plane.
 TextureRef add_texture(Scene& scene, const Image& image)
 {
     Texture texture;
@@ -54,7 +54,7 @@ Scene checkered_plane()
 {
     Scene scene = plane_of_roughness(1.0f);
     scene.materials[0].metallic_roughness_tex =
-        add_texture(scene, checks_of({0, kSmooth, 255}, {0, kRough, 255})); // rough as it says, metal
+        add_texture(scene, checks_of({0, kSmooth, 255}, {0, kRough, 255})); // roughness as given, metal
     return scene;
 }
 
@@ -84,14 +84,14 @@ TEST(textures, at_full_detail_are_the_mean_of_their_points)
     EXPECT_NEAR(full.mean, mean, 0.04 * mean) << filtered.mean; // a thirty-second of the points lies between checks
 }
 
-// Lamps all around at an angle from straight above, which the plane is seen from.
+// Returns a bright ring at an angle from straight above, where the camera is.
 std::function<glm::vec3(const glm::vec3&)> ring(double angle_deg)
 {
     const double cosine = std::cos(angle_deg * 3.14159265358979 / 180.0);
     return [cosine](const glm::vec3& d) { return glm::vec3(std::abs(static_cast<double>(d.z) - cosine) < 0.03 ? 10.0f : 0.1f); };
 }
 
-struct Means { // of the picture, under a ring
+struct Means { // of the image, under a ring
     double full, footprint, drawn;
 };
 Means means_of(const Scene& scene, double angle_deg)
@@ -107,7 +107,7 @@ Means means_of(const Scene& scene, double angle_deg)
     return {estimate(render_reference(stage, d, o)).mean, footprint, mean_of(stage.render(d, best_isa()))};
 }
 
-struct Errors { // rms over rings, relative to the mean of the truth
+struct Errors { // rms over rings, relative to the reference's mean
     double drawn, footprint;
 };
 Errors errors_of(const char* name, const Scene& scene, const Scene& truth)
@@ -133,7 +133,7 @@ TEST(textures, of_tilts_widen_the_lobe_of_what_is_far_away)
     mapped.materials[0].tilt_scale = 0.2f;
     const Errors with = errors_of("tilts", mapped, mapped), without = errors_of("none", plane_of_roughness(0.4f), mapped);
     std::printf("rms with moments %.4f, without %.4f; of the reference by footprints %.4f\n", with.drawn, without.drawn, with.footprint);
-    EXPECT_LT(with.drawn, 0.5 * without.drawn); // 0.49 and 1.21
+    EXPECT_LT(with.drawn, 0.5 * without.drawn);
     EXPECT_LT(with.footprint, 0.02);
 }
 

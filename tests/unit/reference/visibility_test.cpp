@@ -1,4 +1,4 @@
-// Two independent answers to what is seen: the tile renderer's integer edge functions and Embree's rays, at the same sample positions.
+// Two independent visibility tests: the tile renderer's integer edge functions and Embree's rays, at equal sample positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Distance in pixels from a sample to the nearest edge of a triangle on the screen; infinite where the triangle is no such thing.
+// Returns the distance in pixels from a sample to a triangle's nearest edge on the screen; infinite for a triangle behind the eye.
 double distance_to_edges(const DrawTables& t, const View& v, int width, int height, std::uint32_t triangle, glm::dvec2 sample)
 {
     glm::dvec2 p[3];
@@ -40,18 +40,18 @@ double distance_to_edges(const DrawTables& t, const View& v, int width, int heig
 
 struct Count {
     std::size_t samples = 0, covered = 0;
-    std::size_t silhouettes = 0;     // one of the two sees nothing there
+    std::size_t silhouettes = 0;     // one of the two sees nothing
     std::size_t far_silhouettes = 0; // and no edge is near
-    std::size_t triangles = 0;       // both see a triangle, not the same one
-    std::size_t far_triangles = 0;   // and no edge of either is near
-    double farthest_px = 0.0;        // of those that differ: the largest distance to an edge
+    std::size_t triangles = 0;       // both see a triangle, but different ones
+    std::size_t far_triangles = 0;   // and no edge of either triangle is near
+    double farthest_px = 0.0;        // largest distance to an edge, over differing samples
 };
 
-// Vertices of the rasterizer lie on a grid of 1/256 pixel, so each moves by up to 1/512 along either axis, and with it the edges.
+// The rasterizer snaps vertices to a grid of 1/256 pixel. Each vertex, and with it each edge, moves by up to 1/512 along either axis.
 constexpr double kSnapped = 1.0 / 128.0; // pixels
 
-// The tables with every vertex where the rasterizer draws it: at its position on the grid, as the vertex kernel finds it, and as far from
-// the eye's plane as before. Rays then meet the same triangles as the edge functions do.
+// Returns the tables with every vertex at its grid position, as the vertex kernel finds it, at an unchanged distance from the eye's plane.
+// Rays then meet the triangles that the edge functions see.
 DrawTables on_the_grid(DrawTables t, const FrameDesc& d)
 {
     const ViewRecord v = view_record(d.view);
@@ -74,7 +74,7 @@ DrawTables on_the_grid(DrawTables t, const FrameDesc& d)
     return t;
 }
 
-enum class Vertices { as_given, on_the_grid }; // of the rays' triangles
+enum class Vertices { as_given, on_the_grid }; // of the triangles that rays meet
 
 Count compare_ids(const char* name, Vertices vertices, int width, int height, int msaa)
 {
@@ -135,12 +135,12 @@ TEST_P(visibility, by_rays_and_by_rasterization_agree_but_for_one_sample_in_1000
     const Count c = compare_ids(GetParam(), Vertices::on_the_grid, 640, 480, 8);
     EXPECT_GT(c.covered, c.samples / 8);
     EXPECT_LE(static_cast<double>(c.silhouettes), static_cast<double>(c.samples) * 1e-5);
-    // Samples on an edge of the grid belong to either side: by the top-left rule, or to what Embree met first.
+    // Samples on a grid edge belong to either side: by the top-left rule, or to Embree's first hit.
     EXPECT_LE(static_cast<double>(c.triangles), static_cast<double>(c.covered) * 1e-4);
     EXPECT_LT(c.farthest_px, 1e-3);
 }
 
-// Rays meet the vertices as given, the rasterizer those of its grid: what that moves, and nothing but that.
+// Rays use the given vertices, and the rasterizer uses snapped ones. The snapping alone explains the differences.
 TEST_P(visibility, differs_elsewhere_only_by_the_grid_of_the_rasterizer)
 {
     BN_NEEDS_EMBREE();
@@ -153,7 +153,7 @@ TEST_P(visibility, differs_elsewhere_only_by_the_grid_of_the_rasterizer)
 INSTANTIATE_TEST_SUITE_P(of, visibility, testing::Values("teapot", "spheres", "plate"),
                          [](const auto& name) { return std::string(name.param); });
 
-// Rays know nothing of clipping: a floor of 10 to 400 km, which the near plane and the guard band cut, ends where theirs does.
+// Rays need no clipping: a floor of 10 to 400 km, cut by the near plane and the guard band, ends where the rays' floor ends.
 TEST(visibility_of_large_floors, by_rays_and_by_rasterization_is_the_same)
 {
     BN_NEEDS_EMBREE();

@@ -34,7 +34,7 @@ std::uint64_t hash_scene(const Scene& scene)
     return h;
 }
 
-// The same bits on every machine and with every compiler. Changed on purpose only.
+// Pins bits that are equal on every machine and with every compiler. Change the hashes on purpose only.
 TEST(builtin, bits_are_pinned)
 {
     const std::map<std::string, std::uint64_t> scenes = {
@@ -117,7 +117,7 @@ TEST(builtin, faces_agree_with_their_normals)
                 n[c] = glm::dvec3(glm::vec3(t.shading[i].normal[0], t.shading[i].normal[1], t.shading[i].normal[2]));
             }
             const glm::dvec3 face = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-            for (const glm::dvec3& corner : n) // within 60 degrees, also at the poles
+            for (const glm::dvec3& corner : n) // within 60 degrees, even at the poles
                 ASSERT_GT(glm::dot(face, corner), 0.5) << info.name << " triangle " << k;
         }
     }
@@ -125,8 +125,7 @@ TEST(builtin, faces_agree_with_their_normals)
 
 using Place = std::array<float, 3>;
 
-// Directed edges by position of the triangles that `use` picks; in a closed surface each meets its opposite
-// once.
+// Counts directed edges, by position, of the triangles that `use` picks. In a closed surface each edge meets its opposite once.
 template <class Use> int count_open_edges(const DrawTables& t, const Use& use)
 {
     std::map<std::pair<Place, Place>, int> edges;
@@ -149,8 +148,8 @@ TEST(builtin, spheres_plate_glass_and_teapot_body_are_closed)
     EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("spheres")), all), 0);
     EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("plate")), all), 0);
     EXPECT_EQ(count_open_edges(make_draw_tables(*make_builtin_scene("glass")), all), 0);
-    // Of the pot, handle and spout end openly inside the body: the handle with two rings of 32 edges, the
-    // spout with one; each edge is counted from both sides.
+    // In the pot, handle and spout end openly inside the body: the handle with two rings of 32 edges, the spout with one. Each edge counts
+    // from both sides.
     const DrawTables t = make_draw_tables(*make_builtin_scene("teapot"));
     const auto pot = [&t](std::size_t k) { return t.triangle_material[k] == 0; };
     EXPECT_EQ(count_open_edges(t, pot), 2 * 3 * 32);
@@ -166,7 +165,7 @@ TEST(builtin, teapot_stands_upright_with_its_spout_to_plus_x)
     EXPECT_NEAR(pot.bounds_max.z, -pot.bounds_min.z, 1e-7f);
 }
 
-// Distance of the nearest vertex of the teapot to a point of Newell's space, in his units.
+// Returns the distance from the teapot's nearest vertex to a point of Newell's space, in his units.
 double nearest_vertex(const Scene& scene, double x, double y, double z)
 {
     const VertexTable& v = scene.vertices;
@@ -177,7 +176,7 @@ double nearest_vertex(const Scene& scene, double x, double y, double z)
     return static_cast<double>(nearest) / 0.05;
 }
 
-// Where patches meet, after Crow 1987, "The Origins of the Teapot".
+// Corners of the patches, after Crow 1987, "The Origins of the Teapot".
 TEST(builtin, teapot_passes_through_the_published_corners_of_its_patches)
 {
     const Scene scene = *make_builtin_scene("teapot");
@@ -190,7 +189,7 @@ TEST(builtin, teapot_passes_through_the_published_corners_of_its_patches)
                                   {1.7, 0.6},    {1.7, 1.425}, {3.3, 2.4},  {2.7, 2.4},  {3.2, 2.4},  {2.8, 2.4}};
     for (const auto& [x, z] : mirrored)
         EXPECT_LT(nearest_vertex(scene, x, 0.0, z), 1e-5) << x << " " << z;
-    // Beside the checkout: all 28 patches as a distribution of geomview stores them, scaled by 1/4, moved, rounded to about 0.004 units.
+    // Optional data: all 28 patches as geomview's distribution stores them, scaled by 1/4, moved, rounded to about 0.004 units.
     std::ifstream file(test::data_file("meshes/teapot.bez"));
     std::string magic;
     if (!(file >> magic))
@@ -202,7 +201,7 @@ TEST(builtin, teapot_passes_through_the_published_corners_of_its_patches)
         patch[0] = first;
         for (std::size_t i = 1; i < 48; ++i)
             file >> patch[i];
-        for (const std::size_t i : {0u, 3u, 12u, 15u}) { // the corners of a patch lie on it
+        for (const std::size_t i : {0u, 3u, 12u, 15u}) { // a patch contains its corners
             const double nearest =
                 nearest_vertex(scene, 4.0 * (patch[3 * i] - 0.5), 4.0 * patch[3 * i + 1], 4.0 * (patch[3 * i + 2] - 0.263037));
             EXPECT_LT(nearest, 0.005) << "patch " << patches << " point " << i;
@@ -217,7 +216,7 @@ TEST(builtin, spheres_span_alpha_lin_and_eta)
     ASSERT_TRUE(scene);
     ASSERT_EQ(scene->materials.size(), 35u);
     const double eta[5] = {0.0, 0.25, 0.5, 0.75, 0.95};
-    for (std::size_t i = 0; i < 35; ++i) { // alpha across and along, back from the extension's terms
+    for (std::size_t i = 0; i < 35; ++i) { // alpha across and along, converted back from the extension
         const Material& m = scene->materials[i];
         const double across = static_cast<double>(m.roughness) * static_cast<double>(m.roughness);
         const double s = static_cast<double>(m.anisotropy_strength), along = across + (1.0 - across) * s * s;
@@ -275,7 +274,7 @@ TEST(builtin, the_sun_is_small_bright_and_on_the_front_left)
             }
     EXPECT_GT(bright, 10);
     EXPECT_LT(bright, 100);
-    // u = 1/2 + atan2(z, x) / 2 pi with the sun at (-0.55, 0.62, 0.56), up to its length; v = acos(y) / pi.
+    // u = 1/2 + atan2(z, x) / 2 pi with the sun at (-0.55, 0.62, 0.56), not normalised; v = acos(y) / pi.
     const double length = std::sqrt(0.55 * 0.55 + 0.62 * 0.62 + 0.56 * 0.56), pi = 3.141592653589793;
     EXPECT_NEAR((column_sum / bright + 0.5) / 1024, 0.5 + std::atan2(0.56, -0.55) / (2 * pi), 1e-3);
     EXPECT_NEAR((row_sum / bright + 0.5) / 512, std::acos(0.62 / length) / pi, 1e-3);

@@ -1,4 +1,4 @@
-// The promise of a cluster's bounds: whoever culls by them loses nothing.
+// Cluster bounds are conservative: culling by them loses nothing.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -48,7 +48,7 @@ TEST(clusters, spheres_hold_their_vertices)
     }
 }
 
-// Whether the documented test culls the cluster from an eye, as a renderer computes it.
+// Returns true where the documented test culls the cluster from an eye, computed as in a renderer.
 bool culled(const Cluster& c, const glm::vec3& eye)
 {
     const glm::vec3 d = c.center - eye;

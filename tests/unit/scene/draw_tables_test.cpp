@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-// A unit sphere with tangents to the east, as mesh 0.
+// Returns a unit sphere with tangents to the east, as mesh 0.
 Scene sphere_scene()
 {
     Scene scene;
@@ -60,7 +60,7 @@ glm::vec3 bitangent(const DrawTables& t, std::uint32_t i)
     return t.shading[i].tangent[3] * glm::cross(normal(t, i), tangent(t, i));
 }
 
-// Frames are orthonormal, faces agree with their normals and look away from `inside`.
+// Expects orthonormal frames, and faces that agree with their normals and look away from `inside`.
 void expect_outward(const DrawTables& t, const glm::vec3& inside)
 {
     for (std::size_t k = 0; k < t.triangle_count(); ++k) {
@@ -77,7 +77,7 @@ void expect_outward(const DrawTables& t, const glm::vec3& inside)
     }
 }
 
-// Where u grows lies the tangent, and where v shrinks the bitangent, whatever the matrix did.
+// Expects the tangent along growing u and the bitangent along shrinking v, for any matrix.
 void expect_follows_uv(const DrawTables& t)
 {
     int checked = 0;

@@ -1,4 +1,4 @@
-// OBJ texts: numbers, lines, indices, colours, normals; what is refused and what is said.
+// OBJ texts: numbers, lines, indices, colours, normals; refusals and messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ TEST(obj, lines_may_end_and_go_on_in_any_way)
 TEST(obj, comments_stand_anywhere_and_say_nothing)
 {
     const std::string quad = kHead + kFace;
-    expect_same("# made by hand \\\n" + quad, quad); // which does not go on
+    expect_same("# made by hand \\\n" + quad, quad); // a comment does not continue
     expect_same(replaced(quad, "\n", " # the whole quad 20261125143000\n"), quad);
     expect_same(replaced(quad, "4/4/1", "4/4/1#"), quad);
     expect_same(quad + "# v nan f 99999999999", quad);
@@ -192,7 +192,7 @@ TEST(obj, colours_of_vertices_are_srgb)
     EXPECT_FALSE(scene_of("v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n").primitives[0].has_color);
 }
 
-// A roof of two slopes, whose ridge is smooth or sharp.
+// A roof of two slopes whose ridge is smooth or sharp.
 TEST(obj, smoothing_groups_decide_where_normals_are_shared)
 {
     const std::string roof = "v -1 0 1\nv -1 0 -1\nv 0 1 1\nv 0 1 -1\nv 1 0 1\nv 1 0 -1\n", left = "f 1 3 4 2\n", right = "f 3 5 6 4\n";
@@ -203,7 +203,7 @@ TEST(obj, smoothing_groups_decide_where_normals_are_shared)
         return static_cast<double>(most);
     };
     const double slope = std::sqrt(0.5);
-    // Shared normals weigh triangles by their areas, of which the two sides have one and two at a corner.
+    // Shared normals weigh triangles by area. At a corner the two sides have one and two triangles.
     EXPECT_NEAR(ridge(scene_of(roof + left + right)), std::sqrt(0.1), 1e-6);
     EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + right)), std::sqrt(0.1), 1e-6);
     EXPECT_NEAR(ridge(scene_of(roof + "s 1\n" + left + "s 2\n" + right)), slope, 1e-6);

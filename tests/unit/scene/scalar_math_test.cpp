@@ -7,7 +7,7 @@
 namespace burnish {
 namespace {
 
-// Largest relative error against long double over evenly spaced arguments.
+// Returns the largest relative error against long double over evenly spaced arguments.
 double worst(double from, double to, const std::function<double(double)>& ours, const std::function<long double(long double)>& exact)
 {
     const int steps = 50000;

@@ -1,4 +1,4 @@
-// Quaternion maps, part by part, at n' = (.48, -.6, .64), by hand. Pictures are of floats.
+// Quaternion maps, component by component, at n' = (.48, -.6, .64), derived by hand. Images hold floats.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Scenes, environments and frames with one wrong field: each is an Error that names the field; none ends the process or draws.
+// Scenes, environments and frames with one wrong field. Each gives an Error that names the field; none ends the process or draws.
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ FrameDesc good_desc()
 }
 
 struct BadScene {
-    const char* place; // that the error names
+    const char* place; // named by the error
     void (*change)(Scene& s);
 };
 
@@ -148,7 +148,7 @@ const BadScene kNodes[] = {
     {"/area_lights/0/shape", [](Scene& s) { s.area_lights[0].shape = static_cast<AreaShape>(40); }},
     {"/area_lights/0", [](Scene& s) { s.area_lights[0].points.pop_back(); }},
     {"/area_lights/0", [](Scene& s) { s.area_lights[0].points[2].y = kNan; }},
-    {"/area_lights/0", [](Scene& s) { s.area_lights[0].points[2].z = 9.0f; }}, // in no plane
+    {"/area_lights/0", [](Scene& s) { s.area_lights[0].points[2].z = 9.0f; }}, // not in one plane
     {"/area_lights/0/radiance/2", [](Scene& s) { s.area_lights[0].radiance.z = -1.0f; }},
     {"/area_lights/0/radiance/0", [](Scene& s) { s.area_lights[0].radiance.x = kInf; }},
     {"/area_lights/0/radius", [](Scene& s) { s.area_lights[0].radius = kNan; }},
@@ -208,7 +208,7 @@ void expect_refused(std::span<const BadScene> cases)
         SCOPED_TRACE(std::string("case ") + std::to_string(i) + " " + cases[i].place);
         Scene scene = good_scene();
         cases[i].change(scene);
-        update_world(scene); // as who makes a scene does
+        update_world(scene); // like a caller that builds a scene
         const Result<std::shared_ptr<const SceneData>> data = make_scene_data("mine", std::move(scene), {});
         ASSERT_FALSE(data);
         EXPECT_EQ(data.error().code, ExitCode::bad_input);
@@ -251,7 +251,7 @@ TEST(bad_scenes, limits_hold_in_memory)
     EXPECT_EQ(make_scene_data("", good_scene(), limits).error().place, "/images/0");
 }
 
-// Tangents, texture coordinates and colours may be left out: the picture is as if they held their fallbacks.
+// Tangents, texture coordinates and colours are optional. Without them the image equals one with their default values.
 TEST(bad_scenes, optional_columns_are_filled)
 {
     Scene bare = good_scene();
@@ -326,7 +326,7 @@ TEST(bad_scenes, parts_are_checked)
 }
 
 struct BadFrame {
-    const char* word; // that the error has
+    const char* word; // contained in the error
     void (*change)(FrameDesc& d);
 };
 const BadFrame kFrames[] = {
@@ -391,7 +391,7 @@ TEST(bad_scenes, frames_are_checked)
     Result<Session> session = Session::make(good_parts());
     ASSERT_TRUE(session);
     expect_refused_frames(*session);
-    EXPECT_TRUE(session->render(good_desc())); // and the session goes on
+    EXPECT_TRUE(session->render(good_desc())); // the session still works
     Frame odd;
     odd.color = Image{40, 30, 3, PixelType::f32, {}};
     odd.color.bytes.resize(7);

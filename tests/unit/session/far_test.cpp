@@ -1,4 +1,4 @@
-// A scene far from the origin of the world is the picture that it is near it.
+// A scene far from the world's origin gives the same image as near the origin.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 64;
 
-// The whole world by a translation, every root with what floats leave of it.
+// Translates the whole world. Every root keeps the remainder that floats lose.
 void translate(Scene& scene, const glm::dvec3& by)
 {
     for (Node& node : scene.nodes) {
@@ -44,7 +44,7 @@ void add_lamp(Scene& scene)
     scene.nodes.push_back(lamp);
 }
 
-// From the same place of the world, `by` farther.
+// Draws from the same place relative to the scene, moved by `by`.
 Frame picture(const std::string& name, const glm::dvec3& by, Backend backend, glm::dvec3& origin)
 {
     Result<Scene> scene = make_builtin_scene(name);
@@ -83,7 +83,7 @@ std::size_t words_off(const Frame& a, const Frame& b, float most)
 
 constexpr Backend kBackends[] = {Backend::tile, Backend::reference};
 
-// 4600 km are whole steps of the grid of origins: every bit stays.
+// 4600 km is a multiple of the origins' grid step, so every bit stays.
 TEST(far, whole_kilometres_away_has_the_same_bits)
 {
     for (const std::string name : {"teapot", "spheres"})

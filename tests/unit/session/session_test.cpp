@@ -1,4 +1,4 @@
-// Sessions: the same bits alone, beside each other and in threads; errors in place of exceptions.
+// Sessions: equal bits alone, side by side and in threads; errors instead of exceptions.
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -76,7 +76,7 @@ TEST(session, shares_its_parts)
     Result<Session> second = Session::make(first->parts());
     ASSERT_TRUE(second);
     EXPECT_EQ(&first->scene(), &second->scene());
-    *first = std::move(*Session::make(second->parts())); // what the renderer refers to outlives the session it was made in
+    *first = std::move(*Session::make(second->parts())); // parts outlive the session that made them
     EXPECT_EQ(drawn(*first), hash);
     EXPECT_EQ(drawn(*second), hash);
 }

@@ -1,4 +1,4 @@
-// What the counting lanes say of pieces of kernels whose work is known by hand.
+// Pieces of kernels with known work, for the counting lanes.
 #pragma once
 #include <cstdint>
 
@@ -6,7 +6,7 @@ namespace burnish {
 
 struct CountedWork {
     std::uint64_t operations, bytes;
-    float value; // what was calculated
+    float value; // result of the calculation
 };
 inline namespace bn_counted {
 CountedWork count_dot();       // (1, 2, 3) . (4, 5, 6), loaded from memory

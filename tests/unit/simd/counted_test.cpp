@@ -1,4 +1,4 @@
-// The counting lanes against work that is known by hand.
+// Counting lanes against known work.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simd/counted_ops.h"
@@ -25,7 +25,7 @@ TEST(counted, what_is_not_arithmetic_is_not_counted)
 {
     expect(count_uncounted(), 0, 0, -6.0f);
 }
-// a channel of the left and of the right texels: two products and their sum, and the sum with what was there
+// One channel of the left and right texels: two products and their sum, added to the previous value.
 TEST(counted, a_bilinear_footprint_is_its_products_and_sums)
 {
     expect(count_texel_add(), 2 * 4 * 4, 32, 0.5f);

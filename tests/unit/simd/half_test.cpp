@@ -10,8 +10,7 @@
 namespace burnish {
 namespace {
 
-// The processor's own conversion, one number at a time, in assembly because this file is compiled without
-// F16C.
+// Converts by the processor, one number at a time. Uses assembly, since this file is compiled without F16C.
 float hardware_to_float(std::uint16_t half)
 {
     float value;
@@ -74,8 +73,7 @@ TEST(half, equals_the_processors_conversion)
     }
     std::mt19937 random(3);
     for (int k = 0; k < 2000000; ++k) {
-        // Exponents about the range of halves, so that rounding at every exponent, ties and subnormals are
-        // met.
+        // Exponents around the range of halves cover rounding at every exponent, ties and subnormals.
         const std::uint32_t exponent = 100 + static_cast<std::uint32_t>(random()) % 44;
         std::uint32_t mantissa = static_cast<std::uint32_t>(random()) & 0x7fffffu;
         if (k % 3 == 0)
@@ -84,7 +82,7 @@ TEST(half, equals_the_processors_conversion)
         const float value = std::bit_cast<float>(sign | exponent << 23 | mantissa);
         std::uint16_t want = hardware_to_half(value);
         if ((want & 0x7fffu) == 0x7c00u)
-            want = static_cast<std::uint16_t>(want - 1u); // Inf saturates
+            want = static_cast<std::uint16_t>(want - 1u); // infinity saturates
         ASSERT_EQ(float_to_half(value), want) << value;
     }
 }

@@ -1,4 +1,4 @@
-// Tests of the lanes of one instruction set: those that this processor does not run are reported as skipped.
+// Tests of one instruction set's lanes. Sets that this processor does not support are reported as skipped.
 #pragma once
 #include <gtest/gtest.h>
 #include <string>
@@ -11,7 +11,7 @@ namespace burnish {
 inline void PrintTo(Isa isa, std::ostream* out)
 {
     *out << isa_name(isa);
-} // what gtest and ctest call it
+} // the name in gtest and ctest
 
 class OnIsa : public testing::TestWithParam<Isa> {
   protected:

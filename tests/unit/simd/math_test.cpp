@@ -1,5 +1,4 @@
-// Errors of the math kernels against double libm: the float versions (all equal, see ops_test.cpp) and the
-// double oracle.
+// Errors of the math kernels against double libm: the float versions (all equal, see ops_test.cpp) and the double oracle.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,8 +33,8 @@ struct Points {
 struct MathCase {
     const char* kernel;
     Measure measure;
-    double limit;        // of the float version
-    double oracle_limit; // of the double version: the fit's absolute or relative error
+    double limit;        // for the float version
+    double oracle_limit; // for the double version: the fit's absolute or relative error
     std::function<double(double, double)> want;
     Points points;
 };

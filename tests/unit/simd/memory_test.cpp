@@ -36,7 +36,7 @@ TEST_P(lane_memory, first_lanes_read_zero_and_leave_the_rest_alone)
     const int lanes = fns().lanes;
     for (int n = -1; n <= lanes + 3; ++n) {
         const int real_n = std::clamp(n, 0, lanes);
-        // Exactly as long as may be read, so that a sanitizer sees a wider access.
+        // Exactly as long as the allowed read, so that a sanitizer sees wider accesses.
         const std::vector<float> from(static_cast<std::size_t>(real_n), 3.0f);
         const std::vector<std::int32_t> from_int(static_cast<std::size_t>(real_n), 5);
         float x[kMaxLanes];
@@ -131,7 +131,7 @@ TEST_P(lane_memory, triples_go_to_two_rows_of_eight)
         EXPECT_EQ(std::memcmp(at, want, sizeof want), 0) << k;
     }
     const int in_first = fns().lanes < 8 ? fns().lanes : 8, in_second = fns().lanes - in_first;
-    EXPECT_EQ(first[3 * in_first], 0.0f); // nothing more is written
+    EXPECT_EQ(first[3 * in_first], 0.0f); // no further writes
     EXPECT_EQ(second[3 * in_second], 0.0f);
 }
 
@@ -183,10 +183,10 @@ TEST_P(lane_memory, reductions_fold_the_upper_half_onto_the_lower)
 TEST_P(lane_memory, records_arrive_transposed)
 {
     constexpr std::uint32_t kRecords = 300;
-    // Off by 4 bytes: no alignment may be needed.
+    // Offset by 4 bytes: no alignment may be required.
     std::vector<std::uint32_t> words(kRecords * 16 + 1);
     for (std::uint32_t& w : words)
-        w = static_cast<std::uint32_t>(random_()); // any bits, signalling NaN included
+        w = static_cast<std::uint32_t>(random_()); // any bits, including signalling NaN
     for (int round = 0; round < 200; ++round) {
         const std::vector<std::int32_t> index = indices(kMaxLanes, kRecords);
         std::int32_t got[16 * kMaxLanes];
@@ -203,7 +203,7 @@ TEST_P(lane_memory, records_leave_transposed)
     const std::size_t lanes = static_cast<std::size_t>(fns().lanes);
     const std::vector<std::int32_t> fields = indices(16 * lanes, 0x7fffffff);
     std::vector<std::int32_t> words(16 * lanes + 2, -1);
-    fns().store_records(words.data() + 1, fields.data()); // off by 4 bytes
+    fns().store_records(words.data() + 1, fields.data()); // offset by 4 bytes
     for (std::size_t k = 0; k < lanes; ++k)
         for (std::size_t f = 0; f < 16; ++f)
             EXPECT_EQ(words[1 + 16 * k + f], fields[f * lanes + k]);

@@ -16,7 +16,7 @@ struct OpInput {
 
 struct Op {
     const char* name;
-    bool any_nan; // makes NaN by arithmetic: that it is NaN counts, not its payload
+    bool any_nan; // arithmetic that makes NaN: payloads may differ
     void (*run)(const OpInput& in, std::uint32_t* out);
 };
 
@@ -33,8 +33,7 @@ struct Texels {
     int steps;
 };
 
-// What does not fit the form of Op; one call works on `lanes` lanes. Arrays of results are field-major:
-// [field][lane].
+// Functions that do not fit Op. One call works on `lanes` lanes. Result arrays are field-major: [field][lane].
 struct LaneFns {
     const char* isa;
     int lanes;
@@ -48,7 +47,7 @@ struct LaneFns {
     void (*expand)(const float* from, const std::int32_t* ints, std::uint32_t bits, float* x, std::int32_t* i);
     void (*stream)(float* to, const float* from, int n);
     void (*triples)(float* first, float* second, const float* r, const float* g, const float* b);
-    std::uint32_t (*mask_facts)(std::uint32_t bits); // to_bits, with any, all, none in bits 16, 17, 18
+    std::uint32_t (*mask_facts)(std::uint32_t bits); // to_bits, and any, all, none in bits 16, 17, 18
     void (*iota)(std::int32_t* out);
     void (*gather)(const float* base, const std::int32_t* index, float* out);
     void (*gather_int)(const std::int32_t* base, const std::int32_t* index, std::int32_t* out);

@@ -19,7 +19,7 @@ BN_INLINE void put(std::uint32_t* out, mask m)
     store_int(out, select(m, int_lit(1), int_lit(0)));
 }
 
-// Defines f_<name>: out = expression of the reals a, b, c, the integers i, j and the masks m, q.
+// Defines f_<name>: out = expression of reals a, b, c, integers i, j and masks m, q.
 #define BN_OP(name, expression)                                                                                                            \
     void f_##name(const OpInput& in, std::uint32_t* out)                                                                                   \
     {                                                                                                                                      \

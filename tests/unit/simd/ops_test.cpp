@@ -25,7 +25,7 @@ const std::vector<std::uint32_t>& special_bits()
     return bits;
 }
 
-// Every pair of special values, random bits, and ordinary numbers.
+// Returns every pair of special values, random bits, and ordinary numbers.
 Columns make_columns()
 {
     Columns columns;
@@ -86,7 +86,7 @@ TEST_P(lane_ops, equal_scalar_bit_for_bit)
     }
 }
 
-// The scalar twin itself, against definitions written without it.
+// Checks the scalar lanes against definitions that do not use them.
 TEST(scalar_ops, mean_what_they_say)
 {
     const Columns columns = make_columns();
@@ -104,7 +104,7 @@ TEST(scalar_ops, mean_what_they_say)
         }
         ADD_FAILURE() << "no op " << name;
     };
-    const auto truncated = [](double x) { // what cvttps2dq gives
+    const auto truncated = [](double x) { // the result of cvttps2dq
         return !(x > -2147483649.0 && x < 2147483648.0) ? std::numeric_limits<std::int32_t>::min() : static_cast<std::int32_t>(x);
     };
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };

@@ -7,7 +7,7 @@
 namespace burnish::test {
 namespace {
 
-struct Vector { // view (not unit), alpha_lin, eta; what the normal is bent with; the bent normal, direction and level
+struct Vector { // view (not unit), alpha_lin, eta; bending factor; the bent normal, direction and level
     double v[3], alpha_lin, eta, stretch, projected[3], normal[3], direction[3], lod;
 };
 
@@ -16,7 +16,7 @@ TEST(bent_normal, equals_the_printed_test_vectors)
     const double x = .50507627, y = .30304576, z = .80812204; // the first view, unit
     const Vector vectors[] = {
         {{.5, .3, .8}, .4, .8, .75894664, {x, 0, z}, {.40934960, 0, .91237761}, {.26782916, -.30304576, .91456591}, .16},
-        // the same view of eta = -0.8: the grain is x, the lobe's axes are y and x
+        // the first view with eta = -0.8: the grain is x, the lobe's axes are y and x
         {{.3, .5, .8}, .4, .8, .75894664, {y, 0, z}, {.25994350, 0, .96562383}, {.14359783, -.50507627, .85104502}, .16},
         {{-.2, .9, .3}, .2, .5, .33541020, {-.20628425, 0, .30942637}, {-.08968415, 0, .99597026}, {.14768823, -.92827912, .34130054}, .14},
     };

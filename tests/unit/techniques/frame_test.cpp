@@ -13,7 +13,7 @@ double dot(const double* a, const double* b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Also where a normal map turns the normal into the tangent.
+// Holds also where a normal map turns the normal into the tangent.
 TEST(frame, of_a_mapped_normal_is_orthonormal)
 {
     const double normals[][3] = {{0, 0, 1}, {0, -3, 0}, {1, 0, 0}, {0.6, 0.48, -0.64}, {0.3, -0.6, 0.7}};
@@ -35,7 +35,7 @@ TEST(frame, of_a_mapped_normal_is_orthonormal)
                 }
 }
 
-// What is left of the tangent is kept, also where it is little.
+// The rest of the tangent is kept, even where it is short.
 TEST(frame, of_a_mapped_normal_keeps_its_tangent)
 {
     for (const IsaFns& kernels : all_fns())
@@ -53,7 +53,7 @@ std::vector<double> turned(const IsaFns& kernels, const double* normal)
     return call(kernels, "rotation_to", {normal[0], normal[1], normal[2]});
 }
 
-struct Turn { // of the normal n, by hand
+struct Turn { // by hand, for the normal n
     double n[3], q[3], t[3], b[3];
 };
 constexpr Turn kTurns[] = {
@@ -63,7 +63,7 @@ constexpr Turn kTurns[] = {
     {{0.6, 0.0, -0.8}, {0.31622777, 0.0, -0.94868330}, {-0.8, 0.0, -0.6}, {0.0, 1.0, 0.0}}, // below the surface
 };
 
-// Each part of the rotation, with its sign.
+// Checks one component of the rotation, with its sign.
 void expect_part_of_rotation(std::size_t part)
 {
     for (const IsaFns& kernels : all_fns())
@@ -83,7 +83,7 @@ TEST(frame, of_a_quaternion_turns_about_y_against_x)
     expect_part_of_rotation(2);
 }
 
-// Each axis apart, from the rotation that is right.
+// Checks one axis at a time, computed from the exact rotation.
 void expect_axis(std::size_t first, const double (Turn::*axis)[3])
 {
     for (const IsaFns& kernels : all_fns())
@@ -106,7 +106,7 @@ TEST(frame, of_a_quaternion_has_its_normal)
     expect_axis(6, &Turn::n);
 }
 
-// A unit rotation, and the normal itself, up to the normal that points straight down. Which way it leans is what the tests above say.
+// The rotation is a unit quaternion and yields the normal, even for a normal straight down. The tests above check its direction.
 TEST(frame, of_a_quaternion_is_robust_below_the_surface)
 {
     for (const IsaFns& kernels : all_fns())
@@ -121,7 +121,7 @@ TEST(frame, of_a_quaternion_is_robust_below_the_surface)
         }
 }
 
-// The rotation's axes, whatever they are, along the surface's own: as handed as before, and no length of the map matters.
+// Applies the rotation's axes along the surface's axes. The handedness stays, and the map's length does not matter.
 TEST(frame, turned_lies_along_the_surfaces_axes)
 {
     const double normals[][3] = {{0, 0, 1}, {0, -3, 0}, {0.6, 0.48, -0.64}};
@@ -147,7 +147,7 @@ TEST(frame, turned_lies_along_the_surfaces_axes)
                 }
 }
 
-// How far apart the two ways are: 11.5 degrees at this normal, the turned one by hand.
+// The two methods differ by 11.5 degrees at this normal; the turned frame is derived by hand.
 TEST(frame, projected_is_not_the_turned_one)
 {
     const Turn& turn = kTurns[2];
@@ -157,7 +157,7 @@ TEST(frame, projected_is_not_the_turned_one)
     }
 }
 
-// The mesh's tangents under a mapped normal, which they do not know of.
+// Keeps the mesh's tangents unchanged under a mapped normal.
 TEST(frame, of_the_normal_alone_keeps_tangents)
 {
     for (const IsaFns& kernels : all_fns()) {

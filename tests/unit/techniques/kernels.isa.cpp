@@ -10,7 +10,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-// 1 and twice what the cells 1, 2... hold, up to the first that holds nothing.
+// Returns 1 plus twice the sum of held(1), held(2)..., up to the first cell that holds nothing.
 template <class Held> real cells_of(Held held)
 {
     real sum = lit(1.0);

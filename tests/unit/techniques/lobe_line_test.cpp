@@ -1,4 +1,4 @@
-// The line of isotropic lobes: what its parts add up to, and the pictures of samples shared in quads.
+// The line of isotropic lobes: sums over its parts, and images whose quads share samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ View view(double cosine, double azimuth)
     return {{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}};
 }
 
-// In slopes the eye's metric is G = o.z^2 + o o^T (of its x and y): round lobes of width w there are of the matrix w^2 G^-1, and a line of
-// them along s adds s s^T. Together they are the lobe.
+// In slopes the eye's metric is G = o.z^2 + o o^T (x and y of o). Round lobes of width w have the matrix w^2 G^-1, and a line along s adds
+// s s^T. Their sum is the lobe.
 TEST(lobe_line, and_its_round_lobes_are_the_lobe)
 {
     for (const View& v : {view(1.0, 0.0), view(0.8, 0.4), view(0.3, 1.5), view(0.1, -0.8), view(0.6, 3.0)})
@@ -56,8 +56,8 @@ TEST(lobe_line, and_its_round_lobes_are_the_lobe)
             }
 }
 
-// The density of GGX slopes is that of the line's marginal times that of a round lobe of width sqrt(1 + z^2), with
-// 3 / (2 pi) (1 + r^2)^(-5/2).
+// The GGX slope density is the line's marginal times a round lobe's density. The round lobe has width sqrt(1 + z^2) and density 3 / (2 pi)
+// (1 + r^2)^(-5/2).
 TEST(lobe_line, sums_to_the_density_of_slopes)
 {
     const double pi = std::numbers::pi, up[3] = {0, 0, 1};
@@ -77,8 +77,8 @@ TEST(lobe_line, sums_to_the_density_of_slopes)
         }
 }
 
-// Where samples lie is a choice: their weighted means are the marginal's, c = z / sqrt(1 + z^2) taken evenly, whatever the line's length.
-// The lobes are narrow: samples of wide ones are moved (the next test).
+// For any line length the samples' weighted means equal the marginal's, with c = z / sqrt(1 + z^2) evenly spaced. The lobes are narrow,
+// since samples of wide lobes are moved (the next test).
 TEST(lobe_line, samples_weigh_what_they_stand_for)
 {
     constexpr int kCount = 4000;
@@ -117,7 +117,7 @@ struct Sum {
     }
 };
 
-// Mean direction of the light that a lobe shows, by quadrature over its slopes with their visible area and masking.
+// Returns the mean direction of the light that a lobe reflects, by quadrature over slopes with visible area and masking.
 Sum mean_direction_of_lobe(const double o[3], double ax, double ay)
 {
     constexpr int kRings = 100;
@@ -138,7 +138,7 @@ Sum mean_direction_of_lobe(const double o[3], double ax, double ay)
     return r;
 }
 
-// Mean cosine to its middle of a level of width alpha: GGX about its own normal, times the cosine.
+// Returns the mean cosine between a level of width alpha and its centre: GGX about its normal, times the cosine.
 double mean_cosine_of_level(double alpha)
 {
     constexpr int kCount = 200;
@@ -152,8 +152,8 @@ double mean_cosine_of_level(double alpha)
     return sum / weights;
 }
 
-// Under light that grows evenly along any direction only the mean direction counts, with how far the lobe is spread about it. Wide lobes
-// rise from the horizon; samples that stay at the mirror about each round lobe's middle are off by 0.055 here, those of narrow ones less.
+// Under light that grows linearly along a direction, the mean direction and the lobe's spread about it determine the result. The mean
+// direction of a wide lobe rises from the horizon. Samples fixed at each round lobe's mirror direction would miss the bound.
 TEST(lobe_line, wide_lobes_see_light_from_their_mean_direction)
 {
     double off = 0.0;
@@ -193,7 +193,7 @@ TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_
     EXPECT_NEAR(line_of(float_fns()[0], up, 0.3, 0.3).count, 1.0, 1e-3) << "a round lobe seen from above has no line";
 }
 
-// What a material is drawn by that is not brushed; with little of the line, nearly that.
+// A line of no length gives the isotropic result, and a short line gives nearly that.
 TEST(lobe_line, of_no_length_is_the_mirror_direction_at_the_lobe_s_width)
 {
     for (const View& v : {view(1.0, 0.0), view(0.7, 0.4), view(0.2, 1.5), view(0.05, -0.8)})
@@ -212,7 +212,7 @@ TEST(lobe_line, of_no_length_is_the_mirror_direction_at_the_lobe_s_width)
             }
 }
 
-// A lobe and its axis turned to its opposite are the same thing.
+// Flipping the lobe's axis gives an equal lobe.
 TEST(lobe_line, mirror_images_of_samples_lie_on_both_sides)
 {
     const double up[3] = {0, 0, 1};
@@ -254,7 +254,7 @@ Environment studio()
     return *load_environment("builtin:studio", options, Limits{}, Jobs(1));
 }
 
-// Neighbours differ by what their own samples found; shared, a quad of a flat surface is of nearly one colour, and all edges are.
+// Neighbours would differ by their own samples. With sharing, a quad on a flat surface has nearly one colour.
 TEST(lobe_line, fragments_of_a_surface_share_what_their_quad_found)
 {
     Stage stage(brushed_square(2.0f, 1));
@@ -272,7 +272,7 @@ TEST(lobe_line, fragments_of_a_surface_share_what_their_quad_found)
     EXPECT_LT(within / light, 0.02);
 }
 
-// How a surface is cut into triangles does not show: a pixel's parts share as one.
+// The triangulation of a surface does not show: a pixel's parts share as one.
 TEST(lobe_line, pieces_of_a_surface_share_as_one)
 {
     Stage whole(brushed_square(2.0f, 1)), cut(brushed_square(2.0f, 40));

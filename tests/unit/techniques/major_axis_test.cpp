@@ -1,4 +1,4 @@
-// The BRDF major axis against printed test vectors, brute force, and itself in every instruction set.
+// The BRDF major axis against printed test vectors, brute force, and across instruction sets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,8 +103,8 @@ void expect_vector(const IsaFns& kernels, const Vector& v, double tolerance, int
     EXPECT_LT(std::min(straight, swapped), tolerance) << kernels.name << " vector " << index;
 }
 
-// What the printed vectors say besides: where the ends were clamped (tau 0 to 1), the shift of the closest points, the part zeta
-// of the axis that is kept, f1 and f2 of the extrema's printed form, and directions of the first and last sample.
+// Further printed values: the extrema's f1 and f2, the ends' clamps (tau 0 to 1), the closest points' shift delta, the kept part zeta of
+// the axis, and directions of the first and last sample.
 struct Steps {
     int vector;
     double f1, f2, tau0, tau1, delta, zeta; // 0: not printed
@@ -143,7 +143,7 @@ double apart(const Vec& a, const Vec& b)
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-// From the printed steps follow the kernel's results.
+// The kernel's results follow from the printed steps.
 TEST(major_axis, equals_the_printed_steps)
 {
     for (const Steps& step : kSteps) {
@@ -192,7 +192,7 @@ TEST(major_axis, equals_the_printed_test_vectors)
     }
 }
 
-// Cocco et al. 2024, appendix A: d(t), the squared nearness of the reflected ellipse point to the mirror direction, as a plain scan.
+// Scans d(t), the squared closeness of the reflected ellipse point to the mirror direction. Cocco et al. 2024, appendix A.
 TEST(major_axis, extrema_equal_a_brute_force_scan)
 {
     Random random{17};
@@ -222,13 +222,14 @@ float exact_root(float x)
     return std::sqrt(x);
 }
 
-// No further off than Vulkan 1.3 lets it be ("Precision and Operation of SPIR-V Instructions": Sqrt is 1.0 / InverseSqrt).
+// Returns a square root within the error allowed by Vulkan 1.3 ("Precision and Operation of SPIR-V Instructions": Sqrt is 1.0 /
+// InverseSqrt).
 float device_root(float x)
 {
     return 1.0f / (1.0f / std::sqrt(x));
 }
 
-// Appendix A as printed, in floats: t1, the direction of the farthest point.
+// Evaluates appendix A as printed, in floats: t1, the direction of the farthest point.
 float printed_t1(float ox, float oy, float rx, float ry, float root(float))
 {
     const float f0 = 2.0f * ox * oy * rx * ry;
@@ -239,15 +240,16 @@ float printed_t1(float ox, float oy, float rx, float ry, float root(float))
     return std::atan((f1 - root(f1 * f1 - f3)) / f2);
 }
 
-// Of axes, so within a quarter turn.
+// Returns the angle between axes, which is at most a quarter turn.
 double turn_between(double a, double b)
 {
     const double apart = std::fmod(std::fabs(a - b), M_PI);
     return std::min(apart, M_PI - apart);
 }
 
-// Next to a symmetry plane of the lobe the printed quotient is of what is left of two nearly equal numbers: a line of speckles in a
-// picture, unless the root of a square is the number itself, as it is here and need not be on devices. The kernel's form cancels nowhere.
+// Beside the lobe's symmetry planes the printed quotient divides differences of nearly equal numbers. Images then show a line of speckles,
+// unless the square root of a square is exact. The device's square root is inexact, as Vulkan allows. The kernel's form avoids the
+// cancellation.
 TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and_the_kernel_does_not)
 {
     Random random{41};
@@ -284,7 +286,7 @@ TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and
     EXPECT_LT(worst, 1e-5);
 }
 
-// The views that break the printed forms in float32: on and beside symmetry planes, mirrors, grazing, isotropic, extreme anisotropy.
+// Views that break the printed forms in float32: on and beside symmetry planes, mirrors, grazing, isotropic, extreme anisotropy.
 TEST(major_axis, degenerate_inputs_stay_finite_and_near_the_oracle_in_every_isa)
 {
     const double tiny[] = {0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3, 0.5};
@@ -334,8 +336,8 @@ TEST(major_axis, samples_never_leave_below_the_surface)
     EXPECT_GT(lowest, -1e-3);
 }
 
-// Odd numbers of samples only, and never more than were asked for or than beta L / Delta' of the line, which
-// is where the constants of major_axis_grain_count() come from: 0.43 of it leaves room for the cells that fade.
+// Sample counts are odd, at most the requested count, and at most beta L / Delta' of the line. The constants of major_axis_grain_count()
+// follow from this limit: the factor 0.43 leaves room for fading cells.
 TEST(major_axis, adaptive_takes_no_more_samples_than_asked_for_nor_than_the_line_needs)
 {
     Random random{29};
@@ -356,7 +358,7 @@ TEST(major_axis, adaptive_takes_no_more_samples_than_asked_for_nor_than_the_line
     EXPECT_LE(largest, 1.0);
 }
 
-// Wide lobes, grazing views and other k: what counts is the sum of cells, of which the outermost two may be parts.
+// Wide lobes, grazing views and other k. The sum of cells counts; the outermost two may be partial.
 TEST(major_axis, adaptive_samples_of_any_lobe_add_up_to_no_more_than_the_line_needs)
 {
     Random random{31};

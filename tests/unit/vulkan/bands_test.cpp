@@ -1,4 +1,4 @@
-// Large pictures: rows of bands, indices within 32 bits.
+// Large images: rows of bands, indices within 32 bits.
 #include <gtest/gtest.h>
 
 #include <climits>

@@ -1,4 +1,5 @@
-"""The structures of shading/lang/records.h and gpu_records.h lie alike in C++ and in the stages' SPIR-V: offsets of members, strides of arrays.
+"""The structures of shading/lang/records.h and gpu_records.h have equal layouts in C++ and in the stages' SPIR-V: member offsets, array
+strides.
 usage: layout_check.py ROOT FOLDER-OF-SPV COMPILER"""
 import re
 import subprocess
@@ -11,7 +12,7 @@ from stages import glslc_check
 
 
 def members(root, compiler):
-    """{structure: [member, ...]} in the order of the text."""
+    """Returns {structure: [member, ...]} in text order."""
     command = [compiler, "-E", "-P", "-x", "c++", f"-I{root}", Path(root) / "shading/lang/gpu_records.h"]
     text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     found = {}
@@ -26,7 +27,7 @@ def members(root, compiler):
 
 
 def cpp_layout(root, compiler, structures):
-    """{(structure, member): offset}, and {(structure, ""): size}, as the compiler has them."""
+    """Returns {(structure, member): offset}, and {(structure, ""): size}, from the compiler."""
     source = ["#include <cstddef>", "#include <cstdio>", '#include "shading/lang/gpu_records.h"', "int main() {", "using namespace burnish;"]
     for name, names in structures.items():
         source += [f'std::printf("{name} {m} %zu\\n", offsetof({name}, {m}));' for m in names]
@@ -44,8 +45,8 @@ def cpp_layout(root, compiler, structures):
 
 
 def spirv_layout(assembly):
-    """{(structure, member): offset} of structures with offsets, and {(structure, ""): stride} where they are elements of an array. The
-    block BnFrame holds what GpuFrame does."""
+    """Returns {(structure, member): offset} of structures with offsets, and {(structure, ""): stride} of array elements. The block
+    BnFrame holds the members of GpuFrame."""
     names = dict(re.findall(r'OpName (%\S+) "(\w+)"', assembly.replace('"BnFrame"', '"GpuFrame"')))
     member = {(t, i): m for t, i, m in re.findall(r'OpMemberName (%\S+) (\d+) "(\w+)"', assembly)}
     layout = {}
@@ -67,7 +68,7 @@ def main():
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
     for name, _ in stages.lines(root):
         for key, offset in spirv_layout(stages.assembly(folder, name)).items():
-            if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block of one structure, or of an array of them
+            if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block with one structure, or an array of structures
                 print(f"{name}: {'.'.join(key)} begins at {offset}")
                 bad += 1
             if key[0] not in structures:

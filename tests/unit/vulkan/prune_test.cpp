@@ -1,4 +1,4 @@
-// Stages under the values of their constants: valid SPIR-V with what these values leave, and no more.
+// Stages specialised by their constants: valid SPIR-V that keeps the needed code and no more.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ Words stage(const char* name)
     return *shader_words(name, "");
 }
 
-// As a debugger finds it: "NAME(" begins glslc's name of a function.
+// Searches like a debugger: "NAME(" begins glslc's name for a function.
 bool has_function(const Words& words, std::string name)
 {
     name += '(';
@@ -71,7 +71,7 @@ TEST(prune, gives_back_what_is_no_module)
         EXPECT_EQ(pruned(words, {}), words);
 }
 
-// OpName and OpMemberName are left out: spirv-val takes thirty times as long with them.
+// Removes OpName and OpMemberName, which slow spirv-val down thirty times.
 Words without_names(const Words& words)
 {
     Words kept(words.begin(), words.begin() + 5);

@@ -1,4 +1,4 @@
-// The renderer itself, on lavapipe: bands, failures, the cache of pipelines. Skipped where there is no such device.
+// The Vulkan renderer on lavapipe: bands, failures, the pipeline cache. Skipped where lavapipe is missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include "tests/unit/raster/fixture.h"
 
 namespace {
-int allocations_left = -1;                          // of Vulkan's device memory before there is no more; below 0: no limit
-void (*lowered)(VkPhysicalDeviceLimits&) = nullptr; // what devices are said to take less of
+int allocations_left = -1;                          // device memory allocations before failure; below 0: no limit
+void (*lowered)(VkPhysicalDeviceLimits&) = nullptr; // lowers the reported device limits
 
 template <class F> F loaders(F, const char* name)
 {
@@ -25,7 +25,7 @@ template <class F> F loaders(F, const char* name)
 }
 } // namespace
 
-// Stands before the loader's.
+// Overrides the loader's function.
 extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
                                                            const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory)
 {
@@ -154,7 +154,7 @@ TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
     }
 }
 
-// What a stage binds is held against what the device takes when it is opened; pipelines without native samplers need none of them.
+// Opening compares a stage's bindings with the device's limits. Pipelines without native samplers need no samplers.
 TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
 {
     struct Low {
@@ -189,7 +189,7 @@ TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
     }
 }
 
-// Every allocation of a frame fails once, in turn: the frame says so, and the next one is right.
+// Every allocation of a frame fails once, in turn. The frame reports the failure, and the next frame is right.
 TEST(vulkan, draws_again_after_running_out_of_memory)
 {
     const std::unique_ptr<Stage> stage = spheres();
@@ -199,7 +199,7 @@ TEST(vulkan, draws_again_after_running_out_of_memory)
         const FrameDesc small = desc_of(*stage, 40, 30, 1), large = desc_of(*stage, 64, 48, 4);
         int failures = 0;
         for (int given = 0;; ++given) {
-            ASSERT_TRUE(device.renderer->render(small)); // what a frame keeps is this size's again
+            ASSERT_TRUE(device.renderer->render(small)); // resets the kept memory to this size
             allocations_left = given;
             const Result<Frame> frame = device.renderer->render(large);
             allocations_left = -1;
@@ -233,7 +233,7 @@ TEST(vulkan, a_scene_of_nothing_shows_the_backdrop)
     EXPECT_NEAR(frame->color.f32()[0], 0.5f, 1e-3f);
 }
 
-// In an empty folder of its own.
+// Runs in a new empty folder.
 class cache : public testing::Test {
   protected:
     void SetUp() override
@@ -247,7 +247,7 @@ class cache : public testing::Test {
         ::unsetenv("XDG_CACHE_HOME");
         std::filesystem::remove_all(folder);
     }
-    // Draws a frame on a new device; gives whether the cache held anything, and the frame's hash.
+    // Draws a frame on a new device. Returns true if the cache held anything, and the frame's hash.
     std::pair<bool, std::uint64_t> draw()
     {
         VulkanOptions options = lavapipe();

@@ -1,11 +1,12 @@
-"""Every stage: each operation on reals carries NoContraction, and GLSL's own functions are only the exact ones. usage: spirv_check.py ROOT FOLDER-OF-SPV"""
+"""In every stage each operation on reals carries NoContraction, and only exact GLSL functions are used. usage: spirv_check.py ROOT
+FOLDER-OF-SPV"""
 import sys
 
 import stages
 from stages import glslc_check
 
 INTEGER_FUNCTIONS = {"FindILsb"}  # exact by nature
-DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # the rasterizer's, as what it interpolates at pixel centres
+DEVICE_FUNCTIONS = {"InterpolateAtOffset"}  # set by the rasterizer, like interpolation at pixel centres
 
 
 def main():
@@ -15,7 +16,7 @@ def main():
     glslc_check.EXACT_FUNCTIONS |= INTEGER_FUNCTIONS | DEVICE_FUNCTIONS
     for name, file in stages.lines(root):
         stages.validate(folder, name)
-        if file.startswith("lean/"):  # not the kernels' text, nor its bits
+        if file.startswith("lean/"):  # separate text with other bits
             continue
         faults, looked_at = glslc_check.faults_in(stages.assembly(folder, name))
         operations += looked_at

@@ -1,4 +1,4 @@
-"""The shaders of raster/vulkan/stages.txt as the program was built with them, disassembled."""
+"""The built program's shaders from raster/vulkan/stages.txt, disassembled."""
 import array
 import re
 import subprocess
@@ -16,7 +16,7 @@ def lines(root):
 
 
 def without_names(module):
-    """OpName and OpMemberName are left out: spirv-val takes thirty times as long with them."""
+    """Removes OpName and OpMemberName, which slow spirv-val down thirty times."""
     words = array.array("I", module)
     kept, at = words[:5], 5
     while at < len(words):

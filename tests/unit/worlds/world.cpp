@@ -124,7 +124,7 @@ glm::mat4 random_placement(Dice& dice, float size, float distance)
     if (dice.below(4) == 0)
         scale.x = -scale.x;
     m = glm::scale(m, scale);
-    return dice.below(3) == 0 ? glm::rotate(m, dice.between(0.0f, 6.28f), dice.direction()) : m; // at times skewed
+    return dice.below(3) == 0 ? glm::rotate(m, dice.between(0.0f, 6.28f), dice.direction()) : m; // sometimes skewed
 }
 
 Material unlit(const glm::vec3& color)

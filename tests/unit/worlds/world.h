@@ -1,4 +1,4 @@
-// Random small worlds made in memory, each with one answer by construction.
+// Random small worlds in memory, each with one known answer.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace burnish::test {
 
-// Numbers from a seed, the same on every machine (SplitMix64).
+// Seeded random numbers, equal on every machine (SplitMix64).
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 1) {}
@@ -24,22 +24,22 @@ class Dice {
     std::uint64_t state_;
 };
 
-// Adds meshes, each a node of its own, to a scene.
+// Adds meshes to a scene, each with its node.
 class World {
   public:
-    // Triangles by threes of corners, object space. Returns the node.
+    // Adds triangles, three corners each, in object space. Returns the node.
     int add(const std::vector<glm::vec3>& corners, const Material& material, const glm::mat4& placed, int parent = kNone);
     Scene scene; // update_world() fills the matrices of nodes
 };
 
-std::vector<glm::vec3> box_corners();            // of the cube of side 2, fronts outwards
+std::vector<glm::vec3> box_corners();            // of the cube with side 2, fronts outwards
 std::vector<glm::vec3> ball_corners(int rings);  // of the unit ball
-std::vector<glm::vec3> plate_corners(int cells); // of x and y in [-1, 1], seen from +z, in cells x cells quads
+std::vector<glm::vec3> plate_corners(int cells); // x and y in [-1, 1], seen from +z, in cells x cells quads
 std::vector<glm::vec3> turned_inside(std::vector<glm::vec3> corners);
-glm::mat4 random_placement(Dice& dice, float size, float distance); // turned, stretched, at times mirrored
+glm::mat4 random_placement(Dice& dice, float size, float distance); // turned, stretched, sometimes mirrored
 Material unlit(const glm::vec3& color);
 
-// Draws a world under constant radiance; the environment's light is shared by all worlds.
+// Draws a world under constant radiance. All worlds share the environment's light.
 Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance);
 
 } // namespace burnish::test

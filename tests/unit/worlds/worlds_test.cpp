@@ -1,4 +1,4 @@
-// A fuzzer of scenes: worlds from seeds whose every pixel is known. BN_WORLDS is the number of worlds a kind.
+// A scene fuzzer: seeded worlds with a known value in every pixel. BN_WORLDS sets the number of worlds of each kind.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ FrameDesc desc_from(Dice& dice, const glm::vec3& eye, const glm::vec3& target)
     return d;
 }
 
-// Largest difference of a pixel's channel from `wanted`; NaN counts as infinite.
+// Returns the largest difference of a pixel's channel from `wanted`. NaN counts as infinite.
 float worst(const Frame& f, const glm::vec3& wanted)
 {
     float most = 0.0f;
@@ -69,7 +69,7 @@ void for_worlds(int count, const Answer& check)
     }
 }
 
-// Under light of 1 from everywhere a white dielectric gives back 1, whatever its shape, roughness, grain and alpha.
+// Under radiance 1 from everywhere a white dielectric reflects 1, for any shape, roughness, grain and alpha.
 void white_under_constant_light(std::uint64_t seed)
 {
     constexpr const char* kTechniques[] = {"auto", "split_isotropic", "bent_normal", "major_axis", "lobe_line"};
@@ -90,7 +90,7 @@ void white_under_constant_light(std::uint64_t seed)
     EXPECT_LE(worst(*f, glm::vec3(1.0f)), 0.012f) << d.technique << ", " << d.msaa << " samples";
 }
 
-// Inside of a closed room of one colour nothing else is seen, whatever stands outside.
+// Inside a closed room of one colour nothing else is visible, whatever stands outside.
 void closed_room(std::uint64_t seed)
 {
     Dice dice(seed + 1000000);
@@ -119,7 +119,7 @@ void closed_room(std::uint64_t seed)
     EXPECT_LE(worst(*f, wall), 1e-6f) << "room of " << size << " m, " << d.msaa << " samples, " << d.width << "x" << d.height;
 }
 
-// A plate over the whole view, in any number of pieces that share their corners, hides everything behind it.
+// A plate over the whole view hides everything behind it, in any number of pieces with shared corners.
 void plate_before_all(std::uint64_t seed)
 {
     Dice dice(seed + 2000000);
