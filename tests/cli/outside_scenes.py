@@ -20,15 +20,16 @@ def plate(half=4.0, hand=1.0, texels=1):
     return corners, [0, 1, 2, 0, 2, 3]
 
 
-def ball(rows=64):
-    """A ball of radius 1 about the origin, whose tangents run about +y."""
+def ball(rows=64, towards_pole=False):
+    """A ball of radius 1 about the origin, whose tangents run about +y, or about +z."""
     corners, faces = [], []
+    turn = (lambda x, y, z: (x, -z, y)) if towards_pole else (lambda x, y, z: (x, y, z))
     around = 2 * rows
     for j in range(rows + 1):
         for i in range(around + 1):
             e, a = math.pi * (j / rows - 0.5), 2.0 * math.pi * i / around
             n = (math.cos(e) * math.sin(a), math.sin(e), math.cos(e) * math.cos(a))
-            corners.append((*n, *n, math.cos(a), 0, -math.sin(a), 1, i / around, 1 - j / rows))
+            corners.append((*turn(*n), *turn(*n), *turn(math.cos(a), 0, -math.sin(a)), 1, i / around, 1 - j / rows))
     for j in range(rows):
         for i in range(around):
             k = (around + 1) * j + i
