@@ -147,6 +147,7 @@ EDITS = {
     "buffer_over_http": lambda g: g["buffers"][0].update(uri="http://127.0.0.1/scene.bin"),
     "buffer_bad_base64": lambda g: g["buffers"][0].update(uri="data:application/octet-stream;base64,@@@@"),
     "material_out_of_range": lambda g: g["meshes"][0]["primitives"][0].update(material=3),
+    "rotation_as_an_array": lambda g: g.update(materials=[{"extensions": {"KHR_materials_anisotropy": {"anisotropyRotation": [0.5]}}}]),
     "asset_version_unknown": lambda g: g["asset"].update(version="9.0"),
     "asset_absent": lambda g: g.pop("asset"),
     "matrix_not_finite": lambda g: g["nodes"][0].update(matrix=[1e39] * 16),

@@ -45,6 +45,7 @@ import mip_zoom_cases
 import mistake_cases
 import model_cases
 import output_cases
+import outside_cases
 import parity_cases
 import phong_cases
 import pixel_cases
