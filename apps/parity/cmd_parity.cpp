@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/seen_scene.h"
@@ -210,7 +211,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     for (const ParityPlace& place : options.places)
         for (const ParitySet& set : options.sets)
             if (const Status done = compare_place(bench, place, set, parity); !done) { // no row of it can be compared
-                report.event("failed", done.error().line());
+                report.event("failed", line_of(done.error()));
                 for (const RenderOptions& frame : set.frames)
                     parity.rows.push_back(failed_row(place, set, frame, done.error()));
             }

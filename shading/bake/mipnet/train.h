@@ -29,11 +29,9 @@ struct TrainOptions {
     int levels = kTrainedLevels;              // the loss looks at the first ones: 2 see H_B once, 5 four times
     std::vector<Material> maps;               // trained on, too; squares
     bool only_maps = false;                   // and on nothing else
-    std::string maps_name;                    // of their folder, for the command
     std::shared_ptr<const Weights> from;      // what training begins at, of the same shape; null: anything
-    std::string from_name;                    // of its file
     std::shared_ptr<const Weights> taught_by; // whose levels' light is wanted in place of level 0's, of the same lobe
-    std::string taught_by_name;               // of its file
+    std::string command;                      // that makes the same weights: kept in their file
     std::string checkpoint;                   // a file to go on from and to keep up to date; empty: none
     double checkpoint_seconds = 15;           // between two of them
     const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with everything in the checkpoint
@@ -44,7 +42,5 @@ struct TrainOptions {
 // Bytes do not depend on threads, on the instruction set, or on where the work was interrupted. Nothing where it was stopped. A checkpoint
 // of other options, or a damaged one, is an Error.
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs);
-
-std::string train_command(const TrainOptions& options); // what makes the same weights, without their name
 
 } // namespace burnish::mipnet
