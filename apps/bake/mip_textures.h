@@ -4,8 +4,8 @@
 
 #include "apps/bake/mip.h"
 #include "core/jobs/jobs.h"
-#include "core/scene/scene.h"
 #include "raster/frame/pyramids.h"
+#include "raster/session/session.h"
 
 namespace burnish {
 
@@ -16,7 +16,7 @@ struct WrittenTextures {
 
 // Into a folder, which is made: normals, metallic-roughness, anisotropy where a lobe has any, and base colours, as standard_textures.h has
 // them, by material. On failure nothing of them is left.
-Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
+Result<WrittenTextures> write_mip_textures(const std::string& folder, const SceneData& data, const MaterialLevels& levels,
                                            const MipArguments& options, const Jobs& jobs);
 
 } // namespace burnish

@@ -108,8 +108,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     }
     std::map<std::string, int> seen;
     std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
-    const float kappa = base.dress.mip_kappa.value_or(kUsualMipKappa);
-    const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.dress.gains}, jobs);
+    const float kappa = base.mips.kappa.value_or(kUsualMipKappa);
+    const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.mips.gains}, jobs);
     report.release();
     const std::string summary = mip_summary(rows);
     const std::pair<const char*, std::string> files[] = {

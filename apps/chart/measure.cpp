@@ -156,7 +156,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
                 parts.environment = *own;
             }
             if (options_.sweeps_scenes) {
-                const auto own = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+                const auto own = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
                 BN_TRY(own);
                 parts.scene = *own;
             }

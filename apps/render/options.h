@@ -12,12 +12,13 @@
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
-#include "core/scene/dress.h"
+#include "core/scene/material_overrides.h"
 #include "core/scene/scene.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
@@ -27,7 +28,8 @@ struct RenderOptions {
     std::vector<AreaLight> lights;      // besides those of the scene
     std::vector<std::string> as_tables; // of as_mc's lobes, or folders of them; empty: frames make their own
     std::string ltc_table;              // of area lights; empty: the program's own
-    Dress dress;                        // what all materials take
+    MaterialOverrides overrides;        // what all materials take
+    MipSettings mips;
     std::vector<std::string> outputs;
     std::vector<std::string> aov;      // layers of .exr outputs
     Shown show = Shown::light;         // in 8-bit outputs

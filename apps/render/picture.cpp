@@ -136,7 +136,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
         BN_TRY(data);
         parts.scene = *data;
     }

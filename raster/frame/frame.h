@@ -147,6 +147,8 @@ namespace ltc {
 struct ShadingTables;
 }
 class PhongFiles;
+struct SceneMips; // shading/bake/mip/settings.h
+extern const SceneMips kBoxMips;
 
 // Everything a renderer needs; the references must outlive it.
 struct RenderInput {
@@ -157,6 +159,7 @@ struct RenderInput {
     const Jobs& jobs;
     const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
     const PhongFiles* phong = nullptr;       // of as_mc's lobes; none: frames make their own
+    const SceneMips& mips = kBoxMips;        // how levels of the scene's maps are made
 };
 
 enum class Sampling { none, count, grid }; // what a technique makes of FrameDesc::samples: nothing, N samples, n x n

@@ -3,11 +3,12 @@
 #pragma once
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
-// Makes scene.kept_mips of materials whose filter takes_net(), and of coupled or sharper colours, or finds them in the cache
+// Makes mips.cached of materials whose filter takes_net(), and of coupled or sharper colours, or finds them in the cache
 // (core/base/cache.h). A file there that is damaged, or of anything else, is made anew; a cache that cannot be written is a warning.
-void keep_mips(Scene& scene, const Jobs& jobs);
+void keep_mips(Scene& scene, SceneMips& mips, const Jobs& jobs);
 
 } // namespace burnish

@@ -22,13 +22,13 @@ struct SceneTables { // keeps alive what the records point at
 };
 
 // Textures are numbered as in SceneTables::textures. A material that blends, whose alpha is 1 everywhere, is opaque.
-std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
+std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, bool overridden);
 bool any_blends(const std::vector<MaterialRecord>& materials); // whether a material's alpha mode is kAlpha_blend
 std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // their pictures: textures of the scene
 
 // Builds every texture pyramid that a material uses (pyramids.h) and the pictures of area lights, in parallel.
-SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
+SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs);
 
 // Whether the lobes of any material are tilted against their surfaces in the frame.
 bool tilts(const Scene& scene, const FrameDesc& desc);
@@ -36,7 +36,7 @@ bool tilts(const Scene& scene, const FrameDesc& desc);
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 
 // Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
-bool overrides(const Scene& scene, const FrameDesc& desc);
+bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc);
 // Those of SceneTables that the frame takes, with its overrides, and tilted.
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 

@@ -5,9 +5,6 @@
 
 namespace burnish {
 
-// Finds the first material whose mip filter, kappa or lobe of gains does not exist. Part of check_parts().
-Status check_mip_filters(const Scene& scene, const std::string& file);
-
 // Finds the first fault of scene, tables, environment and albedo table, which are all there; the error's place names the field.
 Status check_parts(const SessionParts& parts);
 

@@ -18,13 +18,14 @@
 #include "core/base/result.h"
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
-#include "core/scene/dress.h"
+#include "core/scene/material_overrides.h"
 #include "core/scene/scene.h"
 #include "raster/frame/frame.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
@@ -36,16 +37,19 @@ struct SceneData { // a scene and what is drawn of it
     std::string name;
     Scene scene; // its world matrices are up to date
     DrawTables tables;
+    SceneMips mips; // how levels of its maps are made, and those that were made beforehand
 };
 
-// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. with: what is put on its materials. lights: that
-// are added to those of the scene, in world space.
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with = {},
+// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
+// scene, in world space.
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
+                                                         const MaterialOverrides& overrides = {}, const MipSettings& mips = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
 // From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
 // left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
 // "/primitives/0/indices/17".
-Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits,
+                                                         const MipSettings& mips = {});
 // "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
                                                                    const Limits& limits, const Jobs& jobs);
@@ -74,7 +78,7 @@ struct SessionParts {
     // Of parts that a session has: nothing is missing.
     RenderInput input() const
     {
-        return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get(), phong.get()};
+        return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get(), phong.get(), scene->mips};
     }
 };
 

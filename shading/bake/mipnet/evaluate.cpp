@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "core/scene/dress.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/classical.h"
 #include "shading/bake/mipnet/fallback.h"
 #include "shading/bake/mipnet/pyramid.h"
