@@ -37,6 +37,13 @@ TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
 VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
 MAX_LINES, MAX_LINES_SIMD = 600, 900
 
+# Libraries name fields of settings; the program knows which option sets one (apps/cli/field_options.cpp).
+LIBRARIES = ("core", "shading", "raster")
+LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+# Core describes what files say; mip filters and nets are of those who bake.
+NOT_OF_CORE = re.compile(r"\b(mipnet|MipFile|MipFilter|MipSettings|SceneMips)\b")
+
 # Each word is written in two pieces, so that this file does not hold it.
 FORBIDDEN = (
     (re.compile("ffast" + "-math|Of" + r"ast\b|ffp-con" + "tract=(?!off)"), "arithmetic that is not the same everywhere"),
@@ -133,6 +140,18 @@ def check_source(path, lines, files):
         yield limit, f"{len(lines)} lines, more than {limit}"
 
 
+def check_words(path, lines):
+    """Faults of what libraries say and name."""
+    top = path.parts[0]
+    for number, line in enumerate(lines, 1):
+        if top in LIBRARIES and path.suffix in (".h", ".cpp", ".def") and not line.lstrip().startswith("//"):
+            for literal in LITERAL.findall(line):
+                if OPTION.search(literal):
+                    yield number, f'says "{literal}": a library names the field, the program its option'
+        if top == "core" and path.suffix in (".h", ".cpp", ".def") and NOT_OF_CORE.search(line):
+            yield number, f"core names {NOT_OF_CORE.search(line)[0]}, which lies above it"
+
+
 def faults(root):
     paths = listed(root)
     files = set(paths)
@@ -151,7 +170,7 @@ def faults(root):
                 if pattern.search(line):
                     yield path, number, f"'{pattern.search(line)[0]}': {why}"
         if path.suffix in SOURCES or path.suffix == ".def":
-            for number, fault in check_source(path, lines, files):
+            for number, fault in (*check_source(path, lines, files), *check_words(path, lines)):
                 yield path, number, fault
 
 

@@ -23,6 +23,8 @@ GOOD = {
     "core/simd/s.h": "#pragma once\n#include <immintrin.h>\n",
     "core/image/io/openimageio_module.cpp": "#include <OpenImageIO/imageio.h>\n",
     "core/image/io/i.cpp": "#include <png.h>\n",
+    "core/base/says.cpp": 'const char* kText = "more than a -- dash, a---b, Limits::file_bytes"; // --limit-file-bytes\n',
+    "apps/cli/says.cpp": 'const char* kText = "--size";\n',
     "tests/unit/x/x_test.cpp": '#include <gtest/gtest.h>\n#include "apps/cli/main.cpp"\n',
     "tests/unit/x/neighbour.cpp": '#include "x_test.cpp"\n',
     "CMakeLists.txt": "add_compile_options(-ffp-contract=off)\n",
@@ -62,6 +64,12 @@ BAD = {
     "apps/cli/neighbour.cpp": '#include "main.cpp"\n',
     "apps/here.cpp": 'const char* path = "/wo' + 'rk/data";\n',
     "apps/utils.cpp": "\n",
+    "core/base/option.cpp": 'Error wrong() { return {"--size"}; }\n',
+    "shading/option.def": 'LINE(a, "of \\"b\\", --samples many")\n',
+    "raster/frame/option.cpp": 'const char* kText = "x (--brdf)";\n',
+    "core/base/net.h": "#pragma once\nnamespace mipnet {\nstruct Weights;\n}\n",
+    "core/base/filter.h": "#pragma once\nenum class MipFilter : int;\n",
+    "core/base/levels.h": "#pragma once\nstruct MipFile;\n",
     "notes.txt": "\n",
 }
 
