@@ -6,13 +6,13 @@
 
 #include "apps/chart/measure.h"
 #include "apps/chart/mip_rows.h"
+#include "apps/chart/page.h"
+#include "apps/chart/plots.h"
 #include "apps/chart/real_maps.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
-#include "apps/report/page.h"
-#include "apps/report/plots.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mipnet/net.h"
 

@@ -8,7 +8,7 @@
 #include "apps/cli/field_options.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/seen_scene.h"
+#include "apps/options/seen_scene.h"
 #include "apps/parity/options.h"
 #include "apps/parity/report.h"
 #include "core/base/text.h"

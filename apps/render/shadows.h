@@ -1,6 +1,6 @@
 // --shadows ratio: shadows of area lights on a picture that a technique drew without anything in their way.
 #pragma once
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "raster/session/session.h"
 
 namespace burnish {

@@ -4,8 +4,8 @@
 
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
-#include "apps/cli/scene_view.h"
 #include "apps/lab/atlas/trial_tables.h"
+#include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "raster/reference/scene_key.h"
 #include "raster/tile/double_renderer.h"

@@ -7,8 +7,8 @@
 #include "apps/chart/options.h"
 #include "apps/cli/field_options.h"
 #include "apps/compare/options.h"
+#include "apps/options/options.h"
 #include "apps/parity/options.h"
-#include "apps/render/options.h"
 
 namespace burnish {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "apps/cli/option.h"
 #include "apps/cli/parse.h"
-#include "apps/render/show.h"
+#include "apps/options/show.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"

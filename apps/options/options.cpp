@@ -1,4 +1,4 @@
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 
 #include <algorithm>
 #include <fmt/core.h>

@@ -1,10 +1,10 @@
-#include "apps/cli/seen_scene.h"
+#include "apps/options/seen_scene.h"
 
 #include <algorithm>
 #include <fmt/core.h>
 
 #include "apps/cli/open.h"
-#include "apps/cli/scene_view.h"
+#include "apps/options/scene_view.h"
 #include "shading/lang/records.h"
 
 namespace burnish {

@@ -11,7 +11,7 @@
 #include "apps/cli/field_options.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "apps/report/json.h"
 #include "core/base/cache.h"
 #include "core/base/text.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <string_view>
 
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"

@@ -3,8 +3,8 @@
 
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
-#include "apps/render/options.h"
-#include "apps/render/parameters.h"
+#include "apps/options/options.h"
+#include "apps/options/parameters.h"
 #include "raster/frame/layers.h"
 #include "shading/bake/mip/levels.h"
 

@@ -1,4 +1,4 @@
-#include "apps/render/parameters.h"
+#include "apps/options/parameters.h"
 
 #include <algorithm>
 #include <cstdint>
