@@ -8,7 +8,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/io/stored_colour.h"
 #include "core/math/scalar_math.h"
-#include "core/scene/builtin/surface.h"
+#include "core/scene/grid.h"
 #include "core/scene/tangents.h"
 
 namespace burnish {

@@ -14,7 +14,7 @@
 #include "apps/cli/values.h"
 #include "apps/report/json.h"
 #include "core/base/clock.h"
-#include "shading/bake/mipnet/evaluate.h"
+#include "shading/bake/mip/evaluate.h"
 #include "shading/bake/mipnet/train.h"
 
 namespace burnish {
