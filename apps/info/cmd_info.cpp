@@ -8,7 +8,6 @@
 
 #include "apps/cli/command.h"
 #include "apps/cli/environment_text.h"
-#include "apps/cli/field_options.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
 #include "apps/options/options.h"
@@ -110,7 +109,7 @@ int print_text(const Info& info, const Environment* environment)
     if (environment) {
         fmt::print("environment  {}: {}\n", printable(environment->name), light_text(*environment));
         for (const std::string& warning : environment->warnings)
-            fmt::print("warning      {}\n", with_options(warning));
+            fmt::print("warning      {}\n", warning);
         for (const KeyLight& light : environment->key_lights)
             fmt::print("key light    {}\n", key_light_text(turned(light, environment->rotation_deg)));
     }

@@ -152,7 +152,7 @@ SettingReader::SettingReader() : command_{"render", "", render_option_table(argu
 Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
 {
     const auto wrong = [&](Error error) {
-        error.place = fmt::format("{}: {}", entry.id, error.place);
+        error.place = error.place.empty() ? entry.id : fmt::format("{}: {}", entry.id, error.place);
         return error;
     };
     const Result<std::vector<OptionPath>> paths = paths_of(entry, command_.options);
