@@ -260,7 +260,7 @@ int run_straighten(const BakeArguments& a)
     const Result<PixelType> type = map_type(a, {a.mesh});
     if (!type)
         return fail(type.error());
-    const auto data = open_scene(a.mesh, a.limits, {}, {}, {});
+    const auto data = open_scene(a.mesh, a.limits, {}, {}, {}, {});
     if (!data)
         return fail(data.error());
     const Straightened made = straighten((*data)->tables, *a.along, size_of(a, {256, 256}));
@@ -318,7 +318,7 @@ int run_displaced(const BakeArguments& a)
         return fail(usage_error("-o", a.output.empty() ? "is needed" : fmt::format("'{}' must end in .glb", a.output)));
     if (const Status path = check_text_path("-o", a.output, {a.picture, a.heights}); !path)
         return fail(path.error());
-    const auto data = open_scene(a.picture, a.limits, {}, {}, {});
+    const auto data = open_scene(a.picture, a.limits, {}, {}, {}, {});
     if (!data)
         return fail(data.error());
     const auto& primitives = (*data)->scene.primitives;

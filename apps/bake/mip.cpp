@@ -36,15 +36,17 @@ struct MaterialMap {
     UsedMap map;
     MapId id;
 };
-std::vector<MaterialMap> all_maps(const Scene& scene, const Jobs& jobs)
+std::vector<MaterialMap> all_maps(const Scene& scene, const SceneMips& mips, const Jobs& jobs)
 {
     std::vector<MaterialMap> maps;
-    for (const Material& m : scene.materials)
-        for (const UsedMap& map : used_maps(scene, m)) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        for (const UsedMap& map : used_maps(scene, m, mips.of(i))) {
             const MapId id = map_id(scene, m, map, jobs);
             if (std::none_of(maps.begin(), maps.end(), [&](const MaterialMap& there) { return there.id == id; }))
                 maps.push_back({&m, map, id});
         }
+    }
     return maps;
 }
 
@@ -163,18 +165,18 @@ int run_mip(const MipBake& bake)
     if (!bake.preview.empty())
         if (const Status path = check_folder_path(bake.preview); !path)
             return fail(path.error());
-    // Open the scene, or a sphere for a folder of pictures
-    Dress with;
-    with.mip_filter = a.filter;
-    with.couple_albedo = a.couple_albedo, with.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
-    with.mip_net = a.net, with.mip_fallback = a.fallback, with.mip_brdf = a.brdf, with.gains = a.gains;
+    MipSettings mips;
+    mips.filter = a.filter;
+    mips.couple_albedo = a.couple_albedo, mips.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
+    mips.net = a.net, mips.fallback = a.fallback, mips.brdf = a.brdf, mips.gains = a.gains;
     if (a.kappa)
-        with.mip_kappa = static_cast<float>(*a.kappa);
+        mips.kappa = static_cast<float>(*a.kappa);
+    MaterialOverrides overrides;
     std::error_code none;
     const bool is_folder = std::filesystem::is_directory(bake.material, none);
     if (is_folder)
-        with.material = bake.material;
-    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, with, {}, {});
+        overrides.material = bake.material;
+    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, overrides, mips, {}, {});
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
@@ -194,8 +196,8 @@ int run_mip(const MipBake& bake)
     const double begin_ms = wall_ms();
     std::optional<Progress> progress;
     std::size_t told = 0;
-    const MaterialLevels levels = filtered_levels(scene, jobs, [&](std::size_t done, std::size_t all) {
-        if (done < told) // the next material begins
+    const MaterialLevels levels = filtered_levels(scene, (*data)->mips, jobs, [&](std::size_t done, std::size_t all) {
+        if (done < told) // of the next material
             progress.reset(), told = 0;
         if (!progress)
             progress.emplace("texels", all, bake.quiet);
@@ -221,14 +223,14 @@ int run_mip(const MipBake& bake)
         return fail(fits.error());
     // Write the pyramid file or the textures
     if (pyramid) {
-        const std::vector<MaterialMap> maps = all_maps(scene, jobs);
+        const std::vector<MaterialMap> maps = all_maps(scene, (*data)->mips, jobs);
         const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, maps[i].id, jobs); };
         if (const Status written = write_mip_file(bake.output, {each, maps.size(), levels_of}); !written)
             return fail(written.error());
         report.release();
         report.wrote(bake.output);
     } else {
-        const Result<WrittenTextures> written = write_mip_textures(bake.output, scene, levels, a, jobs);
+        const Result<WrittenTextures> written = write_mip_textures(bake.output, **data, levels, a, jobs);
         if (!written)
             return fail(written.error());
         report.release();

@@ -8,9 +8,8 @@
 #include "apps/cli/option.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
-#include "core/scene/dress.h"
 #include "shading/bake/mip/colour_levels.h"
-#include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
 
 namespace burnish {

@@ -37,8 +37,8 @@ std::vector<Image> metallic_levels(const Scene& scene, const Material& m, const 
     return colour_levels(metallic, {a.color_kernel, grid.wrap_s, grid.wrap_t, a.couple_albedo ? &facing : nullptr});
 }
 
-std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MipSource& source, const MipArguments& a,
-                                     const Jobs& jobs)
+std::vector<Image> base_color_levels(const Scene& scene, const Material& m, const MaterialMips& mips, const MipSource& source,
+                                     const MipArguments& a, const Jobs& jobs)
 {
     const float factor[4] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
     if (!m.base_color_tex.used()) {
@@ -50,7 +50,7 @@ std::vector<Image> base_color_levels(const Scene& scene, const Material& m, cons
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     const Grid grid = {image.width, image.height, texture.wrap_s, texture.wrap_t, texture.nearest};
     const Image linear = linear_map(image, grid, true, 0, image.channels == 4 ? 4 : 3, factor);
-    const bool coupled = is_coupled(scene, m, m.base_color_tex);
+    const bool coupled = is_coupled(scene, m, mips, m.base_color_tex);
     Image facing;
     const float one = 1.0f;
     if (coupled)
@@ -166,9 +166,10 @@ std::string figures_of(const std::string& name, const StandardLevels& held, cons
 
 } // namespace
 
-Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
+Result<WrittenTextures> write_mip_textures(const std::string& folder, const SceneData& data, const MaterialLevels& levels,
                                            const MipArguments& a, const Jobs& jobs)
 {
+    const Scene& scene = data.scene;
     WrittenTextures written;
     const auto write = [&]() -> Status {
         FileSet files(folder);
@@ -198,8 +199,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 std::vector<Image> levels;
                 bool srgb;
             };
-            // List the textures to write
-            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, source, a, jobs), *levels[i]);
+            const std::vector<Image> colours = with_gains(base_color_levels(scene, m, data.mips.of(i), source, a, jobs), *levels[i]);
             std::vector<Part> parts = {
                 {"_normal", made.normal, false}, {"_metallic_roughness", made.roughness, false}, {"_base_color", colours, true}};
             if (std::any_of(made.anisotropy.begin(), made.anisotropy.end(), any))

@@ -4,8 +4,8 @@
 
 #include "apps/bake/mip.h"
 #include "core/jobs/jobs.h"
-#include "core/scene/scene.h"
 #include "raster/frame/pyramids.h"
+#include "raster/session/session.h"
 
 namespace burnish {
 
@@ -14,9 +14,9 @@ struct WrittenTextures {
     std::string figures; // lines: errors of the textures against their levels
 };
 
-// Makes the folder and writes, for each material, normals, metallic-roughness, base colours and, for anisotropic lobes, anisotropy
-// (standard_textures.h). Leaves no file behind on failure.
-Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scene& scene, const MaterialLevels& levels,
+// Into a folder, which is made: normals, metallic-roughness, anisotropy where a lobe has any, and base colours, as standard_textures.h has
+// them, by material. On failure nothing of them is left.
+Result<WrittenTextures> write_mip_textures(const std::string& folder, const SceneData& data, const MaterialLevels& levels,
                                            const MipArguments& options, const Jobs& jobs);
 
 } // namespace burnish

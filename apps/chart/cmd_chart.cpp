@@ -6,13 +6,13 @@
 
 #include "apps/chart/measure.h"
 #include "apps/chart/mip_rows.h"
+#include "apps/chart/page.h"
+#include "apps/chart/plots.h"
 #include "apps/chart/real_maps.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
-#include "apps/report/page.h"
-#include "apps/report/plots.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mipnet/net.h"
 
@@ -108,8 +108,8 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     }
     std::map<std::string, int> seen;
     std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
-    const float kappa = base.dress.mip_kappa.value_or(kUsualMipKappa);
-    const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.dress.gains}, jobs);
+    const float kappa = base.mips.kappa.value_or(kUsualMipKappa);
+    const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.mips.gains}, jobs);
     report.release();
     const std::string summary = mip_summary(rows);
     const std::pair<const char*, std::string> files[] = {

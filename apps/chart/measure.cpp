@@ -11,10 +11,10 @@
 #include "apps/chart/noise.h"
 #include "apps/chart/reference.h"
 #include "apps/cli/open.h"
-#include "apps/cli/scene_view.h"
-#include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
-#include "apps/render/parameters.h"
+#include "apps/options/parameters.h"
+#include "apps/options/scene_view.h"
+#include "apps/options/seen_scene.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
 #include "core/base/clock.h"
@@ -157,7 +157,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
                 parts.environment = *own;
             }
             if (options_.sweeps_scenes) {
-                const auto own = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+                const auto own = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
                 BN_TRY(own);
                 parts.scene = *own;
             }

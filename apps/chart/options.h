@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/chart/plan.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 
 namespace burnish {
 

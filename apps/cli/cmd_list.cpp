@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/cli/command.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/values.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/extensions.h"
@@ -35,7 +36,7 @@ std::vector<Entry> technique_entries()
     std::vector<Entry> entries;
     entries.push_back({automatic_technique().name, automatic_technique().summary});
     for (const TechniqueInfo& technique : techniques())
-        entries.push_back({technique.name, technique.summary});
+        entries.push_back({technique.name, with_options(technique.summary)});
     return entries;
 }
 
@@ -59,7 +60,7 @@ std::vector<Entry> area_way_entries()
 {
     std::vector<Entry> entries;
     for (const AreaWayInfo& way : area_ways())
-        entries.push_back({way.name, way.summary});
+        entries.push_back({way.name, with_options(way.summary)});
     return entries;
 }
 
@@ -67,7 +68,7 @@ std::vector<Entry> mip_filter_entries()
 {
     std::vector<Entry> entries;
     for (const MipFilterInfo& filter : mip_filters())
-        entries.push_back({filter.name, filter.summary});
+        entries.push_back({filter.name, with_options(filter.summary)});
     return entries;
 }
 
@@ -76,7 +77,8 @@ std::vector<Entry> extension_entries()
     std::vector<Entry> entries;
     for (const GltfFeature& feature : gltf_features()) {
         const std::string what = feature.what;
-        entries.push_back({feature.name, fmt::format("{:<9}{}{}", support_name(feature.support), what.empty() ? "" : "  ", what)});
+        entries.push_back(
+            {feature.name, fmt::format("{:<9}{}{}", support_name(feature.support), what.empty() ? "" : "  ", with_options(what))});
     }
     return entries;
 }

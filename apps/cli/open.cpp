@@ -6,14 +6,14 @@
 
 namespace burnish {
 
-Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const Dress& with, const Moment& moment,
-                                                    const std::vector<AreaLight>& lights)
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const MaterialOverrides& overrides,
+                                                    const MipSettings& mips, const Moment& moment, const std::vector<AreaLight>& lights)
 {
-    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, with, moment, lights);
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, overrides, mips, moment, lights);
     if (!scene) {
         const std::string& file = scene.error().file;
         const bool of_light = std::any_of(lights.begin(), lights.end(), [&](const AreaLight& l) { return l.texture_file == file; });
-        return of_light || with.names(file) ? scene.error() : with_scene_hint(scene.error(), name);
+        return of_light || overrides.names(file) || mips.names(file) ? scene.error() : with_scene_hint(scene.error(), name);
     }
     return scene;
 }

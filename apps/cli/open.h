@@ -8,8 +8,8 @@
 
 namespace burnish {
 
-Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const Dress& with, const Moment& moment,
-                                                    const std::vector<AreaLight>& lights);
+Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const MaterialOverrides& overrides,
+                                                    const MipSettings& mips, const Moment& moment, const std::vector<AreaLight>& lights);
 Result<std::shared_ptr<const Environment>> open_environment(const std::string& name, const EnvironmentOptions& options,
                                                             const Limits& limits, const Jobs& jobs);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fmt/core.h>
 
+#include "apps/cli/field_options.h"
 #include "core/base/text.h"
 
 namespace burnish {
@@ -18,7 +19,7 @@ void print_line(const std::string& line)
 
 int fail(const Error& error)
 {
-    print_line("burnish: " + error.line());
+    print_line("burnish: " + line_of(error));
     return static_cast<int>(error.code);
 }
 
@@ -54,9 +55,9 @@ void Report::detail(const std::string& label, const std::string& text)
 
 void Report::warning(const std::string& text)
 {
-    warnings_.push_back(text);
+    warnings_.push_back(with_options(text));
     if (!quiet_)
-        say("burnish: warning: " + text);
+        say("burnish: warning: " + warnings_.back());
 }
 
 void Report::wrote(const std::string& path)

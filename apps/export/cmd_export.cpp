@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
@@ -69,7 +70,7 @@ std::string text_of(const TechniqueInfo& technique, int samples)
     wish.roots = {std::string(technique.name) + "_specular", "usual_settings", "point_of", "dfg_fit"};
     if (technique.traits & kSharesSamples)
         wish.roots.push_back(std::string(technique.name) + "_shared");
-    wish.heading = fmt::format(kHeading, technique.name, technique.summary, version(), samples);
+    wish.heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples);
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
     wish.grid = grid_samples(samples, technique.sampling, technique.traits);
     wish.grid_count = grid_count(wish.grid, technique.traits);

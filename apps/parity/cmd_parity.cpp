@@ -5,9 +5,10 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/seen_scene.h"
+#include "apps/options/seen_scene.h"
 #include "apps/parity/options.h"
 #include "apps/parity/report.h"
 #include "core/base/text.h"
@@ -212,8 +213,8 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     ParityReport parity{info.driver, info.name, info.api, cpu_name(), version(), base.frame.width, base.frame.height, {}};
     for (const ParityPlace& place : options.places)
         for (const ParitySet& set : options.sets)
-            if (const Status done = compare_place(bench, place, set, parity); !done) { // none of its rows can be compared
-                report.event("failed", done.error().line());
+            if (const Status done = compare_place(bench, place, set, parity); !done) { // no row of it can be compared
+                report.event("failed", line_of(done.error()));
                 for (const RenderOptions& frame : set.frames)
                     parity.rows.push_back(failed_row(place, set, frame, done.error()));
             }

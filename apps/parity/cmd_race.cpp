@@ -4,11 +4,12 @@
 #include <memory>
 
 #include "apps/cli/command.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/seen_scene.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/options/seen_scene.h"
 #include "apps/parity/race_report.h"
 #include "apps/render/stats.h"
 #include "core/base/clock.h"
@@ -103,7 +104,7 @@ Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int 
 RaceRow failed_row(const FrameDesc& desc, const Error& error)
 {
     RaceRow row;
-    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa, row.error = error.line();
+    row.technique = desc.technique, row.samples = desc.samples, row.msaa = desc.msaa, row.error = line_of(error);
     return row;
 }
 
@@ -151,7 +152,7 @@ std::vector<Opponent> open_devices(const RacePlan& plan, RaceReport& report, Err
             const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
             if (!device) {
                 last = device.error();
-                report.notes.push_back(name + ": " + last.line());
+                report.notes.push_back(name + ": " + line_of(last));
                 break;
             }
             devices.push_back({*device, shader});

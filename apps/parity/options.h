@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 
 namespace burnish {
 

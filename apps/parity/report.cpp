@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "apps/cli/field_options.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
 
@@ -97,7 +98,7 @@ bool bits_promised(const ParityRow& row)
 std::string fault_of(const ParityRow& row)
 {
     if (row.failed())
-        return row.error.line();
+        return line_of(row.error);
     if (!bits_promised(row))
         return row.flip_mean < kMaxFlipMean ? "" : fmt::format("mean FLIP {:.3g}, not below {}", row.flip_mean, kMaxFlipMean);
     for (const ParityStage& stage : row.counts.stages)
@@ -139,7 +140,7 @@ ExitCode outcome(const ParityReport& report)
 std::string describe(const ParityRow& row)
 {
     if (row.failed())
-        return row_name(row) + ": " + row.error.line();
+        return row_name(row) + ": " + line_of(row.error);
     const ParityCounts& c = row.counts;
     std::string text = row_name(row) + (row.samples_emulated ? ", samples emulated" : "") + ": ";
     const ParityStage* first = first_difference(c);
@@ -201,7 +202,7 @@ Json parity_document(const ParityReport& report)
         r["causes"] = Json::array();
         for (const CauseShare& c : row.causes)
             r["causes"].push_back({{"stage", name_of(c)}, {"pixels", c.pixels}, {"edge_pixels", c.edge_pixels}, {"flip", c.flip}});
-        r["error"] = row.failed() ? Json(row.error.line()) : Json();
+        r["error"] = row.failed() ? Json(line_of(row.error)) : Json();
         json["rows"].push_back(r);
     }
     return json;
@@ -260,7 +261,7 @@ std::string parity_html(const ParityReport& report)
                             fault_of(row).empty() ? "" : " class=\"bad\"", escaped(row.scene), escaped(row.view),
                             escaped(row.also.empty() ? row.technique : row.technique + " " + row.also), row.sampler + ", " + row.pipeline,
                             row.msaa, row.samples_emulated ? " (emulated)" : "", row.counts.samples, row.counts.visibility_differ,
-                            row.failed() ? escaped(row.error.line())
+                            row.failed() ? escaped(line_of(row.error))
                             : first      ? first->name
                                          : "none",
                             causes_text(row), row.flip_mean);

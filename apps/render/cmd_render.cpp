@@ -8,8 +8,8 @@
 
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/scene_view.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "core/image/io/image_io.h"
 

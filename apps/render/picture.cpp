@@ -7,9 +7,9 @@
 #include "apps/cli/environment_text.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/scene_view.h"
-#include "apps/cli/seen_scene.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/options/scene_view.h"
+#include "apps/options/seen_scene.h"
 #include "apps/render/shadows.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
@@ -137,7 +137,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
         BN_TRY(data);
         parts.scene = *data;
     }

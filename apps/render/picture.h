@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/cli/report.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "apps/render/stats.h"
 #include "apps/risks/risks.h"
 #include "raster/frame/layers.h"

@@ -7,8 +7,8 @@
 #include "apps/cli/numbered.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/scene_view.h"
-#include "apps/render/animate.h"
+#include "apps/options/animate.h"
+#include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "core/image/io/apng.h"
 #include "core/image/io/image_io.h"
@@ -144,7 +144,7 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
         parts.environment = *environment;
     }
     if (scene) {
-        const auto data = open_scene(options.scene, options.limits, options.dress, options.moment, options.lights);
+        const auto data = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
         BN_TRY(data);
         parts.scene = *data;
     }

@@ -1,6 +1,6 @@
 // --shadows ratio: adds ray-traced shadows of area lights to a picture drawn without occlusion.
 #pragma once
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "raster/session/session.h"
 
 namespace burnish {

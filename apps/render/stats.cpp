@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include "apps/render/parameters.h"
+#include "apps/options/parameters.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/version.h"

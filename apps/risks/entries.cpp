@@ -152,7 +152,7 @@ SettingReader::SettingReader() : command_{"render", "", render_option_table(argu
 Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
 {
     const auto wrong = [&](Error error) {
-        error.place = fmt::format("{}: {}", entry.id, error.place);
+        error.place = error.place.empty() ? entry.id : fmt::format("{}: {}", entry.id, error.place);
         return error;
     };
     const Result<std::vector<OptionPath>> paths = paths_of(entry, command_.options);
@@ -197,7 +197,7 @@ Result<std::vector<std::string>> covered_by(const AtlasEntry& entry)
     if (std::string(entry.group) == "area_lights")
         covered.push_back(fmt::format("area light {}", area_ways()[static_cast<std::size_t>(o.frame.area_way)].name));
     if (words.find(" --mip-filter ") != std::string::npos)
-        covered.push_back(fmt::format("mip filter {}", mip_filters()[static_cast<std::size_t>(o.dress.mip_filter)].name));
+        covered.push_back(fmt::format("mip filter {}", mip_filters()[static_cast<std::size_t>(o.mips.filter)].name));
     covered.push_back(fmt::format("model {}", lobe_of_frame(o.frame)));
     return covered;
 }

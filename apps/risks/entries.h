@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/cli/command.h"
-#include "apps/render/animate.h"
-#include "apps/render/options.h"
+#include "apps/options/animate.h"
+#include "apps/options/options.h"
 
 namespace burnish {
 

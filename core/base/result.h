@@ -23,14 +23,15 @@ enum class ExitCode : int {
 
 struct Error {
     ExitCode code = ExitCode::bad_input;
-    std::string file;   // path as the user gave it, or empty
-    std::string place;  // JSON path ("/meshes/0/primitives/1") or "byte 123", or empty
-    std::string reason; // one sentence without a line break
+    std::string file;       // path as the user gave it, or empty
+    std::string place;      // JSON path ("/meshes/0/primitives/1") or "byte 123", or empty
+    std::string reason;     // one sentence without a line break
+    std::string field = {}; // the setting that it is about, as C++ has it ("FrameDesc::brdf"), or empty; the program says its option
 
-    std::string line() const // returns "file: place: reason" as one line, with line breaks replaced by spaces
+    std::string line() const // "file: place: field: reason", one line whatever the parts hold
     {
         std::string s;
-        for (const std::string* part : {&file, &place, &reason})
+        for (const std::string* part : {&file, &place, &field, &reason})
             if (!part->empty())
                 s += (s.empty() ? "" : ": ") + *part;
         for (char& c : s)

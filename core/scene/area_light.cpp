@@ -8,7 +8,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/io/stored_colour.h"
 #include "core/math/scalar_math.h"
-#include "core/scene/builtin/surface.h"
+#include "core/scene/grid.h"
 #include "core/scene/tangents.h"
 
 namespace burnish {
@@ -207,8 +207,7 @@ Status read_area_texture(Scene& scene, AreaLight& light, const Limits& limits)
         scene.warnings.push_back(fmt::format("{}: {} texels of negative light are set to 0", light.texture_file, clipped));
     if (image->bytes.size() > rest.texture_bytes)
         return Error{ExitCode::bad_input, light.texture_file, "",
-                     fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
-    // Append the texture, clamped at its edges
+                     fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits.texture_bytes)};
     Texture texture;
     texture.name = light.texture_file;
     texture.image = static_cast<std::int32_t>(scene.images.size());
@@ -336,7 +335,7 @@ Status add_emitters(Scene& scene, int most_lights, const std::string& file)
     }
     if (lights.size() > static_cast<std::size_t>(most_lights))
         return Error{ExitCode::bad_input, file, "",
-                     fmt::format("the scene has {} area lights, more than {} (--limit-lights)", lights.size(), most_lights)};
+                     fmt::format("the scene has {} area lights, more than {} (Limits::area_lights)", lights.size(), most_lights)};
     for (std::size_t i = 0; i < lights.size(); ++i)
         add_emitter(scene, lights[i], emitters[i]);
     return {};

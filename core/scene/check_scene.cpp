@@ -184,7 +184,7 @@ Status check_images(const Scene& scene, const Limits& limits)
         bytes += scene.images[i].bytes.size();
         if (bytes > limits.texture_bytes)
             return scene_fault(fmt::format("/images/{}", i),
-                               fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes));
+                               fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits.texture_bytes));
     }
     return {};
 }

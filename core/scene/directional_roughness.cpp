@@ -135,7 +135,7 @@ Status lay_directional_roughness(Scene& scene, const Limits& limits, const std::
                 bytes += image.bytes.size();
             if (bytes > limits.texture_bytes)
                 return Error{ExitCode::bad_input, file, "",
-                             fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
+                             fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits.texture_bytes)};
             LaidImages images = laid(rough, axes, metal);
             const Texture like = scene.textures[static_cast<std::size_t>(own.texture)];
             add_texture(scene, "directions of roughness", std::move(images.directions), like);

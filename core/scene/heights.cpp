@@ -123,7 +123,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
                 bytes += image.bytes.size();
             if (bytes > limits.texture_bytes)
                 return Error{ExitCode::bad_input, file, "",
-                             fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits.texture_bytes)};
+                             fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits.texture_bytes)};
             Image image = normals_with_heights(normals, from, texture);
             add_texture(scene, "heights", std::move(image), std::move(texture));
         }

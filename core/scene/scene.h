@@ -4,7 +4,6 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,11 +58,6 @@ struct TextureRef {
     bool used() const { return texture != kNone; }
 };
 
-enum class MipFilter : std::int32_t {}; // a line of BN_MIP_FILTER in shading/models.def, by its place
-namespace mipnet {
-struct Weights; // shading/bake/mipnet/weights.h
-}
-
 struct FieldKinds { // of material.def, light.def and area_light.def
     using number = float;
     using vec2 = glm::vec2;
@@ -84,15 +78,8 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
-    int emitter = kNoEmitter;                       // whether it shows an area light, see below
-    bool heights = false;                           // the alpha of normal_tex holds heights, [0,1]
-    MipFilter mip_filter{};                         // of its normals and lobes
-    float mip_kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
-    bool mip_coupled = false;                       // base colours and metalness weigh as their texels face light and eye
-    bool mip_kaiser = false;                        // they are averaged by ColourKernel::kaiser
-    bool mip_gains = false;                         // reflectances of levels are multiplied by their gains
-    std::uint32_t mip_lobe = 0;                     // of gains: mipnet::Lobe
-    std::shared_ptr<const mipnet::Weights> mip_net; // of filter mipnet; none: levels are brought along
+    int emitter = kNoEmitter; // whether it shows an area light, see above
+    bool heights = false;     // the alpha of normal_tex holds heights, [0,1]
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };
@@ -138,8 +125,6 @@ struct Camera { // looks along -Z of its node, +Y up
     float xmag = 1.0f, ymag = 1.0f;  // half extents, orthographic
 };
 
-struct MipFile; // shading/bake/mip/levels.h
-
 struct Scene {
     std::string name;
     VertexTable vertices;
@@ -153,12 +138,10 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
-    glm::dvec3 origin{0.0};                   // of places in world space; 0 but for scenes far away (core/scene/origin.h)
-    bool image_light = false;                 // its file has a light of images for it (image_light.h)
-    std::shared_ptr<const MipFile> mips;      // levels that were baked beforehand; none: made of the maps
-    std::shared_ptr<const MipFile> kept_mips; // the same as are made of the maps, found in the cache or kept there
-    std::vector<std::string> files;           // paths of every file that was read for it
-    std::vector<std::string> warnings;        // one line each, in the order found
+    glm::dvec3 origin{0.0};            // of places in world space; 0 but for scenes far away (core/scene/origin.h)
+    bool image_light = false;          // its file has a light of images for it (image_light.h)
+    std::vector<std::string> files;    // paths of every file that was read for it
+    std::vector<std::string> warnings; // one line each, in the order found
 };
 
 // Which moment of which of its animations a scene is read at; without seconds, as it rests.

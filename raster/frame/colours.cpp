@@ -63,26 +63,26 @@ Image facing_of(const MipSource& source, const Jobs& jobs)
     return to;
 }
 
-bool is_coupled(const Scene& scene, const Material& m, const TextureRef& colours)
+bool is_coupled(const Scene& scene, const Material& m, const MaterialMips& mips, const TextureRef& colours)
 {
-    return m.mip_coupled && m.normal_tex.used() && colours.used() && lie_alike(scene, m.normal_tex, colours);
+    return mips.coupled && m.normal_tex.used() && colours.used() && lie_alike(scene, m.normal_tex, colours);
 }
 
-std::string why_uncoupled(const Scene& scene, const Material& m)
+std::string why_uncoupled(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    if (!m.mip_coupled || !m.base_color_tex.used() || !m.normal_tex.used() || is_coupled(scene, m, m.base_color_tex))
+    if (!mips.coupled || !m.base_color_tex.used() || !m.normal_tex.used() || is_coupled(scene, m, mips, m.base_color_tex))
         return "";
     return "has base colours that lie otherwise than its normals: they are not coupled";
 }
 
-std::vector<UsedMap> used_maps(const Scene& scene, const Material& m)
+std::vector<UsedMap> used_maps(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
     std::vector<UsedMap> maps;
-    const ColourKernel kernel = m.mip_kaiser ? ColourKernel::kaiser : ColourKernel::box;
+    const ColourKernel kernel = mips.kaiser ? ColourKernel::kaiser : ColourKernel::box;
     for (const auto& [part, ref] :
          {std::pair(MapPart::base_color, &m.base_color_tex), {MapPart::metallic_roughness, &m.metallic_roughness_tex}})
         if (ref->used())
-            maps.push_back({part, ref, kernel, is_coupled(scene, m, *ref)});
+            maps.push_back({part, ref, kernel, is_coupled(scene, m, mips, *ref)});
     if (m.heights && m.normal_tex.used())
         maps.push_back({MapPart::height, &m.normal_tex, ColourKernel::box, false});
     return maps;
@@ -119,13 +119,13 @@ const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, c
     return found == maps.end() ? nullptr : &*found;
 }
 
-const MapLevels* given_map(const Scene& scene, const Material& m, const UsedMap& map)
+const MapLevels* given_map(const Scene& scene, const SceneMips& mips, const Material& m, const UsedMap& map)
 {
     const Image& image = map_image(scene, *map.ref);
     const auto may_be = [&](const MapLevels& of) {
         return of.id.part == map.part && of.id.kernel == map.kernel && (of.id.normals != 0) == map.coupled && are_of(of, image);
     };
-    for (const auto& there : {scene.mips, scene.kept_mips})
+    for (const auto& there : {mips.baked, mips.cached})
         if (there && std::any_of(there->maps.begin(), there->maps.end(), may_be))
             if (const MapLevels* found = find_map(there->maps, map_id(scene, m, map, Jobs(1)), image))
                 return found;

@@ -8,6 +8,7 @@
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/grid.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mip/source.h"
 
 namespace burnish {
@@ -18,10 +19,10 @@ Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t fi
 // Returns (n.v)(n.l) per texel, seen and lit from above the surface. One channel.
 Image facing_of(const MipSource& source, const Jobs& jobs);
 
-// Returns true if normals weight the colours of this material's texture: the material asks for it and both textures have the same layout.
-bool is_coupled(const Scene& scene, const Material& material, const TextureRef& colours);
-// Returns the reason why base colours are not coupled to normals though the material asks for it. Empty if there is none.
-std::string why_uncoupled(const Scene& scene, const Material& material);
+// Whether colours of a texture of the material are weighted by its normals: it wants that, and they lie alike.
+bool is_coupled(const Scene& scene, const Material& material, const MaterialMips& mips, const TextureRef& colours);
+// Where base colours are not, though the material wants it, why; else empty.
+std::string why_uncoupled(const Scene& scene, const Material& material, const MaterialMips& mips);
 
 // A material map whose levels are means, and the way these levels are made.
 struct UsedMap {
@@ -30,8 +31,8 @@ struct UsedMap {
     ColourKernel kernel;
     bool coupled;
 };
-std::vector<UsedMap> used_maps(const Scene& scene, const Material& material);
-const char* name_of(MapPart part); // for messages
+std::vector<UsedMap> used_maps(const Scene& scene, const Material& material, const MaterialMips& mips);
+const char* name_of(MapPart part); // to be read
 
 MapId map_id(const Scene& scene, const Material& material, const UsedMap& map, const Jobs& jobs);
 MapLevels map_levels(const Scene& scene, const Material& material, const UsedMap& map, const MapId& id, const Jobs& jobs); // id: map_id()
@@ -39,7 +40,7 @@ MipSource normals_of(const Scene& scene, const Material& material); // from the 
 const Image& map_image(const Scene& scene, const TextureRef& used);
 // Finds the levels with this id that fit the image's sides. Null if there are none.
 const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image);
-// Finds levels that were baked beforehand or come from the cache. Null if there are none; the caller makes them then.
-const MapLevels* given_map(const Scene& scene, const Material& material, const UsedMap& map);
+// Those that were baked beforehand or found in the cache: null where there are none, so that they are made here.
+const MapLevels* given_map(const Scene& scene, const SceneMips& mips, const Material& material, const UsedMap& map);
 
 } // namespace burnish

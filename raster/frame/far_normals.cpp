@@ -26,10 +26,10 @@ float mean_roughness(const Scene& scene, const Material& m)
     return m.roughness * static_cast<float>(sum / static_cast<double>(count));
 }
 
-KeptWeights kept_weights_of(const Scene& scene, const Material& m)
+KeptWeights kept_weights_of(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets have round lobes
-    if (!m.normal_tex.used() || m.heights || m.unlit || anisotropic || has_gains(m))
+    const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets are round
+    if (!m.normal_tex.used() || m.heights || m.unlit || anisotropic || has_gains(m, mips))
         return {};
     return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
 }
@@ -86,9 +86,9 @@ void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, 
 
 } // namespace
 
-void put_far_normals(const Scene& scene, const Material& m, MaterialRecord& to)
+void put_far_normals(const Scene& scene, const Material& m, const MaterialMips& mips, MaterialRecord& to)
 {
-    const KeptWeights kept = kept_weights_of(scene, m);
+    const KeptWeights kept = kept_weights_of(scene, m, mips);
     to.keeps = kept.any ? 1 : 0;
     std::copy(std::begin(kept.of), std::end(kept.of), to.kept);
     put_facets(scene, m, kept, to);

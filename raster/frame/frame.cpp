@@ -411,16 +411,19 @@ Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
     const int lobe = lobe_of(d, tilted);
     const std::string name = lobe_model(lobe).name;
     if (tilted && !(lobe_traits_of(lobe) & kLies_surface))
-        return Error{ExitCode::usage, "--tilt", "",
-                     "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
+        return Error{ExitCode::usage, "", "",
+                     "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can",
+                     "FrameDesc::tilt"};
     if (d.masking != 0 && !(lobe_traits_of(d.brdf) & kLobeOfAll))
-        return Error{ExitCode::usage, "--masking", "",
+        return Error{ExitCode::usage, "", "",
                      "lobes of " + name + " have a masking of their own; that of " + lobe_model(lobe_with(kLobeOfAll)).name +
-                         " can be chosen"};
+                         " can be chosen",
+                     "FrameDesc::masking"};
     if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kLobeOfAll))
-        return Error{ExitCode::usage, "--technique", "",
-                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for --brdf " + name +
-                         " (--technique mc and --backend reference take it)"};
+        return Error{ExitCode::usage, "", "",
+                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for FrameDesc::brdf " +
+                         name + " (FrameDesc::technique mc and SessionOptions::backend reference take it)",
+                     "FrameDesc::technique"};
     return {};
 }
 

@@ -148,6 +148,8 @@ namespace ltc {
 struct ShadingTables;
 }
 class PhongFiles;
+struct SceneMips; // shading/bake/mip/settings.h
+extern const SceneMips kBoxMips;
 
 // Everything that a renderer needs. The references must outlive the renderer.
 struct RenderInput {
@@ -156,8 +158,9 @@ struct RenderInput {
     const Environment& environment;
     const DfgTable& dfg;
     const Jobs& jobs;
-    const ltc::ShadingTables* ltc = nullptr; // for area lights; null: ltc::shipped_tables()
-    const PhongFiles* phong = nullptr;       // for as_mc's lobes; null: frames make their tables
+    const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
+    const PhongFiles* phong = nullptr;       // of as_mc's lobes; none: frames make their own
+    const SceneMips& mips = kBoxMips;        // how levels of the scene's maps are made
 };
 
 enum class Sampling { none, count, grid }; // meaning of FrameDesc::samples for a technique: unused, N samples, n x n samples

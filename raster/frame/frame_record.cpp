@@ -106,7 +106,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     return f;
 }
 
-FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input.scene, input.tables, input.jobs)) {}
+FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input.scene, input.mips, input.tables, input.jobs)) {}
 
 const std::vector<std::uint16_t>& FrameMaker::ltc_texels() const
 {
@@ -243,7 +243,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
     const bool compensated = compensates_phong(desc, input_.scene);
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
-    for (const MaterialRecord& m : in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc)) {
+    for (const MaterialRecord& m : in_frame(overrides(input_.scene, input_.mips, desc) ? scene_.overridden : scene_.materials, desc)) {
         const bool sampled = (technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) && desc.as_tables == 0;
         if ((!sampled && !compensated) || m.unlit || !one_lobe_shape(m) || desc.specular_aa)
             continue;
@@ -261,7 +261,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
 ShadingFrame FrameMaker::make(const FrameDesc& desc)
 {
     bake(desc);
-    materials_ = in_frame(overrides(input_.scene, desc) ? scene_.overridden : scene_.materials, desc);
+    materials_ = in_frame(overrides(input_.scene, input_.mips, desc) ? scene_.overridden : scene_.materials, desc);
     choose_techniques(desc);
     slice_albedo(desc);
     ShadingFrame f = {};

@@ -29,16 +29,16 @@ std::string kept_path(const std::string& folder, const void* of, std::size_t siz
     return folder + name;
 }
 
-std::string kept_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m)
+std::string kept_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m, const MaterialMips& mips)
 {
     const struct {
         std::uint64_t source, net;
         std::uint32_t version, filter;
         float kappa;
         std::uint32_t gained;
-    } of = {source,       levels_hash(*m.mip_net, m.mip_filter, is_metal(scene, m)),
-            kKeptVersion, static_cast<std::uint32_t>(m.mip_filter),
-            m.mip_kappa,  m.mip_gains ? gained_of(m.mip_net->shape.lobe, is_metal(scene, m)) : 0u};
+    } of = {source,       levels_hash(*mips.net, mips.filter, is_metal(scene, m)),
+            kKeptVersion, static_cast<std::uint32_t>(mips.filter),
+            mips.kappa,   mips.gains ? gained_of(mips.net->shape.lobe, is_metal(scene, m)) : 0u};
     return kept_path(folder, &of, sizeof of);
 }
 
@@ -70,21 +70,22 @@ Status write_kept(const std::string& path, const MipParts& levels)
     return written;
 }
 
-void keep_lobes(Scene& scene, const Material& m, const std::string& folder, const Jobs& jobs, std::vector<MipLevels>& kept)
+void keep_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const std::string& folder, const Jobs& jobs,
+                std::vector<MipLevels>& kept)
 {
     const MipSource source = mip_source(scene, m);
     const std::uint64_t hash = source.hash(jobs);
-    const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m); };
+    const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, mips); };
     if (std::any_of(kept.begin(), kept.end(), fit))
         return;
-    const std::string path = kept_path(folder, hash, scene, m);
+    const std::string path = kept_path(folder, hash, scene, m, mips);
     if (MipFile file = read_kept(path); file.materials.size() == 1 && file.maps.empty() && fit(file.materials[0])) {
         note_cache_use(path);
         kept.push_back(std::move(file.materials[0]));
         return;
     }
-    const Activity activity("levels of " + levels_name(m));
-    kept.push_back(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m)));
+    const Activity activity("levels of " + levels_name(m, mips));
+    kept.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
     if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
         scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
 }
@@ -111,21 +112,23 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
 
 } // namespace
 
-void keep_mips(Scene& scene, const Jobs& jobs)
+void keep_mips(Scene& scene, SceneMips& mips, const Jobs& jobs)
 {
     const std::string folder = cache_folder();
     if (folder.empty())
         return;
     MipFile kept;
-    for (const Material& m : scene.materials) {
-        if (takes_net(m.mip_filter) && m.mip_net && is_filtered(scene, m))
-            keep_lobes(scene, m, folder, jobs, kept.materials);
-        for (const UsedMap& map : used_maps(scene, m))
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const MaterialMips& of = mips.of(i);
+        if (takes_net(of.filter) && of.net && is_filtered(scene, m, of))
+            keep_lobes(scene, m, of, folder, jobs, kept.materials);
+        for (const UsedMap& map : used_maps(scene, m, of))
             if (map.coupled || map.kernel != ColourKernel::box)
                 keep_map(scene, m, map, folder, jobs, kept.maps);
     }
     if (!kept.materials.empty() || !kept.maps.empty())
-        scene.kept_mips = std::make_shared<const MipFile>(std::move(kept));
+        mips.cached = std::make_shared<const MipFile>(std::move(kept));
 }
 
 } // namespace burnish

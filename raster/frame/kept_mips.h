@@ -3,11 +3,12 @@
 #pragma once
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
-// Fills scene.kept_mips for materials whose filter takes_net() and for coupled or sharpened colours. Reads levels from the cache
-// (core/base/cache.h) or makes them. A damaged or foreign cache file is made anew. A cache that cannot be written gives a warning.
-void keep_mips(Scene& scene, const Jobs& jobs);
+// Makes mips.cached of materials whose filter takes_net(), and of coupled or sharper colours, or finds them in the cache
+// (core/base/cache.h). A file there that is damaged, or of anything else, is made anew; a cache that cannot be written is a warning.
+void keep_mips(Scene& scene, SceneMips& mips, const Jobs& jobs);
 
 } // namespace burnish

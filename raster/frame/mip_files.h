@@ -4,27 +4,27 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
-#include "core/scene/dress.h"
 #include "core/scene/scene.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
 
 namespace burnish {
 
 mipnet::Lobe lobe_of_model(int brdf); // returns the nets' lobe that is nearest to the model's
 
-void warn_of_unfiltered(Scene& scene); // adds a warning with the reason for each material that its filter cannot handle
+void warn_of_unfiltered(Scene& scene, const SceneMips& mips); // a line for each material that its filter makes nothing of, with the reason
 
-// Gives materials the net at with.mip_net, or the built-in net. Compares filter mipnet with others on each material, unless
-// with.mip_fallback is off. Where the net's error is too large (mipnet::Comparison), the material gets filter kappa or baseline, whichever
-// has the smaller error, and the scene a warning.
-Status settle_nets(Scene& scene, const Dress& with, const Limits& limits);
+// Gives materials their nets, of asked.net or the program's. Of filter mipnet, unless asked.fallback is off, those for which it is
+// worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning
+// says so.
+Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits);
 
-// Reads with.mip_pyramid into scene.mips. If no filter was chosen, takes the file's filter.
-Status read_mips(Scene& scene, Dress& with, const Limits& limits);
-// Sets each material's filter, colour kernel and colour coupling to those of the file's levels for its maps.
-void take_filters_of_mips(Scene& scene);
-// Checks that the file has levels for all maps that the scene's filters handle, and for these materials' base colours, metalness and
-// heights.
-Status check_mips(const Scene& scene, const std::string& path);
+// Reads asked.pyramid. Where no filter was asked for, it is the file's.
+Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limits& limits);
+// Materials take the filters that the levels of their maps are by, and colours what they are averaged and weighted by.
+void take_filters_of_mips(const Scene& scene, SceneMips& mips);
+// Whether the file has levels of everything that filters of the scene would make levels of, and of these materials' base colours, metalness
+// and heights.
+Status check_mips(const Scene& scene, const SceneMips& mips, const std::string& path);
 
 } // namespace burnish

@@ -88,12 +88,12 @@ MipMaps maps_of(const Scene& scene, const Material& m)
     return maps;
 }
 
-// Returns true if normals widen lobes as with `lean`, in frames that ignore a filter's levels.
-bool widens(const Scene& scene, const Material& m)
+// As `lean`, where a frame leaves the levels of a filter aside.
+bool widens(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    if (makes_lobes(m.mip_filter))
-        return is_filtered(scene, m) && gain_of_taps(m.mip_filter, m.mip_kappa) > 0.0f;
-    return m.lean || m.mip_filter == kMipFilter_lean;
+    if (makes_lobes(mips.filter))
+        return is_filtered(scene, m, mips) && gain_of_taps(mips.filter, mips.kappa) > 0.0f;
+    return m.lean || mips.filter == kMipFilter_lean;
 }
 
 struct Moments {
@@ -103,17 +103,17 @@ struct Moments {
     bool direction = false;             // an anisotropy map has the same layout
     bool filtered = false;              // they come from a mip filter's levels
 };
-Moments moments_of(const Scene& scene, const Material& m, bool overridden)
+Moments moments_of(const Scene& scene, const Material& m, const MaterialMips& mips, bool overridden)
 {
     Moments r;
-    if (!overridden && is_filtered(scene, m)) {
+    if (!overridden && is_filtered(scene, m, mips)) {
         r.kind = kMomentsOfAll, r.place = first_filtered(m), r.filtered = true;
         return r;
     }
     const bool tilt = m.tilt_tex.used();
-    // Skip the normals if the anisotropy map has another layout: its grain matters more than how normals differ.
-    const bool normals =
-        !tilt && widens(scene, m) && m.normal_tex.used() && (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
+    // a grain that lies otherwise than the normals weighs more than how they differ
+    const bool normals = !tilt && widens(scene, m, mips) && m.normal_tex.used() &&
+                         (!m.anisotropy_tex.used() || alike(scene, m.normal_tex, m.anisotropy_tex));
     r.slopes = tilt ? &m.tilt_tex : normals ? &m.normal_tex : nullptr;
     r.place = r.slopes ? r.slopes : &m.anisotropy_tex;
     r.direction = alike(scene, *r.place, m.anisotropy_tex);
@@ -129,24 +129,33 @@ float slope_scale(const Material& m)
     return m.tilt_tex.used() ? m.tilt_scale : m.normal_scale;
 }
 
-// Returns the first material with the same moments.
-std::int32_t owner_of(const Scene& scene, std::size_t material, bool overridden)
+// The first material of the same content as this one: content(place).
+template <class Content> std::int32_t first_alike(std::size_t material, const Content& content)
 {
-    const auto content = [&](const Material& m) {
-        const Moments of = moments_of(scene, m, overridden);
-        const bool own = makes_lobes(m.mip_filter);
-        const bool gains = has_gains(m);
-        const bool of_metal = gains || m.mip_filter == kMipFilter_teacher; // such levels differ between metals and dielectrics
+    const auto wanted = content(material);
+    std::size_t first = 0;
+    while (first < material && !(content(first) == wanted))
+        ++first;
+    return static_cast<std::int32_t>(first);
+}
+
+// The first material with the same moments.
+std::int32_t owner_of(const Scene& scene, const SceneMips& all, std::size_t material, bool overridden)
+{
+    const auto content = [&](std::size_t i) {
+        const Material& m = scene.materials[i];
+        const MaterialMips& mips = all.of(i);
+        const Moments of = moments_of(scene, m, mips, overridden);
+        const bool own = makes_lobes(mips.filter);
+        const bool gains = has_gains(m, mips);
+        const bool of_metal = gains || mips.filter == kMipFilter_teacher; // whose levels are made for a metal or for a dielectric
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
-                          m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? m.mip_filter : MipFilter{},
-                          own ? m.mip_kappa : 0.0f, m.mip_net.get(), of_metal ? m.metallic : 0.0f, gains, of.filtered && m.heights,
+                          m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? mips.filter : MipFilter{},
+                          own ? mips.kappa : 0.0f, mips.net.get(), of_metal ? m.metallic : 0.0f, gains, of.filtered && m.heights,
                           of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
-    const auto wanted = content(scene.materials[material]);
-    const auto found =
-        std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& m) { return content(m) == wanted; });
-    return static_cast<std::int32_t>(found - scene.materials.begin());
+    return first_alike(material, content);
 }
 
 // Returns the first material with the same normals.
@@ -158,16 +167,14 @@ std::int32_t first_with_normals(const Scene& scene, const Material& m)
     return static_cast<std::int32_t>(found - scene.materials.begin());
 }
 
-// Returns the first material whose facets keep the same light.
-std::int32_t first_that_keeps(const Scene& scene, const Material& m)
+// The first material whose normals keep the same light.
+std::int32_t first_that_keeps(const Scene& scene, const SceneMips& mips, std::size_t material)
 {
-    const auto content = [&](const Material& of) {
+    return first_alike(material, [&](std::size_t i) {
+        const Material& of = scene.materials[i];
         return std::tuple(of.normal_tex.texture, of.normal_scale, of.roughness, of.metallic_roughness_tex.texture, of.heights, of.unlit,
-                          has_gains(of));
-    };
-    const auto found =
-        std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& of) { return content(of) == content(m); });
-    return static_cast<std::int32_t>(found - scene.materials.begin());
+                          has_gains(of, mips.of(i)));
+    });
 }
 
 // Contents of a material's texture slot, and the texture that places them.
@@ -175,43 +182,45 @@ struct Held {
     PyramidKey key;
     const TextureRef* place;
 };
-std::optional<Held> held_by(const Scene& scene, std::size_t material, const TextureUse& use, bool overridden)
+std::optional<Held> held_by(const Scene& scene, const SceneMips& all, std::size_t material, const TextureUse& use, bool overridden)
 {
     const Material& m = scene.materials[material];
-    const bool normals = use.slot == kNormalTex && m.normal_tex.used() && !overridden && is_filtered(scene, m);
-    const Moments moments = use.tensor_power || normals ? moments_of(scene, m, overridden) : Moments{};
+    const MaterialMips& mips = all.of(material);
+    const bool normals = use.slot == kNormalTex && m.normal_tex.used() && !overridden && is_filtered(scene, m, mips);
+    const Moments moments = use.tensor_power || normals ? moments_of(scene, m, mips, overridden) : Moments{};
     if (moments.kind != kNoMoments)
-        return Held{
-            {moments.place->texture, use.encoding, use.tensor_power, moments.kind, owner_of(scene, material, overridden), moments.filtered},
-            moments.place};
+        return Held{{moments.place->texture, use.encoding, use.tensor_power, moments.kind, owner_of(scene, all, material, overridden),
+                     moments.filtered},
+                    moments.place};
     const TextureRef& ref = m.*use.ref;
     if (!ref.used())
         return std::nullopt;
     Held held = {{ref.texture, use.encoding, use.tensor_power}, &ref};
-    if (use.slot == kNormalTex && kept_weights_of(scene, m).any)
-        held.key.keeps = true, held.key.material = first_that_keeps(scene, m);
+    if (use.slot == kNormalTex && kept_weights_of(scene, m, mips).any)
+        held.key.keeps = true, held.key.material = first_that_keeps(scene, all, material);
     if (use.slot == kBaseColorTex || use.slot == kMetalRoughTex) {
-        held.key.kaiser = m.mip_kaiser;
-        if (held.key.coupled = is_coupled(scene, m, ref); held.key.coupled)
+        held.key.kaiser = mips.kaiser;
+        if (held.key.coupled = is_coupled(scene, m, mips, ref); held.key.coupled)
             held.key.material = first_with_normals(scene, m);
     }
     return held;
 }
 
-Image moments_image(const Scene& scene, const Texture& sampler, const PyramidKey& key)
+Image moments_image(const Scene& scene, const SceneMips& all, const Texture& sampler, const PyramidKey& key)
 {
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
-    const Moments of = moments_of(scene, m, key.moments != kMomentsOfAll);
+    const MaterialMips& mips = all.of(static_cast<std::size_t>(key.material));
+    const Moments of = moments_of(scene, m, mips, key.moments != kMomentsOfAll);
     const SlopeMaps maps = {of.slopes ? image_of(scene, *of.slopes) : nullptr,
                             of.direction ? image_of(scene, m.anisotropy_tex) : nullptr,
                             sampler.wrap_s,
                             sampler.wrap_t,
                             sampler.nearest,
                             !m.tilt_tex.used()};
-    const bool unit = makes_lobes(m.mip_filter) && !m.tilt_tex.used() && m.mip_filter != kMipFilter_leadr;
+    const bool unit = makes_lobes(mips.filter) && !m.tilt_tex.used() && mips.filter != kMipFilter_leadr;
     return slope_moments(maps,
                          {slope_scale(m), key.moments == kMomentsOfAll, m.roughness, m.anisotropy_strength, m.anisotropy_rotation,
-                          unit ? gain_of_taps(m.mip_filter, m.mip_kappa) : 0.0f},
+                          unit ? gain_of_taps(mips.filter, mips.kappa) : 0.0f},
                          key.tensor_power);
 }
 
@@ -246,26 +255,28 @@ std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
     return levels;
 }
 
-TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, const PyramidKey& key, const MipLevels& levels)
+TexturePyramid filtered_pyramid(const Scene& scene, const SceneMips& all, const Texture& sampler, const PyramidKey& key,
+                                const MipLevels& levels)
 {
     const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
+    const MaterialMips& mips = all.of(static_cast<std::size_t>(key.material));
     const MipSource source = mip_source(scene, m);
-    const float gain = gain_of_taps(m.mip_filter, m.mip_kappa);
-    const bool gains = has_gains(m);
-    // A key without tensors stands for the normals, encoded as in their map. Shading multiplies them by the scale. Alpha comes from the
-    // map.
+    const float gain = gain_of_taps(mips.filter, mips.kappa);
+    const bool gains = has_gains(m, mips);
+    // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
     TexturePyramid own; // pyramid of the map, whose alpha may hold heights
     if (normals) {
         const Image& map = *image_of(scene, m.normal_tex);
-        const MapLevels* heights = m.heights ? given_map(scene, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
+        const MapLevels* heights =
+            m.heights ? given_map(scene, all, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
         own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
     }
     // Average the light that facets keep, or the lobe widths
     const bool same = normals && own.width == source.width() && own.height == source.height();
     const KeptShares& shares = kept_shares(mean_roughness(scene, m));
-    const bool keeps = normals && kept_weights_of(scene, m).any;
+    const bool keeps = normals && kept_weights_of(scene, m, mips).any;
     std::vector<std::vector<float>> means; // by level from 1 on, then texel
     if (keeps)
         means = mean_levels(source, [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
@@ -304,14 +315,14 @@ TexturePyramid filtered_pyramid(const Scene& scene, const Texture& sampler, cons
 
 } // namespace
 
-bool is_filtered(const Scene& scene, const Material& m)
+bool is_filtered(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    return makes_lobes(m.mip_filter) && first_filtered(m) && !m.unlit && why_unfiltered(scene, m).empty();
+    return makes_lobes(mips.filter) && first_filtered(m) && !m.unlit && why_unfiltered(scene, m, mips).empty();
 }
 
-std::string why_unfiltered(const Scene& scene, const Material& m)
+std::string why_unfiltered(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    const FilteredMap* first = makes_lobes(m.mip_filter) && !m.unlit ? first_map(m) : nullptr;
+    const FilteredMap* first = makes_lobes(mips.filter) && !m.unlit ? first_map(m) : nullptr;
     if (!first)
         return "";
     if (m.tilt_tex.used())
@@ -327,9 +338,9 @@ std::string why_unfiltered(const Scene& scene, const Material& m)
     return "";
 }
 
-bool has_gains(const Material& m)
+bool has_gains(const Material& m, const MaterialMips& mips)
 {
-    return m.mip_gains && takes_gains(m.mip_filter) && m.transmission == 0.0f;
+    return mips.gains && takes_gains(mips.filter) && m.transmission == 0.0f;
 }
 
 bool is_metal(const Scene& scene, const Material& m)
@@ -352,10 +363,9 @@ bool is_metal(const Scene& scene, const Material& m)
     return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
 }
 
-MipHelp mip_help(const Scene& scene, const Material& m, const TaughtTexels& advance)
+MipHelp mip_help(const Scene& scene, const Material& m, const MaterialMips& mips, const TaughtTexels& advance)
 {
-    return {m.mip_net.get(), is_metal(scene, m), advance, static_cast<mipnet::Lobe>(m.mip_lobe),
-            m.mip_gains ? Gains::of_frames : Gains::none};
+    return {mips.net.get(), is_metal(scene, m), advance, mips.lobe, mips.gains ? Gains::of_frames : Gains::none};
 }
 
 MipSource mip_source(const Scene& scene, const Material& m)
@@ -363,68 +373,69 @@ MipSource mip_source(const Scene& scene, const Material& m)
     return MipSource(maps_of(scene, m));
 }
 
-bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& m)
+bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& m,
+          const MaterialMips& mips)
 {
-    const bool taught = m.mip_filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
-    return levels.source == hash && levels.width == source.width() && levels.height == source.height() && levels.filter == m.mip_filter &&
-           (!takes_kappa(m.mip_filter) || levels.kappa == m.mip_kappa) &&
-           (!m.mip_net || levels.net == levels_hash(*m.mip_net, m.mip_filter, metal)) &&
-           (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) &&
-           (!has_gains(m) || levels.gained == gained_of(static_cast<mipnet::Lobe>(m.mip_lobe), is_metal(scene, m)));
+    const bool taught = mips.filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
+    return levels.source == hash && levels.width == source.width() && levels.height == source.height() && levels.filter == mips.filter &&
+           (!takes_kappa(mips.filter) || levels.kappa == mips.kappa) &&
+           (!mips.net || levels.net == levels_hash(*mips.net, mips.filter, metal)) && (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) &&
+           (!has_gains(m, mips) || levels.gained == gained_of(mips.lobe, is_metal(scene, m)));
 }
 
-MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance)
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, const Jobs& jobs, const TaughtTexels& advance)
 {
     MaterialLevels all(scene.materials.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Material& m = scene.materials[i];
-        if (!is_filtered(scene, m))
+        const MaterialMips& mips = scene_mips.of(i);
+        if (!is_filtered(scene, m, mips))
             continue;
-        const auto owner = static_cast<std::size_t>(owner_of(scene, i, false));
+        const auto owner = static_cast<std::size_t>(owner_of(scene, scene_mips, i, false));
         if (owner != i) {
             all[i] = all[owner];
             continue;
         }
         const MipSource source = mip_source(scene, m);
         const auto held = [](const auto& there) { return there && !there->materials.empty(); };
-        const std::uint64_t hash = held(scene.mips) || held(scene.kept_mips) ? source.hash(jobs) : 0; // hash() decodes all maps
-        // Take ready-made levels if there are any
-        for (const auto& there : {scene.kept_mips, scene.mips})
+        const std::uint64_t hash = held(scene_mips.baked) || held(scene_mips.cached) ? source.hash(jobs) : 0; // which decodes all of it
+        for (const auto& there : {scene_mips.cached, scene_mips.baked})
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
-                if (fits(there->materials[k], source, hash, scene, m))
+                if (fits(there->materials[k], source, hash, scene, m, mips))
                     all[i] = std::shared_ptr<const MipLevels>(there, &there->materials[k]);
-        const Activity activity("levels of " + levels_name(m));
+        const Activity activity("levels of " + levels_name(m, mips));
         if (!all[i])
-            all[i] =
-                std::make_shared<const MipLevels>(make_mip_levels(source, m.mip_filter, m.mip_kappa, jobs, mip_help(scene, m, advance)));
+            all[i] = std::make_shared<const MipLevels>(
+                make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips, advance)));
     }
     return all;
 }
 
-std::string levels_name(const Material& m)
+std::string levels_name(const Material& m, const MaterialMips& mips)
 {
-    return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(m.mip_filter)].name;
+    return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(mips.filter)].name;
 }
 
-std::vector<PyramidKey> used_pyramids(const Scene& scene)
+std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips)
 {
     std::vector<PyramidKey> keys;
     for (const bool overridden : {false, true})
         for (std::size_t i = 0; i < scene.materials.size(); ++i)
             for (const TextureUse& use : kTextureUses)
-                if (const std::optional<Held> held = held_by(scene, i, use, overridden);
+                if (const std::optional<Held> held = held_by(scene, mips, i, use, overridden);
                     held && std::find(keys.begin(), keys.end(), held->key) == keys.end())
                     keys.push_back(held->key);
     return keys;
 }
 
-void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to)
+void bind_textures(const Scene& scene, const SceneMips& all, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys,
+                   MaterialRecord& to)
 {
     for (const TextureUse& use : kTextureUses) {
         TextureBinding& b = to.textures[use.slot];
         b = {};
         b.texture = -1;
-        const std::optional<Held> held = held_by(scene, material, use, overridden);
+        const std::optional<Held> held = held_by(scene, all, material, use, overridden);
         if (!held)
             continue;
         b.texture = static_cast<int>(std::find(keys.begin(), keys.end(), held->key) - keys.begin());
@@ -434,19 +445,20 @@ void bind_textures(const Scene& scene, std::size_t material, bool overridden, co
         to.textured = 1;
     }
     const Material& m = scene.materials[material];
-    const Moments moments = moments_of(scene, m, overridden);
+    const MaterialMips& mips = all.of(material);
+    const Moments moments = moments_of(scene, m, mips, overridden);
     to.moments = moments.kind;
-    to.level_gain = moments.filtered ? gain_of_taps(m.mip_filter, m.mip_kappa) : -1.0f;
-    to.frame_map = is_filtered(scene, m) ? kFrameQuaternion : -1;
+    to.level_gain = moments.filtered ? gain_of_taps(mips.filter, mips.kappa) : -1.0f;
+    to.frame_map = is_filtered(scene, m, mips) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
-    put_far_normals(scene, m, to);
+    put_far_normals(scene, m, mips, to);
 }
 
-TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels)
+TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels)
 {
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
     if (key.filtered)
-        return filtered_pyramid(scene, texture, key, *levels[static_cast<std::size_t>(key.material)]);
+        return filtered_pyramid(scene, mips, texture, key, *levels[static_cast<std::size_t>(key.material)]);
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (key.moments == kNoMoments && key.tensor_power == 0 && !key.keeps) {
         TextureRef ref;
@@ -454,7 +466,7 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
         const UsedMap map = {key.encoding == TextureEncoding::srgb ? MapPart::base_color : MapPart::metallic_roughness, &ref,
                              key.kaiser ? ColourKernel::kaiser : ColourKernel::box, key.coupled};
         const Material& m = scene.materials[static_cast<std::size_t>(std::max(key.material, 0))];
-        if (const MapLevels* given = given_map(scene, m, map))
+        if (const MapLevels* given = given_map(scene, mips, m, map))
             return pyramid_of_map(image, texture, *given);
         if (key.coupled || key.kaiser)
             return pyramid_of_map(image, texture, map_levels(scene, m, map, {map.part, map.kernel}, Jobs(1)));
@@ -462,7 +474,7 @@ TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const Mat
     if (key.keeps)
         return kept_pyramid(scene, scene.materials[static_cast<std::size_t>(key.material)], texture, key.encoding);
     if (key.moments != kNoMoments)
-        return make_texture_pyramid(moments_image(scene, texture, key), texture, key.encoding);
+        return make_texture_pyramid(moments_image(scene, mips, texture, key), texture, key.encoding);
     if (key.tensor_power != 0)
         return make_texture_pyramid(anisotropy_tensor(image, key.tensor_power), texture, key.encoding);
     return make_texture_pyramid(image, texture, key.encoding);

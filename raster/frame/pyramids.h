@@ -19,13 +19,14 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mip/teacher.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/lang/tables.h"
 
 namespace burnish {
 
-std::string levels_name(const Material& m); // "material 'steel' by kappa"
+std::string levels_name(const Material& m, const MaterialMips& mips); // "material 'steel' by kappa"
 
 class MipSource;
 struct MipHelp;
@@ -43,28 +44,29 @@ struct PyramidKey {
     bool operator==(const PyramidKey&) const = default;
 };
 
-std::vector<PyramidKey> used_pyramids(const Scene& scene); // without duplicates
+std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips); // each once
 
-// Binds the material's textures, as indices into `keys`, and its moments. overridden: for frames that override roughness or anisotropy.
-void bind_textures(const Scene& scene, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys, MaterialRecord& to);
+// Textures, by their places in `keys`, and moments of a material. overridden: in frames that override roughness or anisotropy.
+void bind_textures(const Scene& scene, const SceneMips& mips, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys,
+                   MaterialRecord& to);
 
 // Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
-MaterialLevels filtered_levels(const Scene& scene, const Jobs& jobs, const TaughtTexels& advance = {});
-bool is_metal(const Scene& scene, const Material& material); // true if at least half the material is metal
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const TaughtTexels& advance = {});
+bool is_metal(const Scene& scene, const Material& material); // more than half of it
 
-// Returns the reason why the material's filter makes no levels of its maps. Empty if it does, or if there is nothing to do.
-std::string why_unfiltered(const Scene& scene, const Material& material);
-// Returns true if the material's levels have gains. Materials that transmit light have none: gains would not reduce the transmitted light.
-bool has_gains(const Material& material);
-// Returns true if the material's filter makes levels of its maps.
-bool is_filtered(const Scene& scene, const Material& material);
-MipHelp mip_help(const Scene& scene, const Material& material, const TaughtTexels& advance = {}); // for that material
-// Returns the maps that the filter reads.
+// Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
+std::string why_unfiltered(const Scene& scene, const Material& material, const MaterialMips& mips);
+// Whether its levels have gains; what lets light through would pass no less by them.
+bool has_gains(const Material& material, const MaterialMips& mips);
+// What a filter makes levels of, of a material that it makes any of.
+bool is_filtered(const Scene& scene, const Material& material, const MaterialMips& mips);
+MipHelp mip_help(const Scene& scene, const Material& material, const MaterialMips& mips, const TaughtTexels& advance = {});
 MipSource mip_source(const Scene& scene, const Material& material);
-// Returns true if ready-made levels belong to these maps and this material's filter.
-bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material);
+// Whether levels that were baked beforehand are of these maps and filters.
+bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material,
+          const MaterialMips& mips);
 
-TexturePyramid make_pyramid(const Scene& scene, const PyramidKey& key, const MaterialLevels& levels);
+TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels);
 
 } // namespace burnish

@@ -154,13 +154,13 @@ int central_sample(const SamplePattern& p)
     return nearest;
 }
 
-std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden)
+std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, bool overridden)
 {
-    const std::vector<PyramidKey> keys = used_pyramids(scene);
+    const std::vector<PyramidKey> keys = used_pyramids(scene, mips);
     std::vector<MaterialRecord> records;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         records.push_back(material_record(scene.materials[i]));
-        bind_textures(scene, i, overridden, keys, records.back());
+        bind_textures(scene, mips, i, overridden, keys, records.back());
     }
     for (const Primitive& p : scene.primitives)
         if (p.has_color)
@@ -233,19 +233,19 @@ void add_light_pictures(const Scene& scene, const Jobs& jobs, SceneTables& s)
 
 } // namespace
 
-SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
+SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs)
 {
     SceneTables s;
-    const std::vector<PyramidKey> keys = used_pyramids(scene);
+    const std::vector<PyramidKey> keys = used_pyramids(scene, mips);
     s.pyramids.resize(keys.size());
-    const MaterialLevels levels = filtered_levels(scene, jobs);
-    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, keys[i], levels); });
+    const MaterialLevels levels = filtered_levels(scene, mips, jobs);
+    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, mips, keys[i], levels); });
     s.area_lights = area_light_records(tables);
     add_light_pictures(scene, jobs, s);
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
-    s.materials = material_records(scene, false);
-    s.overridden = material_records(scene, true);
+    s.materials = material_records(scene, mips, false);
+    s.overridden = material_records(scene, mips, true);
     s.lights = light_records(tables);
     put_light_columns(s);
     return s;
@@ -263,20 +263,22 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
         return ok;
     const auto has_heights = [](const Material& m) { return m.heights; };
     if (desc.height_scale != FrameDesc().height_scale && std::none_of(scene.materials.begin(), scene.materials.end(), has_heights))
-        return Error{ExitCode::usage, "--height-scale", "", "nothing in the scene has a height map"};
+        return Error{ExitCode::usage, "", "", "nothing in the scene has a height map", "FrameDesc::height_scale"};
     if (!tilts(scene, desc))
         return {};
     if (const int lobe = lobe_of(desc, true); !(lobe_traits_of(lobe) & kLies_surface))
-        return Error{ExitCode::usage, "--brdf", "",
+        return Error{ExitCode::usage, "", "",
                      std::string("lobes of ") + lobe_model(lobe).name + " cannot be tilted, as materials of the scene are; those of " +
-                         lobe_model(lobe_with(kLobeOfTilted)).name + " can"};
+                         lobe_model(lobe_with(kLobeOfTilted)).name + " can",
+                     "FrameDesc::brdf"};
     return {};
 }
 
-bool overrides(const Scene& scene, const FrameDesc& desc)
+bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc)
 {
-    const bool unmapped = desc.frame_map == kFrameOff && std::any_of(scene.materials.begin(), scene.materials.end(),
-                                                                     [&](const Material& m) { return is_filtered(scene, m); });
+    bool unmapped = false;
+    for (std::size_t i = 0; desc.frame_map == kFrameOff && i < scene.materials.size(); ++i)
+        unmapped |= is_filtered(scene, scene.materials[i], mips.of(i));
     return desc.roughness >= 0.0f || desc.override_anisotropy || unmapped;
 }
 

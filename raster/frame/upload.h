@@ -21,24 +21,23 @@ struct SceneTables { // owns the data that the records point to
     std::vector<AreaLightRecord> area_lights;
 };
 
-// Returns a record per material. Texture indices are those of SceneTables::textures. A blended material with alpha 1 everywhere becomes
-// opaque.
-std::vector<MaterialRecord> material_records(const Scene& scene, bool overridden);
-bool any_blends(const std::vector<MaterialRecord>& materials); // true if a material's alpha mode is kAlpha_blend
+// Textures are numbered as in SceneTables::textures. A material that blends, whose alpha is 1 everywhere, is opaque.
+std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, bool overridden);
+bool any_blends(const std::vector<MaterialRecord>& materials); // whether a material's alpha mode is kAlpha_blend
 std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // pictures are texture indices of the scene
 
-// Builds in parallel all texture pyramids that materials use (pyramids.h) and the pictures of area lights.
-SceneTables upload_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
+// Builds every texture pyramid that a material uses (pyramids.h) and the pictures of area lights, in parallel.
+SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs);
 
 // Returns true if the frame tilts any material's lobes against their surfaces.
 bool tilts(const Scene& scene, const FrameDesc& desc);
 // Runs check_desc(). Checks that the frame's lobes can be tilted if the scene tilts them.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 
-// Returns true if the frame overrides roughness or anisotropy, or drops normal maps that a mip filter used for lobes.
-bool overrides(const Scene& scene, const FrameDesc& desc);
-// Applies the frame's overrides, parameters and tilts to the records.
+// Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
+bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc);
+// Those of SceneTables that the frame takes, with its overrides, and tilted.
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);

@@ -10,7 +10,7 @@ bool ray_scene_available()
 
 Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene&, const DrawTables&, const Jobs&)
 {
-    return Error{ExitCode::unavailable, "", "--backend reference", "this program was built without Embree 3"};
+    return Error{ExitCode::unavailable, "", "", "this program was built without Embree 3", "SessionOptions::backend reference"};
 }
 
 } // namespace burnish

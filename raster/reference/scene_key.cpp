@@ -6,7 +6,7 @@
 
 #include "core/base/hash.h"
 #include "raster/frame/frame_record.h"
-#include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
@@ -51,24 +51,24 @@ void add_textures(Key& key, const Scene& scene)
             0);
 }
 
-// Adds the filters, and ready-made levels. The filters' inputs are in the textures.
-void add_filters(Key& key, const Scene& scene)
+// What a mip filter makes levels of is in the textures; what it makes of them, here.
+void add_filters(Key& key, const Scene& scene, const SceneMips& mips)
 {
-    for (const Material& m : scene.materials)
-        if (makes_lobes(m.mip_filter))
-            key.add(m.mip_filter, m.mip_kappa, m.mip_gains, m.mip_lobe);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        if (const Material& m = scene.materials[i]; m.mip_coupled || m.mip_kaiser)
-            key.add('c', i, m.mip_coupled, m.mip_kaiser);
-    for (const Material& m : scene.materials)
-        if (m.mip_net)
-            key.add(mipnet::net_hash(*m.mip_net));
-    if (scene.mips)
-        for (const MipLevels& levels : scene.mips->materials)
+        if (const MaterialMips& m = mips.of(i); makes_lobes(m.filter))
+            key.add(m.filter, m.kappa, m.gains, m.lobe);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (const MaterialMips& m = mips.of(i); m.coupled || m.kaiser)
+            key.add('c', i, m.coupled, m.kaiser);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (const MaterialMips& m = mips.of(i); m.net)
+            key.add(mipnet::net_hash(*m.net));
+    if (mips.baked)
+        for (const MipLevels& levels : mips.baked->materials)
             for (const MipLevel& level : levels.levels)
                 key.add(level.gain), key.column(level.texels.data(), level.texels.size());
-    if (scene.mips)
-        for (const MapLevels& levels : scene.mips->maps)
+    if (mips.baked)
+        for (const MapLevels& levels : mips.baked->maps)
             for (const std::vector<std::uint16_t>& level : levels.levels)
                 key.column(level.data(), level.size());
 }
@@ -107,11 +107,11 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
     frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
-    add_records(key, in_frame(material_records(input.scene, overrides(input.scene, d)), d));
+    add_records(key, in_frame(material_records(input.scene, input.mips, overrides(input.scene, input.mips, d)), d));
     add_records(key, light_records(input.tables));
     add_records(key, area_light_records(input.tables));
     add_textures(key, input.scene);
-    add_filters(key, input.scene);
+    add_filters(key, input.scene, input.mips);
     add_tables(key, input.tables);
     const CubeMap& picture = input.environment.picture();
     key.column(picture.texels.data(), 4 * picture.level_texels(0));

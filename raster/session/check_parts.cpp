@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/scene/check_scene.h"
-#include "shading/bake/mip/levels.h"
 #include "shading/bake/mipnet/mipnet_fns.h"
 #include "shading/lang/records.h"
 
@@ -82,25 +81,25 @@ Status check_dfg(const DfgTable& dfg)
     return {};
 }
 
-} // namespace
-
-Status check_mip_filters(const Scene& scene, const std::string& file)
+Status check_scene_mips(const SceneData& data)
 {
     constexpr auto kLastLobe = static_cast<std::uint32_t>(mipnet::Lobe::ashikhmin_shirley);
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& m = scene.materials[i];
+    for (std::size_t i = 0; i < data.mips.materials.size(); ++i) {
+        const MaterialMips& m = data.mips.materials[i];
         const auto wrong = [&](const char* field, std::string reason) {
-            return Error{ExitCode::bad_input, file, fmt::format("/materials/{}/{}", i, field), std::move(reason)};
+            return Error{ExitCode::bad_input, data.name, fmt::format("/mips/materials/{}/{}", i, field), std::move(reason)};
         };
-        if (static_cast<std::size_t>(m.mip_filter) >= mip_filters().size())
-            return wrong("mip_filter", fmt::format("filter {} does not exist", static_cast<int>(m.mip_filter)));
-        if (!(m.mip_kappa >= 0.0f && static_cast<double>(m.mip_kappa) <= kMostKappa))
-            return wrong("mip_kappa", fmt::format("{:g} lies outside 0 to {:g}", m.mip_kappa, kMostKappa));
-        if (m.mip_lobe > kLastLobe)
-            return wrong("mip_lobe", fmt::format("lobe {} does not exist", m.mip_lobe));
+        if (static_cast<std::size_t>(m.filter) >= mip_filters().size())
+            return wrong("filter", fmt::format("filter {} does not exist", static_cast<int>(m.filter)));
+        if (!(m.kappa >= 0.0f && static_cast<double>(m.kappa) <= kMostKappa))
+            return wrong("kappa", fmt::format("{:g} lies outside 0 to {:g}", m.kappa, kMostKappa));
+        if (static_cast<std::uint32_t>(m.lobe) > kLastLobe)
+            return wrong("lobe", fmt::format("lobe {} does not exist", static_cast<std::uint32_t>(m.lobe)));
     }
     return {};
 }
+
+} // namespace
 
 Status check_parts(const SessionParts& parts)
 {
@@ -109,7 +108,7 @@ Status check_parts(const SessionParts& parts)
     const SceneData& data = *parts.scene;
     if (Status ok = check_scene(data.scene, any, data.name); !ok)
         return ok;
-    if (Status ok = check_mip_filters(data.scene, data.name); !ok)
+    if (Status ok = check_scene_mips(data); !ok)
         return ok;
     if (Status ok = check_draw_tables(data.tables, data.scene, data.name); !ok)
         return ok;

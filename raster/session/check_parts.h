@@ -5,10 +5,7 @@
 
 namespace burnish {
 
-// Finds the first material with a mip filter, kappa or gain lobe that does not exist. check_parts() calls this function.
-Status check_mip_filters(const Scene& scene, const std::string& file);
-
-// Finds the first fault in the scene, tables, environment and albedo table, none of which may be null. The error's place names the field.
+// Finds the first fault of scene, tables, environment and albedo table, which are all there; the error's place names the field.
 Status check_parts(const SessionParts& parts);
 
 } // namespace burnish

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <fmt/format.h>
-#include <functional>
 #include <new>
 #include <optional>
 #include <utility>
@@ -82,7 +81,7 @@ Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::stri
         const char* const model = ltc::kModelNames[static_cast<int>(tables->model)];
         if (tables->model != ltc::Model::ggx && lobe_model(lobe).name != std::string_view(model))
             return Error{ExitCode::bad_input, path, "byte 16",
-                         fmt::format("is of {} lobes, which frames with --brdf {} have not", model, lobe_model(lobe).name)};
+                         fmt::format("is of {} lobes, which frames with FrameDesc::brdf {} have not", model, lobe_model(lobe).name)};
         return std::make_shared<const ltc::ShadingTables>(std::move(*tables));
     });
 }
@@ -99,67 +98,80 @@ Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<st
 
 namespace {
 
-// Prepares a scene for drawing. settle: tells mip filters about the maps and heights, once all are in place.
+// What mip filters need to know of maps and heights that are all in their places.
+Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings& asked, const Limits& limits)
+{
+    if (data.mips.baked && given.filter == MipFilter{})
+        take_filters_of_mips(data.scene, data.mips);
+    else if (Status settled = settle_nets(data.scene, data.mips, asked, limits); !settled)
+        return settled;
+    return data.mips.baked ? check_mips(data.scene, data.mips, given.pyramid) : Status();
+}
+
 Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& name, Scene scene, const Limits& limits,
-                                                           const std::function<Status(Scene&)>& settle)
+                                                           const MipSettings& given)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(name, [&]() -> Made {
         auto data = std::make_shared<SceneData>();
         data->name = name;
         data->scene = std::move(scene);
+        MipSettings asked = given; // with the filter of the file of levels, where none is given
+        std::shared_ptr<const MipFile> baked;
+        if (!given.pyramid.empty()) {
+            Result<std::shared_ptr<const MipFile>> read = read_mips(asked, limits);
+            BN_TRY(read);
+            baked = std::move(*read);
+        }
+        data->mips = asked_mips(asked, data->scene.materials.size());
+        data->mips.baked = std::move(baked);
         BN_TRY(lay_directional_roughness(data->scene, limits, name));
         BN_TRY(lay_heights(data->scene, limits, name));
         settle_origin(data->scene);
         BN_TRY(add_emitters(data->scene, limits.area_lights, name));
+        data->mips.materials.resize(data->scene.materials.size());
         update_world(data->scene);
         BN_TRY(check_draw_size(data->scene, limits, name));
         data->tables = make_draw_tables(data->scene);
         BN_TRY(check_draw_range(data->scene, data->tables, name));
         warn_of_steps(data->scene);
-        warn_of_unfiltered(data->scene);
-        BN_TRY(settle(data->scene));
+        warn_of_unfiltered(data->scene, data->mips);
+        BN_TRY(settle_mips(*data, given, asked, limits));
         return std::shared_ptr<const SceneData>(std::move(data));
     });
 }
 
 } // namespace
 
-Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits)
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits,
+                                                         const MipSettings& mips)
 {
     return guarded(name, [&]() -> Result<std::shared_ptr<const SceneData>> {
         fill_missing_columns(scene);
         update_world(scene);
         BN_TRY(check_scene(scene, limits, name));
-        BN_TRY(check_mip_filters(scene, name));
-        return make_settled_data(name, std::move(scene), limits, [](Scene&) { return Status(); });
+        BN_TRY(check_mip_settings(mips));
+        return make_settled_data(name, std::move(scene), limits, mips);
     });
 }
 
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with,
-                                                         const Moment& moment, const std::vector<AreaLight>& lights)
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const MaterialOverrides& overrides,
+                                                         const MipSettings& mips, const Moment& moment,
+                                                         const std::vector<AreaLight>& lights)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
+        BN_TRY(check_mip_settings(mips));
         std::optional<Activity> activity("reading " + spec);
         Result<Scene> scene = load_scene(spec, limits, moment);
         BN_TRY(scene);
-        Dress on = with;
-        if (!with.mip_pyramid.empty())
-            BN_TRY(read_mips(*scene, on, limits));
-        BN_TRY(dress(*scene, on, limits));
+        BN_TRY(apply_material_overrides(*scene, overrides, limits));
         for (AreaLight light : lights) {
             BN_TRY(read_area_texture(*scene, light, limits));
             add_area_light(*scene, light);
         }
         activity.emplace("placing triangles and choosing mip filters");
-        return make_settled_data(spec, std::move(*scene), limits, [&](Scene& s) -> Status {
-            if (s.mips && with.mip_filter == MipFilter{})
-                take_filters_of_mips(s);
-            else if (Status settled = settle_nets(s, on, limits); !settled)
-                return settled;
-            return s.mips ? check_mips(s, with.mip_pyramid) : Status();
-        });
+        return make_settled_data(spec, std::move(*scene), limits, mips);
     });
 }
 

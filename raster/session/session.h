@@ -18,13 +18,14 @@
 #include "core/base/result.h"
 #include "core/jobs/jobs.h"
 #include "core/scene/draw_tables.h"
-#include "core/scene/dress.h"
+#include "core/scene/material_overrides.h"
 #include "core/scene/scene.h"
 #include "raster/frame/frame.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
@@ -36,16 +37,20 @@ struct SceneData { // a scene and its draw tables
     std::string name;
     Scene scene; // world matrices are up to date
     DrawTables tables;
+    SceneMips mips; // how levels of its maps are made, and those that were made beforehand
 };
 
-// Loads a scene: "builtin:NAME" or a path to a .gltf, .glb or .obj file, at one moment in its animation. with: changes to the materials.
-// lights: area lights to add to the scene, in world space.
-Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const Dress& with = {},
+// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
+// scene, in world space.
+Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
+                                                         const MaterialOverrides& overrides = {}, const MipSettings& mips = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
-// Makes scene data from a scene in memory. The limits on pictures, area lights and expanded instances apply here too. Fills missing vertex
-// columns (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault: "/primitives/0/indices/17".
-Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits);
-// Loads "builtin:NAME", an equirectangular picture, or the image-based light in a .gltf or .glb file.
+// From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
+// left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
+// "/primitives/0/indices/17".
+Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits,
+                                                         const MipSettings& mips = {});
+// "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
                                                                    const Limits& limits, const Jobs& jobs);
 // Returns the default environment of a scene: the scene's file if that has an image-based light, else builtin:studio.
@@ -74,7 +79,7 @@ struct SessionParts {
     // Returns the renderer's input. The session must have filled every part that is needed.
     RenderInput input() const
     {
-        return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get(), phong.get()};
+        return {scene->scene, turned ? *turned : scene->tables, *environment, *dfg, *jobs, ltc.get(), phong.get(), scene->mips};
     }
 };
 

@@ -19,20 +19,20 @@ std::vector<Band> bands_of(int height, int rows)
     return bands;
 }
 
-void require_limit(const Context& context, const char* option, const char* limit, std::uint64_t need, std::uint64_t have)
+void require_limit(const Context& context, const char* field, const char* limit, std::uint64_t need, std::uint64_t have)
 {
     if (need > have)
-        throw VulkanError{
-            Error{ExitCode::unavailable, "", option, fmt::format("{} is needed of {}, {} has {}", need, limit, context.info().name, have)}};
+        throw VulkanError{Error{ExitCode::unavailable, "", "",
+                                fmt::format("{} is needed of {}, {} has {}", need, limit, context.info().name, have), field}};
 }
 
 void require_width(const Context& context, int width)
 {
     const Features& f = context.features();
     const auto need = static_cast<std::uint64_t>(width);
-    require_limit(context, "--size", "maxImageDimension2D", need, f.max_image);
-    require_limit(context, "--size", "maxFramebufferWidth", need, f.max_framebuffer_width);
-    require_limit(context, "--size", "maxViewportDimensions", need, static_cast<std::uint64_t>(f.max_viewport));
+    require_limit(context, "FrameDesc::width", "maxImageDimension2D", need, f.max_image);
+    require_limit(context, "FrameDesc::width", "maxFramebufferWidth", need, f.max_framebuffer_width);
+    require_limit(context, "FrameDesc::width", "maxViewportDimensions", need, static_cast<std::uint64_t>(f.max_viewport));
 }
 
 } // namespace burnish

@@ -20,9 +20,9 @@ static_assert(kBandBytes / (kMostBytesAPixel * 16384) >= 2, "the widest picture 
 int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes);
 std::vector<Band> bands_of(int height, int rows);
 
-// Throws ExitCode::unavailable if a device's limit is below the need. limit: the API's name for it.
-void require_limit(const Context& context, const char* option, const char* limit, std::uint64_t need, std::uint64_t have);
-// Checks the limits that pictures with this width need.
+// Throws ExitCode::unavailable where a device takes less of something than is needed. limit: the API's name of it.
+void require_limit(const Context& context, const char* field, const char* limit, std::uint64_t need, std::uint64_t have);
+// What pictures of this width need.
 void require_width(const Context& context, int width);
 
 } // namespace burnish

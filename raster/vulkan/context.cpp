@@ -213,10 +213,10 @@ Context::~Context()
 void Context::make_instance(bool validate)
 {
     if (validate && !layer_present(kValidationLayer))
-        throw VulkanError{Error{ExitCode::unavailable, "", "--validate", "the Khronos validation layer is not installed"}};
+        throw VulkanError{Error{ExitCode::unavailable, "", "", "the Khronos validation layer is not installed", "VulkanOptions::validate"}};
     instance_ = create_instance(validate, &messages_);
     if (!instance_)
-        throw VulkanError{Error{ExitCode::unavailable, "", "--device", "no Vulkan driver is installed"}};
+        throw VulkanError{Error{ExitCode::unavailable, "", "", "no Vulkan driver is installed", "VulkanOptions::device"}};
     if (!validate)
         return;
     const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info(&messages_);
@@ -238,9 +238,10 @@ void Context::choose_device(const VulkanOptions& options)
     };
     std::stable_sort(candidates.begin(), candidates.end(), [&](VkPhysicalDevice a, VkPhysicalDevice b) { return rank(a) < rank(b); });
     if (candidates.empty())
-        throw VulkanError{Error{ExitCode::unavailable, "", "--device",
+        throw VulkanError{Error{ExitCode::unavailable, "", "",
                                 options.device.empty() ? "no Vulkan 1.3 device: " + all_names(all)
-                                                       : "no Vulkan 1.3 device '" + options.device + "': " + all_names(all)}};
+                                                       : "no Vulkan 1.3 device '" + options.device + "': " + all_names(all),
+                                "VulkanOptions::device"}};
     physical_ = candidates.front();
     info_ = info_of(physical_);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
@@ -274,7 +275,8 @@ void Context::make_device()
     while (family_ < count && (families[family_].queueFlags & kBoth) != kBoth)
         ++family_;
     if (family_ == count)
-        throw VulkanError{Error{ExitCode::unavailable, "", "--device", info_.name + " has no queue for graphics and compute"}};
+        throw VulkanError{
+            Error{ExitCode::unavailable, "", "", info_.name + " has no queue for graphics and compute", "VulkanOptions::device"}};
 
     // Create the device
     const float priority = 1.0f;
@@ -363,7 +365,7 @@ std::uint32_t Context::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags 
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
         if ((allowed >> i & 1u) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted)
             return i;
-    throw VulkanError{Error{ExitCode::unavailable, "", "--device", info_.name + " lacks a kind of memory"}};
+    throw VulkanError{Error{ExitCode::unavailable, "", "", info_.name + " lacks a kind of memory", "VulkanOptions::device"}};
 }
 
 bool Context::host_visible_device_memory() const

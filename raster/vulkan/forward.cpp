@@ -40,8 +40,9 @@ void ForwardPass::make_targets(const FrameDesc& desc, std::size_t band_bytes)
 {
     require_width(context_, desc.width);
     if (!(context_.features().target_samples & static_cast<VkSampleCountFlags>(desc.msaa)))
-        throw VulkanError{Error{ExitCode::unavailable, "", "--pipeline",
-                                fmt::format("forward: {} cannot take {} samples a pixel", context_.info().name, desc.msaa)}};
+        throw VulkanError{Error{ExitCode::unavailable, "", "",
+                                fmt::format("forward: {} cannot take {} samples a pixel", context_.info().name, desc.msaa),
+                                "VulkanOptions::pipeline"}};
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
     const int rows =
         band_rows(desc.width, desc.height, desc.stages ? msaa * kSampleWords * sizeof(float) : std::max(kTexelBytes, msaa * 4), band_bytes);

@@ -14,7 +14,7 @@ static_assert(sizeof(GpuVertex) == kVertexWords * sizeof(std::uint32_t));
 template <class T> Buffer filled(Context& context, const std::vector<T>& table, VkBufferUsageFlags more = 0)
 {
     const std::size_t bytes = table.size() * sizeof(T);
-    require_limit(context, "SCENE", "maxStorageBufferRange", bytes, context.features().max_buffer);
+    require_limit(context, "SessionParts::scene", "maxStorageBufferRange", bytes, context.features().max_buffer);
     return make_filled_buffer(context, table.data(), bytes, more);
 }
 
@@ -79,7 +79,7 @@ void GpuScene::upload_tables(Context& context)
         return static_cast<int>(at);
     };
     const std::size_t vertices = t.px.size();
-    require_limit(context, "SCENE", "maxDrawIndexedIndexValue", vertices, context.features().max_index);
+    require_limit(context, "SessionParts::scene", "maxDrawIndexedIndexValue", vertices, context.features().max_index);
     places.position_base[0] = append(reals, t.px.data(), vertices);
     places.position_base[1] = append(reals, t.py.data(), vertices);
     places.position_base[2] = append(reals, t.pz.data(), vertices);

@@ -56,20 +56,21 @@ glm::vec3 vec3(const float* v)
 const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
 {
     if (f.key_light_count > 0)
-        return "key lights (--key-lights off leaves them in the environment)";
+        return "key lights (EnvironmentOptions::key_lights off leaves them in the environment)";
     if (f.light_count > 0)
         return "punctual lights";
     if (f.area_light_count > 0)
-        return "area lights (--area-lights off)";
+        return "area lights (FrameDesc::area_way off)";
     if (f.lobe != lobe_with(kLobeOfAll))
-        return "lobes other than the usual one (--brdf, --tilt, --masking)";
+        return "lobes other than the usual one (FrameDesc::brdf, FrameDesc::tilt, FrameDesc::masking)";
     if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || f.horizon != 0 || desc.specular_aa ||
         desc.frame_map != 0)
-        return "--dfg fit, --fresnel, --energy-compensation, --horizon on under normal maps, --specular-aa and --frame-map";
+        return "FrameDesc::dfg_fit fit, FrameDesc::fresnel, FrameDesc::energy_compensation, FrameDesc::horizon on under normal maps, "
+               "FrameDesc::specular_aa and FrameDesc::frame_map";
     if (desc.seed != 0)
-        return "--seed";
+        return "FrameDesc::seed";
     if (desc.technique == "major_axis_adaptive" && desc.major_axis_k != 1.0f)
-        return "major_axis_adaptive with another --axis-k than 1";
+        return "major_axis_adaptive with another FrameDesc::major_axis_k than 1";
     return nullptr;
 }
 

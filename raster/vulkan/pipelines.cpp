@@ -61,7 +61,7 @@ Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines
     folder_ = options.shader_folder;
     const VkDevice device = context.device();
     const bool lean = options.pipeline == VulkanPipeline::lean, native = lean || options.sampler == VulkanSampler::native;
-    require_limit(context, "--device", "maxPerStageDescriptorStorageBuffers", kBufferBindings, context.features().max_buffers);
+    require_limit(context, "VulkanOptions::device", "maxPerStageDescriptorStorageBuffers", kBufferBindings, context.features().max_buffers);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < kBindings; ++i)
         bindings.push_back({i, i < kBufferBindings ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
@@ -114,11 +114,11 @@ Pipelines::~Pipelines()
 void Pipelines::make_native_layout(bool lean)
 {
     const Features& f = context_.features();
-    const char* const option = lean ? "--pipeline" : "--sampler";
+    const char* const field = lean ? "VulkanOptions::pipeline" : "VulkanOptions::sampler";
     constexpr std::uint32_t kOfLean = 4; // make_lean_layout()
     const std::uint32_t bound = kGpuCubes + kTextureSlots + (lean ? kOfLean : 0);
-    require_limit(context_, option, "maxPerStageDescriptorSamplers", bound, f.max_samplers);
-    require_limit(context_, option, "maxPerStageDescriptorSampledImages", bound, f.max_sampled_images);
+    require_limit(context_, field, "maxPerStageDescriptorSamplers", bound, f.max_samplers);
+    require_limit(context_, field, "maxPerStageDescriptorSampledImages", bound, f.max_sampled_images);
     const VkDescriptorSetLayoutBinding native[] = {
         {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};

@@ -109,7 +109,7 @@ class VulkanRenderer final : public Renderer {
 
 void VulkanRenderer::make_setups(std::uint32_t capacity)
 {
-    require_limit(context_, "SCENE", "maxStorageBufferRange", capacity * sizeof(GpuSetup), context_.features().max_buffer);
+    require_limit(context_, "SessionParts::scene", "maxStorageBufferRange", capacity * sizeof(GpuSetup), context_.features().max_buffer);
     setups_ = Buffer(context_, capacity * sizeof(GpuSetup), Buffer::Place::host);
     setup_capacity_ = capacity;
 }
@@ -539,13 +539,14 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
     BN_TRY(scene_.check(desc));
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
     if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))
-        return Error{ExitCode::usage, "", "--pipeline", "lean has neither stages nor triangle ids"};
+        return Error{ExitCode::usage, "", "", "lean has neither stages nor triangle ids", "VulkanOptions::pipeline"};
     if (forward && (desc.layers || desc.parts))
-        return Error{ExitCode::usage, "", "--pipeline", "only ids has layers and parts of pixels"};
+        return Error{ExitCode::usage, "", "", "only ids has layers and parts of pixels", "VulkanOptions::pipeline"};
     if (device_->options.pipeline == VulkanPipeline::forward && blends())
-        return Error{ExitCode::usage, "", "--pipeline", "forward does not sort blended surfaces, which the scene has; ids does"};
+        return Error{ExitCode::usage, "", "", "forward does not sort blended surfaces, which the scene has; ids does",
+                     "VulkanOptions::pipeline"};
     if (forward && desc.triangle_ids && !desc.stages)
-        return Error{ExitCode::usage, "", "--pipeline", "forward has triangle ids only among its stages"};
+        return Error{ExitCode::usage, "", "", "forward has triangle ids only among its stages", "VulkanOptions::pipeline"};
     try {
         const double begin = wall_ms();
         Frame frame = forward ? render_forward(desc) : render_ids(desc);

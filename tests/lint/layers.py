@@ -13,6 +13,31 @@ LAYERS = {"core": 0, "shading": 1, "raster": 2, "apps": 3}  # a layer includes i
 EVERYWHERE = ("tests", "bench")                              # they see all layers
 RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame; raster/session sees them all
 
+# The rooms of each layer. A room includes itself and those before it; a room within a room is a room of its own. Tables (*.def) lie
+# beside the order: who is named in one includes it.
+ROOMS = {
+    "core": ("base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/gltf"),
+    "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
+                "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip"),
+    "raster": ("frame", "tile", "vulkan", "reference", "session"), # renderers do not include each other, see RENDERERS
+    "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "plot", "bake", "chart", "parity", "profile",
+             "lab/train", "lab/atlas", "lab"),
+}
+# Known exceptions: a file, the room that it includes out of order, and why.
+GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"
+CXX_SIDE = "what a stage is in C++ calls kernels: with its callers in raster it would be a room between kernels and surface"
+OUT_OF_ORDER = {
+    ("shading/lang/frame.h", "stages"): GLSL_SIDE,
+    ("shading/lang/recorder.h", "stages"): GLSL_SIDE,
+    ("shading/lang/stage.h", "stages"): GLSL_SIDE,
+    ("shading/lang/triangle.h", "stages"): GLSL_SIDE,
+    ("shading/lang/cube_sum.h", "kernels"): CXX_SIDE,
+    ("shading/lang/texture_fetch.h", "kernels"): CXX_SIDE,
+    ("shading/lang/texture_fetch.h", "surface"): CXX_SIDE,
+    ("shading/lang/stage_cxx.h", "kernels"): CXX_SIDE,
+    ("shading/lang/stage_cxx.h", "surface"): CXX_SIDE,
+}
+
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
     (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
@@ -32,12 +57,19 @@ THIRD_PARTY = (
 INTERFACE = "shading/stages/interface.glsl" # defines texel pages for all later includes
 
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
-SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp")
+SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp", ".glsl")
 TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
 VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
 MAX_LINES, MAX_LINES_SIMD = 600, 900
 
-# Each word is written in two pieces, so that this file does not contain it.
+# Libraries name fields of settings; the program knows which option sets one (apps/cli/field_options.cpp).
+LIBRARIES = ("core", "shading", "raster")
+LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+# Core describes what files say; mip filters and nets are of those who bake.
+NOT_OF_CORE = re.compile(r"\b(mipnet|MipFile|MipFilter|MipSettings|SceneMips)\b")
+
+# Each word is written in two pieces, so that this file does not hold it.
 FORBIDDEN = (
     (re.compile("ffast" + "-math|Of" + r"ast\b|ffp-con" + "tract=(?!off)"), "arithmetic that is not the same everywhere"),
     (re.compile(r"_mm\w*_(rc" + "p|rsq" + "rt)|vrc" + "p|vrsq" + "rt"), "approximate reciprocals: processors differ"),
@@ -65,6 +97,13 @@ def lies_in(path, folders):
     return any(path.is_relative_to(folder) for folder in folders)
 
 
+def room_of(path):
+    """The innermost room that a file of a layer lies in, or None."""
+    inside = str(path.parent).partition("/")[2]
+    within = [room for room in ROOMS[path.parts[0]] if inside == room or inside.startswith(room + "/")]
+    return max(within, key=len, default=None)
+
+
 def is_kernel(path):
     """Returns True for text in the kernel language, which C++ and GLSL read."""
     return path.parts[0] == "shading" and path.name.endswith((".k.h", ".t.h"))
@@ -87,6 +126,10 @@ def check_include(path, quoted, name, files):
     other = target.parts[0]
     if top in LAYERS and LAYERS.get(other, 99) > LAYERS[top]:
         yield f'{top} includes "{name}", which lies above it'
+    if top == other and top in ROOMS and target.suffix != ".def":
+        mine, theirs, order = room_of(path), room_of(target), ROOMS[top]
+        if mine and theirs and order.index(theirs) > order.index(mine) and (str(path), theirs) not in OUT_OF_ORDER:
+            yield f'{top}/{mine} includes "{name}", which comes after it in the order of rooms'
     if top in LAYERS and "lab" in target.parts and "lab" not in path.parts:
         yield f'includes "{name}" of a laboratory, which no file of the product knows'
     if is_kernel(path) and not (lies_in(target, ("shading/lang",)) or is_kernel(target) or target.match("shading/*.def")):
@@ -128,9 +171,26 @@ def check_source(path, lines, files):
                 yield number, fault
         if TICKS.search(line) and path != pathlib.PurePosixPath("core/simd/ticks.h"):
             yield number, "reads the processor's counter: ticks() does"
+    if top in ROOMS and path.suffix in (".h", ".cpp") and not room_of(path):
+        yield 0, "lies in no room that has a place in the order"
+    for (file, room), _ in OUT_OF_ORDER.items():
+        if str(path) == file and not any(f'#include "{top}/{room}/' in line for line in lines):
+            yield 0, f"is excepted for {top}/{room}, which it does not include"
     limit = MAX_LINES_SIMD if path.is_relative_to("core/simd") else MAX_LINES
     if len(lines) > limit:
         yield limit, f"{len(lines)} lines, more than {limit}"
+
+
+def check_words(path, lines):
+    """Faults of what libraries say and name."""
+    top = path.parts[0]
+    for number, line in enumerate(lines, 1):
+        if top in LIBRARIES and path.suffix in (".h", ".cpp", ".def") and not line.lstrip().startswith("//"):
+            for literal in LITERAL.findall(line):
+                if OPTION.search(literal):
+                    yield number, f'says "{literal}": a library names the field, the program its option'
+        if top == "core" and path.suffix in (".h", ".cpp", ".def") and NOT_OF_CORE.search(line):
+            yield number, f"core names {NOT_OF_CORE.search(line)[0]}, which lies above it"
 
 
 def faults(root):
@@ -151,7 +211,7 @@ def faults(root):
                 if pattern.search(line):
                     yield path, number, f"'{pattern.search(line)[0]}': {why}"
         if path.suffix in SOURCES or path.suffix == ".def":
-            for number, fault in check_source(path, lines, files):
+            for number, fault in (*check_source(path, lines, files), *check_words(path, lines)):
                 yield path, number, fault
 
 

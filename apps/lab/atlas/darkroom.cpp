@@ -4,8 +4,8 @@
 
 #include "apps/chart/noise.h"
 #include "apps/cli/open.h"
-#include "apps/cli/scene_view.h"
 #include "apps/lab/atlas/trial_tables.h"
+#include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "raster/reference/scene_key.h"
 #include "raster/tile/double_renderer.h"
@@ -75,7 +75,7 @@ Result<const SessionParts*> Darkroom::parts_of(const AtlasSetting& setting)
         return &found->second;
     if (!scenes_.count(setting.scene_key)) {
         make_room(scenes_);
-        Result<std::shared_ptr<const SceneData>> scene = open_scene(o.scene, o.limits, o.dress, o.moment, o.lights);
+        Result<std::shared_ptr<const SceneData>> scene = open_scene(o.scene, o.limits, o.overrides, o.mips, o.moment, o.lights);
         BN_TRY(scene);
         scenes_[setting.scene_key] = std::move(*scene);
     }

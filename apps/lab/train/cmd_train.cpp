@@ -14,7 +14,7 @@
 #include "apps/cli/values.h"
 #include "apps/report/json.h"
 #include "core/base/clock.h"
-#include "shading/bake/mipnet/evaluate.h"
+#include "shading/bake/mip/evaluate.h"
 #include "shading/bake/mipnet/train.h"
 
 namespace burnish {
@@ -135,7 +135,6 @@ Status read_given(TrainArguments& a)
     mipnet::TrainOptions& t = a.train;
     if (t.only_maps = !a.only_maps.empty(); t.only_maps || !a.maps.empty()) {
         const std::string& folder = t.only_maps ? a.only_maps : a.maps;
-        t.maps_name = told_name(folder);
         Result<std::vector<mipnet::TestMaterial>> maps = real_materials(folder, a.limits);
         BN_TRY(maps);
         for (mipnet::TestMaterial& m : *maps)
@@ -147,7 +146,7 @@ Status read_given(TrainArguments& a)
         if (read->shape.lobe != t.shape.lobe)
             return Error{ExitCode::bad_input, a.taught_by, "",
                          fmt::format("is of lobes of {}, not of {}", mipnet::lobe_name(read->shape.lobe), mipnet::lobe_name(t.shape.lobe))};
-        t.taught_by_name = told_name(a.taught_by), t.taught_by = std::make_shared<const mipnet::Weights>(std::move(*read));
+        t.taught_by = std::make_shared<const mipnet::Weights>(std::move(*read));
     }
     if (a.from.empty())
         return {};
@@ -158,8 +157,35 @@ Status read_given(TrainArguments& a)
                      fmt::format("is of lobes of {}, layout {}, size {} and footprint {}, other than what is to be trained",
                                  mipnet::lobe_name(read->shape.lobe), mipnet::layout_name(read->shape.layout),
                                  mipnet::size_name(read->shape), read->shape.far ? 8 : 4)};
-    t.from_name = told_name(a.from), t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
+    t.from = std::make_shared<const mipnet::Weights>(std::move(*read));
     return {};
+}
+
+// Returns the command that makes the same weights, without their name.
+std::string command_of(const TrainArguments& a)
+{
+    const mipnet::TrainOptions& t = a.train;
+    std::string words = fmt::format("burnish train mip --brdf {} --layout {} --size {} --steps {} --seed {}", lobe_name(t.shape.lobe),
+                                    layout_name(t.shape.layout), size_name(t.shape), t.steps, t.seed);
+    if (t.loss != mipnet::Loss::l1)
+        words += t.loss == mipnet::Loss::l2 ? " --loss l2" : " --loss charbonnier";
+    if (t.tone != mipnet::Tone::display)
+        words += " --tone log";
+    if (t.mirrored != mipnet::kUsualMirrored)
+        words += fmt::format(" --mirrored {}", t.mirrored);
+    if (t.light != 0.0)
+        words += fmt::format(" --light {}", t.light);
+    if (t.shape.far)
+        words += " --footprint 8";
+    if (t.levels != mipnet::kTrainedLevels)
+        words += fmt::format(" --levels {}", t.levels);
+    if (!t.maps.empty())
+        words += fmt::format(" {} {}", t.only_maps ? "--only-maps" : "--maps", told_name(t.only_maps ? a.only_maps : a.maps));
+    if (t.from)
+        words += fmt::format(" --from {}", told_name(a.from));
+    if (t.taught_by)
+        words += fmt::format(" --taught-by {}", told_name(a.taught_by));
+    return words;
 }
 
 int run_training(TrainArguments& a, Report& report)
@@ -187,7 +213,7 @@ int run_training(TrainArguments& a, Report& report)
                                          1e-3 * (wall_ms() - begin_ms)));
         sum = 0.0, summed = 0;
     };
-    // Train, and write the weights
+    a.train.command = command_of(a);
     const Result<std::optional<mipnet::Weights>> trained = mipnet::train(a.train, jobs);
     progress.reset();
     if (!trained)

@@ -237,7 +237,7 @@ Status check_sides(const ImageBytes& file, std::int64_t width, std::int64_t heig
                           fmt::format("more than the limit of {} pixels a side", limits.image_side));
     if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > limits.image_pixels)
         return file.error(fmt::format("header: {} x {} pixels", width, height),
-                          fmt::format("more than the limit of {} pixels (of an environment: --limit-env-pixels)", limits.image_pixels));
+                          fmt::format("more than the limit of {} pixels (of an environment: Limits::env_pixels)", limits.image_pixels));
     return {};
 }
 

@@ -19,11 +19,11 @@ constexpr Maker<Scene> kScenes[] = {
     {{"spheres", "silver spheres over roughness (right) and anisotropy (up)"}, make_spheres},
     {{"sphere", "one of them under a lamp, to look at a single lobe"}, make_sphere},
     {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
-    {{"lights", "a dark room: brushed plates and spheres under area lights, for --env builtin:night"}, make_lights},
-    {{"glass", "balls and a ring of glass on a turned steel disc, for --technique mc and the reference"}, make_glass},
+    {{"lights", "a dark room: brushed plates and spheres under area lights, for the environment builtin:night"}, make_lights},
+    {{"glass", "balls and a ring of glass on a turned steel disc, for technique mc and the reference"}, make_glass},
     {{"bumps", "a hammered sphere, a turned disc, a record and tiles: surfaces whose look is in their maps"}, make_bumps},
     {{"lacquer", "a carbon weave, car paint and brushed steel under clear coats, on satin plastic"}, make_lacquer},
-    {{"shaderballs", "twelve balls whose look is in their maps, near, far and grazing: for --mip-filter and --camera"}, make_shaderballs},
+    {{"shaderballs", "twelve balls whose look is in their maps, near, far and grazing: for mip filters and cameras"}, make_shaderballs},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},

@@ -1,43 +1,22 @@
-// Builds tables of generated scenes: samples parametric surfaces on grids. A primitive holds one grid after another.
+// What the generated scenes are made with, besides grids (core/scene/grid.h).
 #pragma once
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 
 #include "core/scene/builtin/builtin.h"
+#include "core/scene/grid.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
 
-struct SurfacePoint {
-    glm::dvec3 position{0.0}; // metres, object space
-    glm::dvec3 normal{0.0};   // any length above 0
-    glm::dvec3 tangent{0.0};  // not parallel to the normal
-    double u = 0.0, v = 0.0;  // texture coordinates; v = 0 is the top row
-    double shade = 1.0;       // vertex colour, gray
-};
-
-using Surface = std::function<SurfacePoint(int column, int row)>;
-
-// Appends an empty primitive and returns its id.
-std::uint32_t begin_primitive(Scene& scene, std::int32_t material);
-
-// Appends (columns + 1) x (rows + 1) vertices and their triangles to the last primitive. Front faces are those where
-// columns turn into rows counter-clockwise; bitangents are cross(normal, tangent). Triangles come in 8 x 8 blocks of
-// quads, so that clusters are compact. Collapsed triangles, as at a pole, are left out.
-void add_grid(Scene& scene, int columns, int rows, const Surface& surface);
-
-// Adds a sphere around the origin. Tangents point east.
+// About the origin. Tangents point east.
 void add_sphere(Scene& scene, int meridians, int parallels, double radius);
 
 // Returns metal with GGX widths alpha_lin^2 (1 +- eta) along and across the tangent.
 Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
 
-// Makes a mesh from the primitives from `first_primitive` on, and returns the mesh. add_node() places a mesh.
-std::int32_t add_mesh(Scene& scene, const char* name, std::uint32_t first_primitive);
-void add_node(Scene& scene, const char* name, std::int32_t mesh, const glm::mat4& local);
-
-// Returns a node at `eye` whose -Z axis points at `target`, for cameras and lights. The direction must not be along +Y.
+// What shines along -Z, or looks there, from `eye` at `target`, not along +Y.
 Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target);
 
 // Returns noise in [0,1) without a visible pattern, equal everywhere.

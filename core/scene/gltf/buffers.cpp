@@ -57,7 +57,7 @@ std::string percent_decode(const std::string& uri, const std::string& place)
 
 void check_below_folder(const std::string& path, const std::string& place)
 {
-    const char* const kRule = ": files must lie below the scene's folder (--allow-outside-uris)";
+    const char* const kRule = ": files must lie below the scene's folder (Limits::uris_outside)";
     if (path.front() == '/' || path.front() == '\\')
         fail(place, "absolute path " + printable(path) + kRule);
     std::string_view rest = path;
@@ -133,7 +133,7 @@ std::vector<std::uint8_t> decode_data_uri(const Document& doc, const std::string
         fail(place, "the data URI is not base64");
     const std::string_view data = text.substr(comma + 1);
     if (data.size() / 4 * 3 > doc.limits.data_uri_bytes)
-        fail(place, fmt::format("the data URI holds more than {} bytes (--limit-data-uri-bytes)", doc.limits.data_uri_bytes));
+        fail(place, fmt::format("the data URI holds more than {} bytes (Limits::data_uri_bytes)", doc.limits.data_uri_bytes));
     return base64_decode(data, place);
 }
 
@@ -149,7 +149,7 @@ std::string canonical_path(const Document& doc, const std::string& path, const s
     const fs::path folder = fs::canonical(doc.folder.empty() ? "." : doc.folder, failed);
     const bool below = !failed && std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
     if (!below && !doc.limits.uris_outside)
-        fail(place, "path " + printable(path) + " leads through a link out of the scene's folder (--allow-outside-uris)");
+        fail(place, "path " + printable(path) + " leads through a link out of the scene's folder (Limits::uris_outside)");
     return file.string();
 }
 
@@ -160,7 +160,7 @@ std::vector<std::uint8_t> read_counted(Document& doc, const std::string& file, c
     std::error_code failed;
     const std::uint64_t size = std::filesystem::file_size(file, failed);
     if (!failed && size > left)
-        fail(place, fmt::format("the scene's files hold more than {} bytes (--limit-input-bytes)", doc.limits.input_bytes));
+        fail(place, fmt::format("the scene's files hold more than {} bytes (Limits::input_bytes)", doc.limits.input_bytes));
     std::vector<std::uint8_t> bytes = read_file_bytes(file, std::min(doc.limits.file_bytes, left), place);
     doc.scene.files.push_back(path);
     doc.input_bytes += bytes.size();

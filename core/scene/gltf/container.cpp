@@ -48,13 +48,13 @@ void check_json_text(const char* text, std::uint64_t size, std::uint64_t first_b
             in_string = true;
         } else if (c == '{' || c == '[') {
             if (++depth > limits.json_depth)
-                fail(at_byte(first_byte + i), fmt::format("JSON is nested deeper than {} (--limit-json-depth)", limits.json_depth));
+                fail(at_byte(first_byte + i), fmt::format("JSON is nested deeper than {} (Limits::json_depth)", limits.json_depth));
         } else if (c == '}' || c == ']') {
             --depth;
         }
         values += c == ',' || c == '{' || c == '[';
         if (values > most_values)
-            fail(at_byte(first_byte + i), fmt::format("JSON holds more than {} values (grows with --limit-file-bytes)", most_values));
+            fail(at_byte(first_byte + i), fmt::format("JSON holds more than {} values (grows with Limits::file_bytes)", most_values));
     }
 }
 

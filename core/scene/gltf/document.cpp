@@ -35,7 +35,7 @@ void Document::warn(const std::string& line)
 void Document::fault(const std::string& place, const std::string& reason)
 {
     if (limits.strict)
-        fail(place, reason + " (--strict)");
+        fail(place, reason + " (Limits::strict)");
     warn(place + ": " + reason);
 }
 
@@ -46,7 +46,7 @@ void Document::charge(std::uint64_t more, const std::string& place)
         fail(place, "the decoded size overflows");
     charged_bytes += more;
     if (charged_bytes > limits.accessor_bytes)
-        fail(place, fmt::format("the scene's vertex data needs more than {} bytes (--limit-accessor-bytes)", limits.accessor_bytes));
+        fail(place, fmt::format("the scene's vertex data needs more than {} bytes (Limits::accessor_bytes)", limits.accessor_bytes));
     if (charged_bytes > plausible)
         fail(place, fmt::format("the scene's vertex data needs more than {} bytes, which is out of proportion to the "
                                 "{} bytes of input",

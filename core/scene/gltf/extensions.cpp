@@ -17,7 +17,7 @@ const std::vector<GltfFeature>& gltf_features()
     using enum GltfSupport;
     static const std::vector<GltfFeature> table = {
         {"EXT_lights_image_based", in_part,
-         "where no --env is given: rotation, intensity and the first level's images, of which all else is made"},
+         "where no environment is given: rotation, intensity and the first level's images, of which all else is made"},
         {"EXT_mesh_gpu_instancing", supported, "translation, rotation, scale"},
         {"EXT_meshopt_compression", supported, "all modes and filters"},
         {"EXT_texture_webp", supported, ""},
@@ -40,7 +40,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_texture_basisu", ignored, "the texture's plain image is drawn, where it has one"},
         {"KHR_texture_transform", supported, ""},
         {"KHR_xmp_json_ld", ignored, "nothing to see"},
-        {"animations", in_part, "one moment, at --time; of nodes and morph targets"},
+        {"animations", in_part, "one moment, at Moment::seconds; of nodes and morph targets"},
         {"morph targets", supported, "positions, normals, tangents"},
         {"points and lines", ignored, "left out"},
         {"skins", supported, ""},

@@ -75,7 +75,7 @@ void check_forest(const Document& doc, const std::vector<int>& parent)
         for (auto it = path.rbegin(); it != path.rend(); ++it) {
             depth[*it] = ++below;
             if (below > doc.limits.node_depth)
-                fail(place_of(*it), fmt::format("nodes are nested deeper than {} (--limit-node-depth)", doc.limits.node_depth));
+                fail(place_of(*it), fmt::format("nodes are nested deeper than {} (Limits::node_depth)", doc.limits.node_depth));
         }
     }
 }
@@ -156,7 +156,7 @@ int load_area_light(Document& doc, const Json& node, const std::string& node_pla
         fail(place, fault);
     doc.scene.area_lights.push_back(std::move(light));
     if (doc.scene.area_lights.size() > static_cast<std::size_t>(doc.limits.area_lights))
-        fail(place, fmt::format("the scene has more than {} area lights (--limit-lights)", doc.limits.area_lights));
+        fail(place, fmt::format("the scene has more than {} area lights (Limits::area_lights)", doc.limits.area_lights));
     return static_cast<int>(doc.scene.area_lights.size()) - 1;
 }
 

@@ -67,7 +67,7 @@ Image decode(Document& doc, int image, Bytes bytes, bool floats)
     for (const std::string& warning : notes.warnings)
         doc.warn(fmt::format("image {} {}", image, printable(warning)));
     if (decoded->bytes.size() > limits.texture_bytes)
-        fail(place, fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", doc.limits.texture_bytes));
+        fail(place, fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", doc.limits.texture_bytes));
     return std::move(*decoded);
 }
 

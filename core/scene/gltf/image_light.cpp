@@ -51,7 +51,7 @@ void check_image_light(Document& doc, const Json& light, const std::string& plac
     const std::uint64_t pixels = 8 * size * size; // of the full-sky image that the light becomes
     if (pixels > doc.limits.env_pixels)
         fail(place + "/specularImageSize",
-             fmt::format("an environment of such faces has {} pixels, more than {} (--limit-env-pixels)", pixels, doc.limits.env_pixels));
+             fmt::format("an environment of such faces has {} pixels, more than {} (Limits::env_pixels)", pixels, doc.limits.env_pixels));
 }
 
 } // namespace

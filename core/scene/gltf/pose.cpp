@@ -122,11 +122,11 @@ void set_moment(Document& doc, const Moment& moment)
     const std::size_t count = table_size(doc.json, "animations");
     if (!moment.seconds) {
         if (count > 0)
-            doc.warn("animations are drawn at --time only; the scene is drawn as it rests");
+            doc.warn("animations are drawn at Moment::seconds only; the scene is drawn as it rests");
         return;
     }
     if (static_cast<std::size_t>(moment.animation) >= count)
-        fail("/animations", fmt::format("has no animation {} (--animation); the file has {}", moment.animation, count));
+        fail("/animations", fmt::format("has no animation {} (Moment::animation); the file has {}", moment.animation, count));
     const Json animation = doc.json["animations"][static_cast<std::size_t>(moment.animation)];
     const std::string place = fmt::format("/animations/{}", moment.animation);
     double end = 0.0;
@@ -137,7 +137,7 @@ void set_moment(Document& doc, const Moment& moment)
     }
     const double time = static_cast<double>(*moment.seconds);
     if (time > end)
-        doc.warn(fmt::format("animation {} ends at {:g} s; drawn as it is then (--time)", moment.animation, end));
+        doc.warn(fmt::format("animation {} ends at {:g} s; drawn as it is then (Moment::seconds)", moment.animation, end));
     for (std::size_t i = 0; i < animation["channels"].size(); ++i)
         move_node(doc, animation["channels"][i], animation["samplers"], time, fmt::format("{}/channels/{}", place, i));
 }

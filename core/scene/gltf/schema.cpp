@@ -477,7 +477,7 @@ void check_version_and_extensions(Document& doc)
     // Warn of unsupported used extensions
     for (const Json& name : doc.json.value("extensionsUsed", Json::array()))
         if (!is_read(name) && doc.limits.strict)
-            fail("/extensionsUsed", "extension " + printable(name) + " is not supported (--strict)");
+            fail("/extensionsUsed", "extension " + printable(name) + " is not supported (Limits::strict)");
         else if (!is_read(name))
             doc.warn(ignored_warning(printable(name)));
 }

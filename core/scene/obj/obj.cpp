@@ -223,7 +223,7 @@ Result<std::vector<std::vector<obj::Corner>>> cut_polygons(obj::Parsed& parsed, 
             corners += 3 * (count - 2);
             if (corners * kCornerBytes > limits.accessor_bytes)
                 return Error{ExitCode::bad_input, path, "",
-                             fmt::format("its faces need more than {} bytes (--limit-accessor-bytes)", limits.accessor_bytes)};
+                             fmt::format("its faces need more than {} bytes (Limits::accessor_bytes)", limits.accessor_bytes)};
             std::vector<glm::dvec3> points;
             for (std::size_t i = first; i < first + count; ++i)
                 points.push_back(position_of(parsed, group.corners[i]));

@@ -127,7 +127,7 @@ class Parser {
             return smoothing(numbers);
         case Kind::material:
             if (said_.insert("materials").second)
-                warn("its materials (MTL) are not read; all of it is white (--material FOLDER)");
+                warn("its materials (MTL) are not read; all of it is white (MaterialOverrides::material)");
             return;
         case Kind::points:
             return warn_once("points", "points and lines are not drawn");

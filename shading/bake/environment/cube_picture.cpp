@@ -61,7 +61,7 @@ std::string cube_picture_fault(const Image& faces, std::uint64_t most_pixels)
         return fmt::format("says cube, and {} x {} pixels are no six square faces one below the other", faces.width, faces.height);
     const std::uint64_t pixels = 8 * static_cast<std::uint64_t>(faces.width) * static_cast<std::uint64_t>(faces.width);
     if (pixels > most_pixels)
-        return fmt::format("an environment of such faces has {} pixels, more than {} (--limit-env-pixels)", pixels, most_pixels);
+        return fmt::format("an environment of such faces has {} pixels, more than {} (Limits::env_pixels)", pixels, most_pixels);
     return "";
 }
 

@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene/scene.h"
-
 namespace burnish {
+
+// A line of BN_MIP_FILTER in shading/models.def, by its place.
+enum class MipFilter : std::int32_t {};
 
 namespace mipnet {
 struct Weights;

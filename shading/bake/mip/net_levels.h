@@ -1,10 +1,10 @@
 // Mip levels by a net (shading/bake/mipnet), and a check that the net is good enough for a material.
 #pragma once
 #include "core/jobs/jobs.h"
+#include "shading/bake/mip/fallback.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/bake/mip/source.h"
-#include "shading/bake/mipnet/fallback.h"
 
 namespace burnish {
 

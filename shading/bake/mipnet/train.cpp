@@ -23,7 +23,9 @@ constexpr int kWarmSteps = 100; // with a growing rate
 
 std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
 {
-    std::string words = fmt::format("{} {} {} {} {} {:x}", train_command(o), o.shards, o.pairs, o.seeds, o.side, set.hash);
+    std::string words = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {:x}", lobe_name(o.shape.lobe),
+                                    layout_name(o.shape.layout), size_name(o.shape), o.shape.far, o.steps, o.seed, static_cast<int>(o.loss),
+                                    static_cast<int>(o.tone), o.mirrored, o.light, o.levels, o.shards, o.pairs, o.seeds, o.side, set.hash);
     if (o.from)
         words += fmt::format(" {:x}", net_hash(*o.from));
     if (o.taught_by)
@@ -118,31 +120,6 @@ TrainingSet training_set(const TrainOptions& o, const Jobs& jobs)
 
 } // namespace
 
-std::string train_command(const TrainOptions& o)
-{
-    std::string words = fmt::format("burnish train mip --brdf {} --layout {} --size {} --steps {} --seed {}", lobe_name(o.shape.lobe),
-                                    layout_name(o.shape.layout), size_name(o.shape), o.steps, o.seed);
-    if (o.loss != Loss::l1)
-        words += o.loss == Loss::l2 ? " --loss l2" : " --loss charbonnier";
-    if (o.tone != Tone::display)
-        words += " --tone log";
-    if (o.mirrored != kUsualMirrored)
-        words += fmt::format(" --mirrored {}", o.mirrored);
-    if (o.light != 0.0)
-        words += fmt::format(" --light {}", o.light);
-    if (o.shape.far)
-        words += " --footprint 8";
-    if (o.levels != kTrainedLevels)
-        words += fmt::format(" --levels {}", o.levels);
-    if (!o.maps.empty())
-        words += fmt::format(" {} {}", o.only_maps ? "--only-maps" : "--maps", o.maps_name);
-    if (o.from)
-        words += fmt::format(" --from {}", o.from_name);
-    if (o.taught_by)
-        words += fmt::format(" --taught-by {}", o.taught_by_name);
-    return words;
-}
-
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs)
 {
     const Fns& fns = pick<Fns>(options.isa);
@@ -206,7 +183,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     // Round the average to halves
     Weights w;
     w.shape = options.shape, w.seed = options.seed, w.steps = t.step, w.data = set.hash;
-    w.families = options.only_maps ? std::string() : trained_families(), w.command = train_command(options);
+    w.families = options.only_maps ? std::string() : trained_families(), w.command = options.command;
     w.numbers = t.mean;
     for (float& number : w.numbers)
         number = half_to_float(float_to_half(number));

@@ -26,17 +26,15 @@ struct TrainOptions {
     Tone tone = Tone::display;
     double mirrored = kUsualMirrored;         // share of direction pairs near highlights
     double light = 0.0;                       // weight of |mean radiance of a tile's level over the truth's - 1|, beside the loss
-    int levels = kTrainedLevels;              // levels in the loss: with 2, H_B acts once, with 5 four times
-    std::vector<Material> maps;               // further training materials; squares
-    bool only_maps = false;                   // train on nothing else
-    std::string maps_name;                    // of their folder, for the command
-    std::shared_ptr<const Weights> from;      // start of the training, with an equal shape; null: start_weights()
-    std::string from_name;                    // of its file
-    std::shared_ptr<const Weights> taught_by; // its levels' light is the target, in place of level 0's; equal lobe
-    std::string taught_by_name;               // of its file
-    std::string checkpoint;                   // file to resume from and to update; empty: none
-    double checkpoint_seconds = 15;           // between two checkpoints
-    const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with all progress in the checkpoint
+    int levels = kTrainedLevels;              // the loss looks at the first ones: 2 see H_B once, 5 four times
+    std::vector<Material> maps;               // trained on, too; squares
+    bool only_maps = false;                   // and on nothing else
+    std::shared_ptr<const Weights> from;      // what training begins at, of the same shape; null: anything
+    std::shared_ptr<const Weights> taught_by; // whose levels' light is wanted in place of level 0's, of the same lobe
+    std::string command;                      // that makes the same weights: kept in their file
+    std::string checkpoint;                   // a file to go on from and to keep up to date; empty: none
+    double checkpoint_seconds = 15;           // between two of them
+    const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with everything in the checkpoint
     std::function<void(int step, double loss)> advance{}; // after each step; mean over shards and levels
     Isa isa = best_isa();
 };
@@ -44,7 +42,5 @@ struct TrainOptions {
 // Trains. The bytes depend neither on threads, nor on the instruction set, nor on interruptions. Returns nothing if stopped. A checkpoint
 // with other options, or a damaged one, is an Error.
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs);
-
-std::string train_command(const TrainOptions& options); // reproduces the weights; without a file name
 
 } // namespace burnish::mipnet

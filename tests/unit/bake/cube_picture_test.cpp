@@ -91,7 +91,7 @@ TEST(cube_picture, a_face_of_one_texel_and_grey_are_read)
 TEST(cube_picture, other_shapes_and_large_faces_are_faults)
 {
     EXPECT_EQ(cube_picture_fault(make_image(4, 24, 3, PixelType::f32), 128), "");
-    EXPECT_NE(cube_picture_fault(make_image(4, 24, 3, PixelType::f32), 127).find("--limit-env-pixels"), std::string::npos);
+    EXPECT_NE(cube_picture_fault(make_image(4, 24, 3, PixelType::f32), 127).find("Limits::env_pixels"), std::string::npos);
     EXPECT_NE(cube_picture_fault(make_image(4, 25, 3, PixelType::f32), 1000).find("4 x 25"), std::string::npos);
     EXPECT_NE(cube_picture_fault(make_image(24, 4, 3, PixelType::f32), 1000).find("24 x 4"), std::string::npos);
 }

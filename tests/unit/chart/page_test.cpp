@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "apps/report/page.h"
+#include "apps/chart/page.h"
 #include "apps/report/pictures.h"
 #include "core/image/io/image_io.h"
 #include "tests/unit/chart/sample.h"

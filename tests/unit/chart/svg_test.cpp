@@ -4,11 +4,11 @@
 #include <limits>
 #include <set>
 
+#include "apps/chart/plots.h"
 #include "apps/compare/histogram.h"
 #include "apps/report/axes.h"
 #include "apps/report/labels.h"
 #include "apps/report/looks.h"
-#include "apps/report/plots.h"
 #include "apps/report/svg.h"
 #include "raster/frame/frame.h"
 #include "tests/unit/chart/sample.h"

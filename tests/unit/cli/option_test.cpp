@@ -5,9 +5,10 @@
 #include <set>
 
 #include "apps/chart/options.h"
+#include "apps/cli/field_options.h"
 #include "apps/compare/options.h"
+#include "apps/options/options.h"
 #include "apps/parity/options.h"
-#include "apps/render/options.h"
 
 namespace burnish {
 namespace {
@@ -110,6 +111,20 @@ TEST(cli_options, are_set_by_name_after_the_command_line_was_read)
     EXPECT_TRUE(options->frame.override_anisotropy);
     EXPECT_EQ(options->frame.samples, 9);
     EXPECT_FALSE(table.set("no-such-option", "1"));
+}
+
+TEST(cli_options, stand_for_the_fields_that_libraries_name)
+{
+    RenderArguments arguments;
+    OptionTable table = render_option_table(arguments);
+    for (const auto& [field, option] : field_options())
+        EXPECT_NE(table.find(option), nullptr) << field << " " << option;
+    EXPECT_EQ(with_options("needs more than 8 bytes (Limits::texture_bytes)"), "needs more than 8 bytes (--limit-texture-bytes)");
+    EXPECT_EQ(with_options("FrameDesc::major_axis_k 1, MipSettings::filter box: no"), "--axis-k 1, --mip-filter box: no");
+    for (const char* word : {"", ":", "a::b", "FrameDesc::", "FrameDesc::brdf2", "xFrameDesc::brdf", "C:/maps/steel.png: 3"})
+        EXPECT_EQ(with_options(word), word);
+    EXPECT_EQ(line_of({ExitCode::usage, "", "", "of two kinds", "MaterialOverrides::material"}), "--material: of two kinds");
+    EXPECT_EQ(line_of({ExitCode::usage, "a.gltf", "/x", "of two kinds", "VulkanOptions::device"}), "a.gltf: /x: --device: of two kinds");
 }
 
 TEST(cli_options, of_another_backend_are_refused)

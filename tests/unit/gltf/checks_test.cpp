@@ -284,7 +284,7 @@ TEST(strict, a_sound_file_is_read_with_no_word_but_of_what_does_not_move)
     strict.strict = true;
     const Result<Scene> scene = load_text(sound().dump(), strict);
     ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(scene->warnings, (std::vector<std::string>{"animations are drawn at --time only; the scene is drawn as it rests"}));
+    EXPECT_EQ(scene->warnings, (std::vector<std::string>{"animations are drawn at Moment::seconds only; the scene is drawn as it rests"}));
     expect_sound(*scene);
 }
 

@@ -50,7 +50,7 @@ TEST(moving, a_scene_without_a_moment_rests_and_says_so)
     ASSERT_TRUE(scene) << error_of(scene);
     expect_near(origin_of(*scene), {0, 0, 0});
     ASSERT_EQ(scene->warnings.size(), 1u);
-    EXPECT_NE(scene->warnings[0].find("--time"), std::string::npos);
+    EXPECT_NE(scene->warnings[0].find("Moment::seconds"), std::string::npos);
 }
 
 TEST(moving, keys_are_held_blended_or_splined)

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "shading/bake/mip/evaluate.h"
 #include "shading/bake/mipnet/classical.h"
-#include "shading/bake/mipnet/evaluate.h"
 #include "shading/bake/mipnet/pyramid.h"
 #include "shading/bake/mipnet/shipped.h"
 

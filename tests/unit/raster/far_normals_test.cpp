@@ -82,11 +82,11 @@ Image normal_map(const SlopeAt& slope)
     return map;
 }
 
-Scene far_plate(const SlopeAt& slope, MipFilter filter)
+Scene far_plate(const SlopeAt& slope)
 {
     Scene s = plate(1.0f);
     Material& m = s.materials[0];
-    m.base_color = glm::vec4(0.9f, 0.9f, 0.9f, 1.0f), m.roughness = 0.3f, m.mip_filter = filter, m.mip_kappa = 0.7f;
+    m.base_color = glm::vec4(0.9f, 0.9f, 0.9f, 1.0f), m.roughness = 0.3f;
     Texture t;
     t.image = 0;
     s.images.push_back(normal_map(slope));
@@ -132,7 +132,10 @@ double worst_of(const SlopeAt& slope, bool horizon, const Environment* environme
         const MipFilter mip = static_cast<MipFilter>(std::max(filter, 0));
         if (mip == kMipFilter_teacher)
             continue;
-        Stage stage(far_plate(slope, mip));
+        Stage stage(far_plate(slope));
+        MipSettings settings;
+        settings.filter = mip, settings.kappa = 0.7f;
+        stage.mips = asked_mips(settings, 1);
         if (environment)
             stage.environment = *environment;
         FrameMaker maker(stage.input());

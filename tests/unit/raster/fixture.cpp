@@ -116,7 +116,7 @@ Environment constant_environment(float radiance, const Jobs& jobs)
 
 struct Stage::Parts {
     Parts(Scene s, float radiance, int threads)
-        : data{"", std::move(s), {}}, jobs(threads), environment(constant_environment(radiance, jobs)), dfg(bake_dfg(32, 256, jobs))
+        : data{"", std::move(s), {}, {}}, jobs(threads), environment(constant_environment(radiance, jobs)), dfg(bake_dfg(32, 256, jobs))
     {
         data.tables = make_draw_tables(data.scene);
     }
@@ -129,7 +129,7 @@ struct Stage::Parts {
 Stage::Stage(Scene s, float radiance, int threads) : Stage(std::make_shared<Parts>(std::move(s), radiance, threads)) {}
 
 Stage::Stage(const std::shared_ptr<Parts>& p)
-    : parts_(p), scene(p->data.scene), tables(p->data.tables), environment(p->environment), dfg(p->dfg), jobs(p->jobs)
+    : parts_(p), scene(p->data.scene), tables(p->data.tables), mips(p->data.mips), environment(p->environment), dfg(p->dfg), jobs(p->jobs)
 {
 }
 

@@ -43,11 +43,12 @@ class Stage {
     explicit Stage(Scene s, float radiance = 1.0f, int threads = 1);
     Scene& scene;
     DrawTables& tables;
+    SceneMips& mips;
     Environment& environment;
     DfgTable& dfg;
     const Jobs& jobs;
     SessionParts parts() const;
-    RenderInput input() const { return {scene, tables, environment, dfg, jobs}; }
+    RenderInput input() const { return {scene, tables, environment, dfg, jobs, nullptr, nullptr, mips}; }
     Frame render(const FrameDesc& desc, Isa isa) const;
 };
 

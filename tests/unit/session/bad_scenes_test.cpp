@@ -184,9 +184,6 @@ const BadScene kSurfaces[] = {
     {"/materials/0/directional_roughness_tex/texture", [](Scene& s) { s.materials[0].directional_roughness_tex.texture = 1; }},
     {"/materials/0/base_color_tex/uv_set", [](Scene& s) { s.materials[0].base_color_tex.uv_set = 2; }},
     {"/materials/0/base_color_tex/uv_transform", [](Scene& s) { s.materials[0].base_color_tex.uv_transform[2][0] = kNan; }},
-    {"/materials/0/mip_filter", [](Scene& s) { s.materials[0].mip_filter = static_cast<MipFilter>(99); }},
-    {"/materials/0/mip_kappa", [](Scene& s) { s.materials[0].mip_kappa = -1.0f; }},
-    {"/materials/0/mip_lobe", [](Scene& s) { s.materials[0].mip_lobe = 99; }},
     {"/textures/0/image", [](Scene& s) { s.textures[0].image = kNone; }},
     {"/textures/0/image", [](Scene& s) { s.textures[0].image = 1; }},
     {"/textures/0/image", [](Scene& s) { s.images.clear(); }},
@@ -240,6 +237,18 @@ TEST(bad_scenes, nodes_cameras_and_lights_are_checked)
 TEST(bad_scenes, materials_and_pictures_are_checked)
 {
     expect_refused(kSurfaces);
+}
+
+TEST(bad_scenes, settings_of_mip_filters_are_checked)
+{
+    const auto field_of = [](const MipSettings& settings) { return make_scene_data("", good_scene(), {}, settings).error().field; };
+    MipSettings settings;
+    settings.filter = static_cast<MipFilter>(99);
+    EXPECT_EQ(field_of(settings), "MipSettings::filter");
+    settings = {}, settings.kappa = -1.0f;
+    EXPECT_EQ(field_of(settings), "MipSettings::kappa");
+    settings = {}, settings.brdf = 99;
+    EXPECT_EQ(field_of(settings), "MipSettings::brdf");
 }
 
 TEST(bad_scenes, limits_hold_in_memory)
@@ -296,6 +305,9 @@ const BadParts kParts[] = {
     {"/tables/lights/0", [](SceneData& d, Environment&, DfgTable&) { d.tables.lights[0].radiant.x = kNan; }},
     {"/tables/area_lights/0/point_count", [](SceneData& d, Environment&, DfgTable&) { d.tables.area_lights[0].point_count = 99; }},
     {"/tables/area_lights/0/texture", [](SceneData& d, Environment&, DfgTable&) { d.tables.area_lights[0].texture = 99; }},
+    {"/mips/materials/0/filter", [](SceneData& d, Environment&, DfgTable&) { d.mips.materials[0].filter = static_cast<MipFilter>(99); }},
+    {"/mips/materials/0/kappa", [](SceneData& d, Environment&, DfgTable&) { d.mips.materials[0].kappa = -1.0f; }},
+    {"/mips/materials/0/lobe", [](SceneData& d, Environment&, DfgTable&) { d.mips.materials[0].lobe = static_cast<mipnet::Lobe>(99); }},
     {"/specular/texels", [](SceneData&, Environment& e, DfgTable&) { e.specular.texels = {}; }},
     {"/specular/levels", [](SceneData&, Environment& e, DfgTable&) { e.specular.levels = 40; }},
     {"/specular/offset", [](SceneData&, Environment& e, DfgTable&) { e.specular.offset.clear(); }},

@@ -143,14 +143,15 @@ TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
 {
     try {
         const Context context(lavapipe());
-        require_limit(context, "--size", "maxImageDimension2D", 8, 8);
-        require_limit(context, "--size", "maxImageDimension2D", 9, 8);
+        require_limit(context, "FrameDesc::width", "maxImageDimension2D", 8, 8);
+        require_limit(context, "FrameDesc::width", "maxImageDimension2D", 9, 8);
         FAIL() << "nothing was said";
     } catch (const VulkanError& failed) {
-        if (failed.error.place == "--device")
+        if (failed.error.field == "VulkanOptions::device")
             GTEST_SKIP() << failed.error.line();
         EXPECT_EQ(failed.error.code, ExitCode::unavailable);
-        EXPECT_EQ(failed.error.line().rfind("--size: 9 is needed of maxImageDimension2D, llvmpipe", 0), 0u) << failed.error.line();
+        EXPECT_EQ(failed.error.line().rfind("FrameDesc::width: 9 is needed of maxImageDimension2D, llvmpipe", 0), 0u)
+            << failed.error.line();
     }
 }
 
@@ -158,21 +159,21 @@ TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
 TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
 {
     struct Low {
-        const char *place, *limit;
+        const char *field, *limit;
         void (*lower)(VkPhysicalDeviceLimits&);
         VulkanPipeline pipeline;
         VulkanSampler sampler;
     };
     const auto samplers = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSamplers = 16; };
     const auto images = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSampledImages = 16; };
-    const Low lows[] = {{"--sampler", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::forward, VulkanSampler::native},
-                        {"--sampler", "maxPerStageDescriptorSampledImages", images, VulkanPipeline::forward, VulkanSampler::native},
-                        {"--pipeline", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::lean, VulkanSampler::exact},
-                        {"--device", "maxPerStageDescriptorStorageBuffers",
-                         [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorStorageBuffers = 4; }, VulkanPipeline::ids,
-                         VulkanSampler::exact},
-                        {nullptr, nullptr, samplers, VulkanPipeline::ids, VulkanSampler::exact},
-                        {nullptr, nullptr, images, VulkanPipeline::forward, VulkanSampler::exact}};
+    const Low lows[] = {
+        {"VulkanOptions::sampler", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::forward, VulkanSampler::native},
+        {"VulkanOptions::sampler", "maxPerStageDescriptorSampledImages", images, VulkanPipeline::forward, VulkanSampler::native},
+        {"VulkanOptions::pipeline", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::lean, VulkanSampler::exact},
+        {"VulkanOptions::device", "maxPerStageDescriptorStorageBuffers",
+         [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorStorageBuffers = 4; }, VulkanPipeline::ids, VulkanSampler::exact},
+        {nullptr, nullptr, samplers, VulkanPipeline::ids, VulkanSampler::exact},
+        {nullptr, nullptr, images, VulkanPipeline::forward, VulkanSampler::exact}};
     if (const auto there = open_vulkan_device(lavapipe()); !there)
         GTEST_SKIP() << there.error().line();
     for (const Low& low : lows) {
@@ -183,7 +184,7 @@ TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
         if (opened)
             continue;
         EXPECT_EQ(opened.error().code, ExitCode::unavailable);
-        EXPECT_EQ(opened.error().place, low.place);
+        EXPECT_EQ(opened.error().field, low.field);
         EXPECT_NE(opened.error().line().find(std::string(" is needed of ") + low.limit + ", llvmpipe"), std::string::npos)
             << opened.error().line();
     }

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "core/base/result.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/scene.h"

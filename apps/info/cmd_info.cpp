@@ -10,7 +10,7 @@
 #include "apps/cli/environment_text.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "apps/report/json.h"
 #include "core/base/cache.h"
 #include "core/base/text.h"

@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include "apps/cli/report.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "core/image/io/image_io.h"
 #include "raster/reference/sobol.h"
 

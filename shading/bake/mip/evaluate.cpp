@@ -1,12 +1,12 @@
-#include "shading/bake/mipnet/evaluate.h"
+#include "shading/bake/mip/evaluate.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "core/scene/dress.h"
+#include "shading/bake/mip/fallback.h"
 #include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/classical.h"
-#include "shading/bake/mipnet/fallback.h"
 #include "shading/bake/mipnet/pyramid.h"
 
 namespace burnish::mipnet {

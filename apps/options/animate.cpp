@@ -1,4 +1,4 @@
-#include "apps/render/animate.h"
+#include "apps/options/animate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "apps/cli/parse.h"
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 
 namespace burnish {
 namespace {

@@ -1,9 +1,10 @@
-#include "apps/report/page.h"
+#include "apps/chart/page.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
+#include "apps/chart/plots.h"
 #include "apps/render/stats.h"
 #include "apps/report/assets.h"
 #include "apps/report/axes.h"
@@ -11,7 +12,6 @@
 #include "apps/report/json.h"
 #include "apps/report/looks.h"
 #include "apps/report/pictures.h"
-#include "apps/report/plots.h"
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 

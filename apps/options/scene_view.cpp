@@ -1,4 +1,4 @@
-#include "apps/cli/scene_view.h"
+#include "apps/options/scene_view.h"
 
 #include <charconv>
 #include <cmath>

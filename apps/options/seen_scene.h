@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/cli/report.h"
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "raster/session/session.h"
 
 namespace burnish {

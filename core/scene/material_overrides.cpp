@@ -1,4 +1,4 @@
-#include "core/scene/dress.h"
+#include "core/scene/material_overrides.h"
 
 #include <algorithm>
 #include <cctype>
@@ -94,9 +94,9 @@ Image metal_rough(const Image& metallic, const Image& roughness)
     return out;
 }
 
-class Dresser {
+class MapWriter {
   public:
-    Dresser(Scene& scene, const Limits& limits) : scene_(scene), limits_(limits), worn_(scene.materials.size(), false)
+    MapWriter(Scene& scene, const Limits& limits) : scene_(scene), limits_(limits), worn_(scene.materials.size(), false)
     {
         for (const Primitive& primitive : scene.primitives)
             if (primitive.has_uv0)
@@ -128,7 +128,7 @@ class Dresser {
             return Error{ExitCode::bad_input, path, "", "a map of directions or normals has red, green and blue"};
         if (image->bytes.size() > rest.texture_bytes)
             return Error{ExitCode::bad_input, path, "",
-                         fmt::format("the scene's textures need more than {} bytes (--limit-texture-bytes)", limits_.texture_bytes)};
+                         fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
         scene_.files.push_back(path);
         return image;
     }
@@ -184,7 +184,7 @@ class Dresser {
     std::vector<bool> worn_; // by something with texture coordinates
 };
 
-Status put_maps(Dresser& on, const Dress& with)
+Status put_maps(MapWriter& on, const MaterialOverrides& with)
 {
     if (!with.direction.empty()) {
         Result<Image> image = on.read_as_is(with.direction, 3, "directions");
@@ -220,6 +220,11 @@ Status put_maps(Dresser& on, const Dress& with)
     return {};
 }
 
+Error two_for_one(const std::string& a, const std::string& b)
+{
+    return {ExitCode::usage, "", "", fmt::format("{} and {} are both for one part of the material", a, b), "MaterialOverrides::material"};
+}
+
 // The pictures of a folder by role.
 Status find_pictures(const std::string& folder, std::string (&found)[kRoles], std::vector<std::string>& warnings)
 {
@@ -241,20 +246,18 @@ Status find_pictures(const std::string& folder, std::string (&found)[kRoles], st
             continue;
         }
         if (!found[*role].empty())
-            return Error{ExitCode::usage, "--material", "",
-                         fmt::format("{} and {} are both for one part of the material", found[*role], file.string())};
+            return two_for_one(found[*role], file.string());
         found[*role] = file.string();
     }
     if (!unknown.empty())
         warnings.push_back(fmt::format("{}: nothing is made of {}", folder, unknown));
     for (const auto& [a, b] : {std::pair(kNormal, kQuaternion), std::pair(kDepth, kHeight)})
         if (!found[a].empty() && !found[b].empty())
-            return Error{ExitCode::usage, "--material", "",
-                         fmt::format("{} and {} are both for one part of the material", found[a], found[b])};
+            return two_for_one(found[a], found[b]);
     return {};
 }
 
-Status put_material(Dresser& on, Scene& scene, const Dress& with)
+Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with)
 {
     std::string found[kRoles];
     if (Status pictures = find_pictures(with.material, found, scene.warnings); !pictures)
@@ -292,7 +295,7 @@ Status put_material(Dresser& on, Scene& scene, const Dress& with)
         BN_TRY(image);
         on.put(on.add(heights_of_depths(*image), found[kDepth], "depths"), &Material::height_tex);
     }
-    Dress maps;
+    MaterialOverrides maps;
     maps.height = found[kHeight];
     maps.normal = found[kNormal], maps.quaternion = found[kQuaternion], maps.rotation = found[kRotation];
     maps.rotation_encoding = with.rotation_encoding;
@@ -311,16 +314,15 @@ void put_f0(Material& m, const glm::vec3& f0)
 
 } // namespace
 
-bool Dress::names(const std::string& path) const
+bool MaterialOverrides::names(const std::string& path) const
 {
-    return !path.empty() &&
-           (path == direction || path == rotation || path == normal || path == quaternion || path == height || path == roughness ||
-            path == material || path == mip_pyramid || path == mip_net || (!material.empty() && path.starts_with(material)));
+    return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == height ||
+                             path == roughness || path == material || (!material.empty() && path.starts_with(material)));
 }
 
-Status dress(Scene& scene, const Dress& with, const Limits& limits)
+Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, const Limits& limits)
 {
-    Dresser on(scene, limits);
+    MapWriter on(scene, limits);
     if (!with.material.empty())
         if (Status put = put_material(on, scene, with); !put)
             return put;
@@ -334,13 +336,9 @@ Status dress(Scene& scene, const Dress& with, const Limits& limits)
         for (const std::int32_t image : flipped)
             flip_green(scene.images[static_cast<std::size_t>(image)]);
     }
-    for (Material& m : scene.materials) {
-        if (with.mip_filter != MipFilter{})
-            m.mip_filter = with.mip_filter, m.mip_kappa = with.mip_kappa.value_or(kUsualMipKappa);
-        m.mip_gains = with.gains, m.mip_coupled = with.couple_albedo, m.mip_kaiser = with.kaiser_colours;
-        if (with.f0)
+    if (with.f0)
+        for (Material& m : scene.materials)
             put_f0(m, *with.f0);
-    }
     return {};
 }
 

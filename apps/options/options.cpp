@@ -1,4 +1,4 @@
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -117,8 +117,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         return usage_error("--light",
                            fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
     BN_TRY(check_technique(arguments, out));
-    out.dress.mip_brdf = out.frame.brdf, out.dress.keep_mips = out.environment.use_cache;
-    out.dress.threads = out.threads;
+    out.mips.brdf = out.frame.brdf, out.mips.use_cache = out.environment.use_cache;
+    out.mips.threads = out.threads;
     const Result<Isa> isa = choose_isa(given, out.isa);
     BN_TRY(isa);
     out.isa = *isa;

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <string_view>
 
-#include "apps/render/options.h"
+#include "apps/options/options.h"
 #include "core/image/io/image_io.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
@@ -39,17 +39,17 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
             out.warnings.push_back("--animation has no effect without --time");
     if (out.scene.starts_with("builtin:"))
         warn("--time", out.scene);
-    const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.dress.mip_filter)].name;
-    if (!takes_kappa(out.dress.mip_filter))
+    const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.mips.filter)].name;
+    if (!takes_kappa(out.mips.filter))
         warn("--mip-kappa", of_filter);
-    if (!out.dress.mip_pyramid.empty() && !given.given("--mip-filter"))
+    if (!out.mips.pyramid.empty() && !given.given("--mip-filter"))
         for (const char* option : {"--mip-gain", "--couple", "--color-kernel"})
             warn(option, "--mip-pyramid, whose file says its filter");
-    else if (!takes_gains(out.dress.mip_filter))
+    else if (!takes_gains(out.mips.filter))
         warn("--mip-gain", of_filter);
-    if (!takes_net(out.dress.mip_filter))
+    if (!takes_net(out.mips.filter))
         warn("--mip-net", of_filter);
-    if (out.dress.mip_filter != kMipFilter_mipnet)
+    if (out.mips.filter != kMipFilter_mipnet)
         warn("--fallback", of_filter);
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);

@@ -1,17 +1,18 @@
-#include "apps/cli/seen_scene.h"
+#include "apps/options/seen_scene.h"
 
 #include <algorithm>
 #include <fmt/core.h>
 
 #include "apps/cli/open.h"
-#include "apps/cli/scene_view.h"
+#include "apps/options/scene_view.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
 
 Result<SeenScene> load_seen_scene(const std::string& name, const RenderOptions& base, Report& report)
 {
-    const Result<std::shared_ptr<const SceneData>> data = open_scene(name, base.limits, base.dress, base.moment, base.lights);
+    const Result<std::shared_ptr<const SceneData>> data =
+        open_scene(name, base.limits, base.overrides, base.mips, base.moment, base.lights);
     BN_TRY(data);
     for (const std::string& warning : (*data)->scene.warnings)
         report.warning(warning);

@@ -1,7 +1,7 @@
-#include "shading/bake/mipnet/fallback.h"
+#include "shading/bake/mip/fallback.h"
 
+#include "shading/bake/mip/evaluate.h"
 #include "shading/bake/mipnet/classical.h"
-#include "shading/bake/mipnet/evaluate.h"
 #include "shading/bake/mipnet/pyramid.h"
 
 namespace burnish::mipnet {

@@ -1,4 +1,4 @@
-#include "apps/report/plots.h"
+#include "apps/chart/plots.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <optional>
 
+#include "apps/chart/plots.h"
 #include "apps/report/axes.h"
-#include "apps/report/plots.h"
 #include "core/image/magma.h"
 
 namespace burnish {

@@ -1,8 +1,10 @@
-// The option rows of `burnish render`: names, values and help texts.
+// The rows of `burnish render`: names, values and help texts.
+#include <fmt/format.h>
+
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
-#include "apps/render/options.h"
-#include "apps/render/parameters.h"
+#include "apps/options/options.h"
+#include "apps/options/parameters.h"
 #include "raster/frame/layers.h"
 #include "shading/bake/mip/levels.h"
 
@@ -103,7 +105,7 @@ std::vector<std::string> mip_filter_names()
     return names;
 }
 
-std::vector<Option> dress_rows(Dress& to)
+std::vector<Option> material_rows(MaterialOverrides& to, MipSettings& mips)
 {
     return {
         {"--material", "FOLDER", "Pictures that all materials are made of, by the ends of their names: x_basecolor.png, normal.exr, ...",
@@ -120,25 +122,25 @@ std::vector<Option> dress_rows(Dress& to)
         {"--roughness-encoding", "NAME", "{}: alpha along and across in red and green, or roughness and anisotropy",
          choice(to.roughness_encoding, {"widths", "anisotropy"})},
         {"--mip-filter", "NAME", "What distant maps of normals and roughness become: {} (see burnish list mip-filters)",
-         choice(to.mip_filter, mip_filter_names())},
+         choice(mips.filter, mip_filter_names())},
         {"--mip-kappa", "K",
          "Of --mip-filter kappa, and of taps under mipnet and teacher: how much of the covariance of normals lobes grow by",
-         number(to.mip_kappa, 0.0, kMostKappa), fmt::format("{}", kUsualMipKappa).c_str()},
-        {"--mip-net", "FILE", "Of --mip-filter mipnet and teacher: weights of burnish train mip", file(to.mip_net),
+         number(mips.kappa, 0.0, kMostKappa), fmt::format("{}", kUsualMipKappa).c_str()},
+        {"--mip-net", "FILE", "Of --mip-filter mipnet and teacher: weights of burnish train mip", file(mips.net),
          "the program's own for --brdf"},
         {"--fallback", "NAME",
          "Of --mip-filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
-         choice(to.mip_fallback, {"auto", "off"})},
+         choice(mips.fallback, {"auto", "off"})},
         {"--mip-gain", "NAME",
          "Of --mip-filter ssgt, kappa, mipnet and teacher: {}; on: colours times a gain a level, to reflect as much as the finest under "
          "lamps",
-         choice(to.gains, {"off", "on"})},
+         choice(mips.gains, {"off", "on"})},
         {"--couple", "NAME", "{}; albedo: base colours and metalness of levels weigh as their texels face light and eye",
-         choice(to.couple_albedo, {"none", "albedo"})},
+         choice(mips.couple_albedo, {"none", "albedo"})},
         {"--color-kernel", "NAME", "What base colours and metalness of levels are averaged by: {}",
-         choice(to.kaiser_colours, {"box", "kaiser"})},
+         choice(mips.kaiser_colours, {"box", "kaiser"})},
         {"--mip-pyramid", "FILE",
-         "Levels of burnish bake mip, in place of those made here; it says the filter, and how colours are averaged", file(to.mip_pyramid),
+         "Levels of burnish bake mip, in place of those made here; it says the filter, and how colours are averaged", file(mips.pyramid),
          ""},
         {"--f0", "R,G,B", "Reflectance at normal incidence of all materials, each 0 to 1", colour(to.f0)},
     };
@@ -225,7 +227,7 @@ OptionTable render_option_table(RenderArguments& to)
     table.add("Environment", environment_rows(to));
     table.add("Output", output_rows(to));
     table.add("Picture", picture_rows(to));
-    table.add("Materials", dress_rows(to.plain.dress));
+    table.add("Materials", material_rows(to.plain.overrides, to.plain.mips));
     table.add("Parameters of techniques", parameter_options(to.plain.frame));
     table.add("Pictures in a row", row_rows(to));
     table.add("Machine", machine_rows(to));

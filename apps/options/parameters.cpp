@@ -1,9 +1,10 @@
-#include "apps/render/parameters.h"
+#include "apps/options/parameters.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <fmt/core.h>
 
+#include "apps/cli/field_options.h"
 #include "apps/cli/values.h"
 
 namespace burnish {
@@ -44,7 +45,7 @@ std::vector<Option> parameter_options(FrameDesc& to)
 {
     std::vector<Option> options;
     for (const ParameterInfo& p : parameters())
-        options.emplace_back(std::string("--") + p.option, p.choice ? "NAME" : p.unit, p.summary, parameter_value(p, to));
+        options.emplace_back(std::string("--") + p.option, p.choice ? "NAME" : p.unit, with_options(p.summary), parameter_value(p, to));
     return options;
 }
 

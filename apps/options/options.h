@@ -8,26 +8,28 @@
 
 #include "apps/cli/option.h"
 #include "apps/cli/parse.h"
-#include "apps/render/show.h"
+#include "apps/options/show.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
-#include "core/scene/dress.h"
+#include "core/scene/material_overrides.h"
 #include "core/scene/scene.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
+#include "shading/bake/mip/settings.h"
 
 namespace burnish {
 
 struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
-    std::vector<AreaLight> lights;      // in addition to the scene's lights
-    std::vector<std::string> as_tables; // LUT files or folders for as_mc; empty: frames compute their own
-    std::string ltc_table;              // for area lights; empty: the built-in table
-    Dress dress;                        // overrides for all materials
+    std::vector<AreaLight> lights;      // besides those of the scene
+    std::vector<std::string> as_tables; // of as_mc's lobes, or folders of them; empty: frames make their own
+    std::string ltc_table;              // of area lights; empty: the program's own
+    MaterialOverrides overrides;        // what all materials take
+    MipSettings mips;
     std::vector<std::string> outputs;
     std::vector<std::string> aov;      // layers of .exr outputs
     Shown show = Shown::light;         // false colour of 8-bit outputs

@@ -1,4 +1,4 @@
-#include "apps/render/show.h"
+#include "apps/options/show.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,83 @@
+#include "apps/cli/field_options.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "raster/frame/frame.h"
+
+namespace burnish {
+namespace {
+
+bool in_name(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':';
+}
+
+} // namespace
+
+const std::vector<std::pair<std::string, std::string>>& field_options()
+{
+    static const std::vector<std::pair<std::string, std::string>> all = [] {
+        std::vector<std::pair<std::string, std::string>> fields = {
+            {"EnvironmentOptions::key_lights", "--key-lights"},
+            {"FrameDesc::samples", "--samples"},
+            {"FrameDesc::technique", "--technique"},
+            {"FrameDesc::width", "--size"},
+            {"Limits::accessor_bytes", "--limit-accessor-bytes"},
+            {"Limits::area_lights", "--limit-lights"},
+            {"Limits::data_uri_bytes", "--limit-data-uri-bytes"},
+            {"Limits::draw_bytes", "--limit-draw-bytes"},
+            {"Limits::env_pixels", "--limit-env-pixels"},
+            {"Limits::file_bytes", "--limit-file-bytes"},
+            {"Limits::image_side", "--limit-image-side"},
+            {"Limits::input_bytes", "--limit-input-bytes"},
+            {"Limits::json_depth", "--limit-json-depth"},
+            {"Limits::node_depth", "--limit-node-depth"},
+            {"Limits::strict", "--strict"},
+            {"Limits::texture_bytes", "--limit-texture-bytes"},
+            {"Limits::uris_outside", "--allow-outside-uris"},
+            {"MaterialOverrides::material", "--material"},
+            {"MipSettings::brdf", "--brdf"},
+            {"MipSettings::filter", "--mip-filter"},
+            {"MipSettings::kappa", "--mip-kappa"},
+            {"MipSettings::net", "--mip-net"},
+            {"Moment::animation", "--animation"},
+            {"Moment::seconds", "--time"},
+            {"SessionOptions::backend", "--backend"},
+            {"SessionParts::scene", "SCENE"},
+            {"VulkanOptions::device", "--device"},
+            {"VulkanOptions::pipeline", "--pipeline"},
+            {"VulkanOptions::sampler", "--sampler"},
+            {"VulkanOptions::validate", "--validate"},
+        };
+        for (const ParameterInfo& p : parameters())
+            fields.emplace_back(std::string("FrameDesc::") + p.name, std::string("--") + p.option);
+        return fields;
+    }();
+    return all;
+}
+
+std::string with_options(std::string_view text)
+{
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        while (end < text.size() && in_name(text[end]))
+            ++end;
+        std::string_view word = text.substr(at, std::max<std::size_t>(end - at, 1)); // "FrameDesc::brdf:" has a colon that is none of it
+        while (word.size() > 1 && word.back() == ':')
+            word.remove_suffix(1);
+        const auto found =
+            std::find_if(field_options().begin(), field_options().end(), [&](const auto& field) { return field.first == word; });
+        out += found == field_options().end() ? word : std::string_view(found->second);
+        at += word.size();
+    }
+    return out;
+}
+
+std::string line_of(const Error& error)
+{
+    return with_options(error.line());
+}
+
+} // namespace burnish

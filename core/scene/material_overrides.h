@@ -1,0 +1,35 @@
+// What a caller puts over the materials of a scene, as if their file had named it.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/scene/directional_roughness.h"
+#include "core/scene/scene.h"
+#include "core/scene/surface_maps.h"
+
+namespace burnish {
+
+struct MaterialOverrides {  // empty: left as it is
+    std::string material;   // folder of pictures, whose names end in what they are: see apps/manual/materials.md
+    std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
+    std::string rotation;   // the same in another encoding
+    std::string normal;     // normal map
+    std::string quaternion; // the same as quaternions
+    std::string height;     // height map, red
+    std::string roughness;  // roughness by direction
+    RoughnessEncoding roughness_encoding = RoughnessEncoding::widths;
+    RotationEncoding rotation_encoding = RotationEncoding::vector;
+    bool normal_y_down = false;  // all normal maps have green down
+    std::optional<glm::vec3> f0; // reflectance at normal incidence of all materials, which are dielectrics then
+
+    bool names(const std::string& path) const; // one of its pictures
+};
+
+// Pictures lie in the first set of texture coordinates, on every material that something with coordinates wears. Errors: what is no picture
+// of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part.
+Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits);
+
+} // namespace burnish
