@@ -40,13 +40,20 @@ struct WorkerPeel {
     {
         if (triangles.size() < layer.triangle_count)
             triangles.resize(layer.triangle_count);
-        PeelScratch p = {};
-        p.layer = &layer;
-        p.alpha = alpha.data(), p.depth = depth.data(), p.id = id.data();
-        p.red = red.data(), p.green = green.data(), p.blue = blue.data(), p.through = through.data();
-        p.pixels = pixels.data(), p.done = done.data(), p.triangles = triangles.data();
-        p.output_through = output_through;
-        return p;
+        return {.layer = &layer,
+                .alpha = alpha.data(),
+                .depth = depth.data(),
+                .id = id.data(),
+                .red = red.data(),
+                .green = green.data(),
+                .blue = blue.data(),
+                .through = through.data(),
+                .pixels = pixels.data(),
+                .done = done.data(),
+                .triangles = triangles.data(),
+                .triangle_count = 0,
+                .fragment_count = 0,
+                .output_through = output_through};
     }
 };
 
@@ -88,43 +95,43 @@ struct WorkerScratch {
         const std::size_t room = triangle_count + kColumnPad; // whole registers are written
         if (triangles.size() < room)
             triangles.resize(room), entries.resize(room), drawn_singly.resize(room);
-        return {depth.data(),
-                ids.data(),
-                block_far.data(),
-                block_dirty.data(),
-                block_state.data(),
-                block_plane.data(),
-                static_cast<std::uint32_t>(triangle_count),
-                entries.data(),
-                triangles.data(),
-                clips.data(),
-                drawn_singly.data(),
-                fragment_triangle.data(),
-                fragment_pixel.data(),
-                fragment_mask.data(),
-                register_passes.data(),
-                pass_lanes.data(),
-                red.data(),
-                green.data(),
-                blue.data(),
-                lines.data(),
-                sharing_of_pixel.data(),
-                next_sharing.data(),
-                order.data(),
-                false,
-                kNoMaterial,
-                slot_of_material.data(),
-                slot_material.data(),
-                slot_begin.data(),
-                0,
-                0,
-                frame.color.f32(),
-                frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
-                frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
-                frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(),
-                frame.layers.empty() ? nullptr : frame.layers.data()->depth,
-                nullptr,
-                nullptr};
+        return {.depth = depth.data(),
+                .ids = ids.data(),
+                .block_far = block_far.data(),
+                .block_dirty = block_dirty.data(),
+                .block_state = block_state.data(),
+                .block_plane = block_plane.data(),
+                .triangle_count = static_cast<std::uint32_t>(triangle_count),
+                .entries = entries.data(),
+                .triangles = triangles.data(),
+                .clips = clips.data(),
+                .drawn_singly = drawn_singly.data(),
+                .fragment_triangle = fragment_triangle.data(),
+                .fragment_pixel = fragment_pixel.data(),
+                .fragment_mask = fragment_mask.data(),
+                .register_passes = register_passes.data(),
+                .pass_lanes = pass_lanes.data(),
+                .red = red.data(),
+                .green = green.data(),
+                .blue = blue.data(),
+                .lines = lines.data(),
+                .sharing_of_pixel = sharing_of_pixel.data(),
+                .next_sharing = next_sharing.data(),
+                .order = order.data(),
+                .in_list_order = false,
+                .only_material = kNoMaterial,
+                .slot_of_material = slot_of_material.data(),
+                .slot_material = slot_material.data(),
+                .slot_begin = slot_begin.data(),
+                .fragment_count = 0,
+                .background_pixels = 0,
+                .output = frame.color.f32(),
+                .output_ids = frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
+                .output_depths = frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
+                .output_pairs = frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(),
+                .output_layers = frame.layers.empty() ? nullptr : frame.layers.data()->depth,
+                .clock = nullptr,
+                .peel = nullptr};
     }
 };
 
