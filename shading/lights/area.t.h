@@ -170,8 +170,8 @@ BN_FN ltc_lobe area_lobe(frame_ref f, real3 eye, real alpha_u, real alpha_v)
 
 // Sums all area lights by transformed cosines. model: the lobe for lights; a round one lies about the normal with the
 // surface's roughness. position: x's, world space. Other models count as GGX with the same widths; lobes for punctual
-// lights alone give nothing. A turned normal clips lights at the surface's own horizon. coat: x is a coat.
-BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, bool coat)
+// lights alone give nothing. A turned normal clips lights at the surface's own horizon. layer: the layer that x stands for.
+BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, lobe_layer layer)
 {
     // Make the lobe round where the lights' lobe is
     aniso_lobe lobe = x.lobe;
@@ -190,7 +190,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
     if (x.turned)
         up = to_lobe(lobe, x.s.n, x.surface_axes.n);
-    bool leans = x.turned && !coat && stands_in(f) && lies_in_surface(f);
+    bool leans = x.turned && stands_in(f) && layer_has(layer, kLies_surface);
     real3 specular = vec3_all(lit(0.0));
     real3 diffuse = vec3_all(lit(0.0));
     // Visit the lights that face the point
@@ -237,7 +237,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
     if (stands_in(f) && !leans)
         sum = sum * x.shown;
-    if (lobe_met_has(f, coat, kPunctualOnly))
+    if (layer_has(layer, kPunctualOnly))
         sum = vec3_all(lit(0.0));
     // Add the diffuse part
     if (x.diffuse) {
@@ -315,12 +315,12 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
 }
 
 // Returns reflected light from all area lights by the frame's method.
-BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, bool coat)
+BN_FN real3 light_from_area(frame_ref f, BN_IN(shaded_point) x, int model, real3 position, lobe_layer layer)
 {
     if (area_way_used(kAreaWay_mc) && the_frame(f).area_way == kAreaWay_mc)
         return area_light_by_samples(f, x, model, position);
     if (area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless) || area_way_used(kAreaWay_ltc_isotropic))
-        return area_light_by_cosines(f, x, model, position, coat);
+        return area_light_by_cosines(f, x, model, position, layer);
     return vec3_all(lit(0.0));
 }
 

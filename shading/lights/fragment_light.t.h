@@ -21,7 +21,7 @@ BN_KERNELS_BEGIN
 // Returns reflected light from key lights. lobe: the lobe for lights, its index in shading/models.def.
 BN_STAGE real3 light_of_sky(any_frame f, BN_IN(shaded_point) x, int lobe)
 {
-    return light_from_key_lights(f, x, lobe, false);
+    return light_from_key_lights(f, x, lobe, base_layer(f));
 }
 
 // Returns reflected light from punctual lights.
@@ -33,7 +33,7 @@ BN_STAGE real3 light_of_lamps(any_frame f, BN_IN(shaded_point) x, int lobe, BN_I
 // Returns reflected light from area lights.
 BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe, BN_IN(real3) position)
 {
-    return light_from_area(f, x, lobe, position, false);
+    return light_from_area(f, x, lobe, position, base_layer(f));
 }
 
 struct coat_light {
@@ -62,11 +62,11 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
     // Add key lights, lamps and area lights
     if (the_frame(f).key_light_count > 0)
-        light = light + light_from_key_lights(f, c, lobe, true);
+        light = light + light_from_key_lights(f, c, lobe, layer_with_lobe(lobe));
     if (the_frame(f).light_count > 0)
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
-        light = light + light_from_area(f, c, lobe, p.position, true);
+        light = light + light_from_area(f, c, lobe, p.position, layer_with_lobe(lobe));
     // Return the coat's light and transmittance
     coat_light r;
     r.passed = lit(1.0) - coat.weight;

@@ -11,9 +11,9 @@
 BN_KERNELS_BEGIN
 
 // Returns true where `mc` samples the key lights with the environment: for interfaces and lobes without GGX normals.
-BN_FN bool keys_are_sampled(frame_ref f, BN_IN(shaded_point) x, bool coat)
+BN_FN bool keys_are_sampled(BN_IN(shaded_point) x, lobe_layer layer)
 {
-    return lobe_met_has(f, coat, kNormals_own) || x.refracts;
+    return layer_has(layer, kNormals_own) || x.refracts;
 }
 
 struct key_lobe { // the lobe under key lights
@@ -25,7 +25,7 @@ struct key_lobe { // the lobe under key lights
 
 // Makes the lobe. model: the lobe for punctual lights. Where it is round, the frame's lobe also becomes round, with the
 // same roughness.
-BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
+BN_FN key_lobe key_lobe_of(BN_IN(shaded_point) x, int model, lobe_layer layer)
 {
     real root2 = lit(1.4142135623730951);
     real one = lit(1.0);
@@ -37,9 +37,9 @@ BN_FN key_lobe key_lobe_of(frame_ref f, BN_IN(shaded_point) x, int model, bool c
         r.lobe.sigma_v = r.lobe.sigma_u;
     }
     // Place the lobe, and find the eye in its frame
-    r.placed = placed_lobe_of(lobe_met(f, coat), r.lobe, x.s.n, x.s.v, x.surface_axes);
+    r.placed = placed_lobe_of(layer.lobe, r.lobe, x.s.n, x.s.v, x.surface_axes);
     r.eye = r.placed.o;
-    if (lobe_met_has(f, coat, kLies_surface))
+    if (layer_has(layer, kLies_surface))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
     // For masking only: normals at silhouettes may face away from the eye, and lobes flare up there
     r.placed.o.z = max(r.placed.o.z, lit(0.02));
@@ -57,13 +57,13 @@ struct key_reflection {
 };
 
 // Computes the reflection of key light number `light`.
-BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light, bool coat)
+BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(key_lobe) lobe, int light, lobe_layer layer)
 {
     // Test the lobe's horizon and the surface's own
     real3 direction = splat3(the_frame(f).key_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;
-    if (lobe_met_has(f, coat, kLies_surface))
+    if (layer_has(layer, kLies_surface))
         in_place = to_frame(lobe.placed.axes, direction);
     mask risen = in_place.z > lit(0.0);
     // Set up the diffuse part; stop where the light is hidden or sampled
@@ -77,7 +77,7 @@ BN_FN key_reflection key_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN
         r.cosine = select(above, r.cosine, lit(0.0));
     }
     r.v_dot_h = lit(0.0);
-    if (no_lane(risen) || keys_are_sampled(f, x, coat))
+    if (no_lane(risen) || keys_are_sampled(x, layer))
         return r;
     // Transform the light's half axes to the lobe's frame
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).key_lights[light].axis_u));
@@ -121,16 +121,16 @@ BN_FN real3 key_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
 
 // Returns reflected light from all key lights. Lobes narrower than the narrowest evaluated one blend into a mirror, which
 // shows the lights as the environment has them. Occlusion dims everything. Where samples meet the lights with the
-// environment, only mirrors and the diffuse part are evaluated here. model: see key_lobe_of(). coat: x is a coat.
-BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model, bool coat)
+// environment, only mirrors and the diffuse part are evaluated here. model: see key_lobe_of(). layer: the layer that x stands for.
+BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model, lobe_layer layer)
 {
-    key_lobe lobe = key_lobe_of(f, x, model, coat);
+    key_lobe lobe = key_lobe_of(x, model, layer);
     real3 specular = vec3_all(lit(0.0));
     real3 irradiance = vec3_all(lit(0.0));
     // Sum the lights' specular and diffuse parts
     for (int i = 0; i < the_frame(f).key_light_count; ++i) {
         // Evaluate the lobe with Fresnel
-        key_reflection r = key_reflection_of(f, x, lobe, i, coat);
+        key_reflection r = key_reflection_of(f, x, lobe, i, layer);
         real3 fresnel = reflectance_of(x.s, r.v_dot_h);
         specular = specular + splat3(the_frame(f).key_lights[i].radiance) * fresnel * r.lobe;
         // Add irradiance for the diffuse part
@@ -143,10 +143,10 @@ BN_FN real3 light_from_key_lights(frame_ref f, BN_IN(shaded_point) x, int model,
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
     // Leave lobes that samples evaluate, unless they are mirrors
-    if (keys_are_sampled(f, x, coat)) {
+    if (keys_are_sampled(x, layer)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
-        if (lobe_met_has(f, coat, kPunctualOnly) || x.refracts)
+        if (layer_has(layer, kPunctualOnly) || x.refracts)
             mirror = lit(0.0);
     }
     if (any_lane(mirror > lit(0.0)))

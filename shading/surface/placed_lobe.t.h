@@ -34,14 +34,20 @@ BN_FN real3 from_frame(surface_frame g, real3 w)
     return g.t * w.x + g.b * w.y + g.n * w.z;
 }
 
-// Returns true where a model has the trait, by its line in models.def.
-BN_FN bool lobe_has(int model, int trait)
+// Returns a model's traits, by its line in models.def.
+BN_FN int traits_of_model(int model)
 {
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of)                                                                              \
     if (model == at)                                                                                                                       \
-        return (((traits) + kLies_##lies + kNormals_##normals) & trait) != 0;
+        return (traits) + kLies_##lies + kNormals_##normals;
 #include "shading/models.def"
-    return false;
+    return 0;
+}
+
+// Returns true where a model has the trait.
+BN_FN bool lobe_has(int model, int trait)
+{
+    return (traits_of_model(model) & trait) != 0;
 }
 
 // Returns the index of the lobe with the trait.

@@ -52,16 +52,33 @@ BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
     return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.surface_axes);
 }
 
-// Return the frame's lobe, or for a clear coat the round lobe, and test its traits.
-BN_FN int lobe_met(frame_ref f, bool coat)
+// A layer of a material, as lights see it: its lobe's index in shading/models.def, and the lobe's traits.
+struct lobe_layer {
+    int lobe;
+    int traits;
+};
+
+// Returns the material's own layer: the frame's lobe.
+BN_FN lobe_layer base_layer(frame_ref f)
 {
-    return coat ? lobe_that_has(kLobeOfRound) : the_frame(f).lobe;
+    lobe_layer r;
+    r.lobe = the_frame(f).lobe;
+    r.traits = the_frame(f).lobe_traits;
+    return r;
 }
-BN_FN bool lobe_met_has(frame_ref f, bool coat, int trait)
+
+// Returns a layer with a lobe of its own, whatever lobe the frame has. lobe: index in shading/models.def.
+BN_FN lobe_layer layer_with_lobe(int lobe)
 {
-    if (coat)
-        return lobe_has(lobe_that_has(kLobeOfRound), trait);
-    return (the_frame(f).lobe_traits & trait) != 0;
+    lobe_layer r;
+    r.lobe = lobe;
+    r.traits = traits_of_model(lobe);
+    return r;
+}
+
+BN_FN bool layer_has(lobe_layer layer, int traits)
+{
+    return (layer.traits & traits) != 0;
 }
 
 // Returns true where lobes lie in the surface's frame: they can tilt, and know the surface's horizon.
