@@ -106,6 +106,7 @@ class Bench:
         if self.sanitized:  # Vulkan drivers leak and are not under test
             env["VK_DRIVER_FILES"] = env["VK_ICD_FILENAMES"] = str(self.cache / "none")
             env["BN_FORCE_ISA"] = "scalar"  # the lanes that sanitizers check
+        env["BURNISH_PROGRESS_SECONDS"] = "3600"  # a slow machine would add lines to stderr
         env.update(extra)
         return env
 
