@@ -26,6 +26,8 @@ def installed(bench):
                      "fish/vendor_completions.d/burnish.fish"):
             file = pathlib.Path(prefix, "share", text)
             check(file.is_file() and "--technique" in file.read_text().replace("\\-", "-").replace("-l t", "--t"), f"{file} is not installed")
+            if pathlib.Path(bench.program).with_name("burnish-lab").is_file():
+                check("bless" in file.read_text(), f"{file} lacks the options of burnish-lab")
         bench.run("render", *SMALL, "-o", "a.exr", "-o", "a.hdr", "-o", "a.jpg", program=program).expect(0)
         for env in ("a.exr", "a.hdr", "a.jpg"):
             bench.run("render", *SMALL, "--env", env, "-o", "b.png", program=program).expect(0)
