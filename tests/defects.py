@@ -28,7 +28,7 @@ PROGRAMS = {
 }
 SURFACE, MAPS = "shading/surface/surface.k.h", "core/scene/surface_maps.cpp"
 TURNED_LAST = """surface_frame bumped = axes;
-    bumped.b = k_cross(x.surface_axes.n, axes.t);
+    bumped.b = k_cross(x.geometric_axes.n, axes.t);
     x.lobe = lobe_in_frame(m, shape, bumped);"""
 # name: (file, text, replacement, program, the test that fails)
 DEFECTS = {

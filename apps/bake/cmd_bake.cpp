@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "apps/bake/direction.h"
+#include "apps/bake/direction_field.h"
 #include "apps/bake/displaced.h"
 #include "apps/bake/ltc.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/mip.h"
 #include "apps/bake/phong_tables.h"
 #include "apps/bake/preview.h"
-#include "apps/bake/straighten.h"
 #include "apps/cli/command.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
@@ -133,7 +133,7 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add_needing("WHAT", "environment",
                       {{"--env-size", "N", "Texels along a cube edge, a power of two",
                         choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
-                       {"--key-lights", "N", "Small strong lights that leave it: {}", key_lights(to.environment.key_lights)},
+                       {"--key-lights", "N", "Small strong lights that leave it: {}", extracted_lights(to.environment.extracted_lights)},
                        {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)}});
     table.add("Output",
               {{"-o,--output", "FILE",
@@ -249,7 +249,7 @@ int write_rotations(const BakeArguments& a, const Image& directions, PixelType t
                      [&](const Image& map) { return preview_of_rotations(map, a.encoding); });
 }
 
-int run_straighten(const BakeArguments& a)
+int run_direction_field(const BakeArguments& a)
 {
     if (!a.expressions.empty() || !a.picture.empty())
         return fail(usage_error("--expr", "and --straighten both say what is made"));
@@ -263,7 +263,7 @@ int run_straighten(const BakeArguments& a)
     const auto data = open_scene(a.mesh, a.limits, {}, {}, {}, {});
     if (!data)
         return fail(data.error());
-    const Straightened made = straighten((*data)->tables, *a.along, size_of(a, {256, 256}));
+    const DirectionField made = bake_direction_field((*data)->tables, *a.along, size_of(a, {256, 256}));
     if (made.covered == 0)
         return fail({ExitCode::bad_input, a.mesh, "", "has no texture coordinates that cover a texel"});
     Warnings warnings = (*data)->scene.warnings;
@@ -276,7 +276,7 @@ int run_straighten(const BakeArguments& a)
 int run_tpr(const BakeArguments& a)
 {
     if (!a.mesh.empty() || a.along)
-        return run_straighten(a);
+        return run_direction_field(a);
     std::vector<std::string> expressions = a.expressions;
     if (!a.picture.empty())
         expressions.push_back(a.picture);

@@ -13,7 +13,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/plot/plot.h"
-#include "apps/report/looks.h"
+#include "apps/report/chart_style.h"
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/base/file.h"

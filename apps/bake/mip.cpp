@@ -127,7 +127,7 @@ std::vector<Option> mip_options(MipArguments& to)
     return {
         {"--mip-filter", "NAME", "{}", choice(to.filter, names)},
         {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet and teacher", number(to.kappa, 0.0, kMostKappa),
-         fmt::format("{}", kUsualMipKappa).c_str()},
+         fmt::format("{}", kDefaultMipKappa).c_str()},
         {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
         {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
          choice(to.fallback, {"auto", "off"})},

@@ -15,7 +15,7 @@
 #include "raster/frame/mip_files.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/grid.h"
-#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/mip_error.h"
 #include "shading/bake/mip/source.h"
 #include "shading/bake/mip/standard_textures.h"
 
@@ -139,7 +139,7 @@ struct Off {
 constexpr std::size_t kMostShown = 1u << 14;
 
 std::string figures_of(const std::string& name, const StandardLevels& held, const MipSource& source, const MipLevels& levels,
-                       const ShownSurface& surface, const Jobs& jobs)
+                       const MipErrorSurface& surface, const Jobs& jobs)
 {
     const auto texels = [&](std::size_t l) { return held.normal[l].bytes.size() / (3 * sizeof(float)); };
     std::size_t first = 0;
@@ -148,7 +148,7 @@ std::string figures_of(const std::string& name, const StandardLevels& held, cons
     std::vector<Off> off(held.normal.size() - first);
     jobs.parallel_for(off.size(), [&](std::size_t l, int) {
         const auto by = [&](bool between) {
-            return shown_difference(standard_texels(held, first + l, between), filtered_texels(source, levels, first + l, between), surface)
+            return mip_difference(standard_texels(held, first + l, between), filtered_texels(source, levels, first + l, between), surface)
                 .l1;
         };
         off[l] = {by(false), by(true)};
@@ -210,7 +210,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                     !added)
                     return added;
             written.figures +=
-                figures_of(names[i], made, source, *levels[i], shown_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);
+                figures_of(names[i], made, source, *levels[i], mip_error_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);
         }
         return files.name_all();
     };

@@ -209,7 +209,7 @@ Preview preview_of_environment(const Environment& environment)
     for (int level = 0; level < environment.specular.levels; ++level)
         pictures.push_back({fmt::format("radiance_{:02}", level), all_around(environment.specular, level)});
     pictures.push_back({"irradiance", all_around(environment.irradiance, 0)});
-    if (!environment.key_lights.empty())
+    if (!environment.extracted_lights.empty())
         pictures.push_back({"whole", all_around(environment.whole, 0)});
     return pictures;
 }

@@ -43,7 +43,7 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
     return count;
 }
 
-Status write_report(const ChartReport& chart, const Keeper& keeper, Report& report)
+Status write_report(const ChartReport& chart, const ChartCheckpoint& checkpoint, Report& report)
 {
     Result<std::vector<ReportFile>> files = chart_files(chart);
     BN_TRY(files);
@@ -54,17 +54,17 @@ Status write_report(const ChartReport& chart, const Keeper& keeper, Report& repo
     files->push_back({"report.html", std::move(*page)});
     std::set<std::string> used;
     for (const ReportFile& file : *files) {
-        used.insert(keeper.file(file.name));
-        if (const Status written = write_file(keeper.file(file.name), file.bytes); !written)
+        used.insert(checkpoint.file(file.name));
+        if (const Status written = write_file(checkpoint.file(file.name), file.bytes); !written)
             return written;
-        report.detail("wrote", keeper.file(file.name));
+        report.detail("wrote", checkpoint.file(file.name));
     }
     for (const ChartRow& row : chart.rows)
         used.insert({row.picture, row.error_map});
     for (const auto& [place, reference] : chart.references)
         used.insert(reference.picture);
-    keeper.remove_stale(used);
-    report.event("wrote", keeper.file("report.html"));
+    checkpoint.remove_stale(used);
+    report.event("wrote", checkpoint.file("report.html"));
     return {};
 }
 
@@ -108,7 +108,7 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     }
     std::map<std::string, int> seen;
     std::erase_if(set, [&](const mipnet::TestMaterial& m) { return ++seen[m.set] > o.per_set; });
-    const float kappa = base.mips.kappa.value_or(kUsualMipKappa);
+    const float kappa = base.mips.kappa.value_or(kDefaultMipKappa);
     const std::vector<MipRow> rows = mip_rows(set, *lobes, {kappa, base.mips.gains}, jobs);
     report.release();
     const std::string summary = mip_summary(rows);
@@ -136,15 +136,15 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
         return fail(checked.error());
     const ChartOptions& options = *checked;
     Report report(options.base.quiet, options.base.verbosity);
-    Result<Keeper> keeper = Keeper::open(options.folder, report);
-    if (!keeper)
-        return fail(keeper.error());
+    Result<ChartCheckpoint> checkpoint = ChartCheckpoint::open(options.folder, report);
+    if (!checkpoint)
+        return fail(checkpoint.error());
     const auto jobs = std::make_shared<const Jobs>(options.base.threads);
-    const Result<MeasuredChart> measured = measure_chart(options, jobs, *keeper, report);
+    const Result<MeasuredChart> measured = measure_chart(options, jobs, *checkpoint, report);
     if (!measured)
         return fail(measured.error());
     if (measured->stopped) {
-        report.event("stopped", fmt::format("the same command goes on from {}; no report was written", keeper->file("rows.json")));
+        report.event("stopped", fmt::format("the same command goes on from {}; no report was written", checkpoint->file("rows.json")));
         return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const ChartReport& chart = measured->report;
@@ -153,7 +153,7 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     if (const std::optional<double> others = chart.machine.others; others.value_or(0.0) > kBusy)
         report.warning(
             fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));
-    if (const Status written = write_report(chart, *keeper, report); !written)
+    if (const Status written = write_report(chart, *checkpoint, report); !written)
         return fail(written.error());
     if (const std::uint64_t bad = pictures_with_nan(chart))
         return fail(

@@ -7,14 +7,14 @@
 #include <limits>
 #include <memory>
 
-#include "apps/chart/load.h"
+#include "apps/chart/cpu_load.h"
 #include "apps/chart/noise.h"
 #include "apps/chart/reference.h"
 #include "apps/cli/open.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/parameters.h"
 #include "apps/options/scene_view.h"
-#include "apps/options/seen_scene.h"
+#include "apps/options/scene_with_view.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
 #include "core/base/clock.h"
@@ -47,8 +47,8 @@ std::string error_text(double relative_error)
 
 class Chart {
   public:
-    Chart(const ChartOptions& options, std::shared_ptr<const Jobs> jobs, Keeper& keeper, Report& report)
-        : options_(options), jobs_(jobs), keeper_(keeper), report_(report), stop_(watch_stop_signals()),
+    Chart(const ChartOptions& options, std::shared_ptr<const Jobs> jobs, ChartCheckpoint& checkpoint, Report& report)
+        : options_(options), jobs_(jobs), checkpoint_(checkpoint), report_(report), stop_(watch_stop_signals()),
           settings_(settings_of(options.techniques, options.sweeps.samples))
     {
     }
@@ -59,14 +59,14 @@ class Chart {
 
   private:
     struct Place { // rows of one place are compared with each other
-        const SeenScene& scene;
+        const SceneWithView& scene;
         Session& tile;
         FrameDesc desc; // for the compared pictures, without technique and samples
         std::string env;
         Cell cell;
         std::uint64_t key = 0; // hash of scene, environment, view and overrides
     };
-    Status measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
+    Status measure_pair(const SceneWithView& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
     Result<Image> reference(const Place& place, ReferenceNoise& noise);
     Status find_errors(const Place& place, const Image& reference, ChartRow& row);
@@ -78,16 +78,16 @@ class Chart {
 
     const ChartOptions& options_;
     std::shared_ptr<const Jobs> jobs_;
-    Keeper& keeper_;
+    ChartCheckpoint& checkpoint_;
     Report& report_;
     const std::atomic<bool>& stop_;
     std::vector<Setting> settings_;
-    std::vector<SeenScene> scenes_;
+    std::vector<SceneWithView> scenes_;
     std::vector<std::shared_ptr<const Environment>> environments_;
     std::uint64_t program_ = program_hash(); // ignores rows of other builds: their kernels may differ
     int picture_width_ = 0;
     std::unique_ptr<Progress> progress_;
-    LoadMeter load_; // while frames are timed
+    CpuLoadMeter load_; // while frames are timed
     ChartReport out_;
 };
 
@@ -95,7 +95,7 @@ class Chart {
 Status Chart::load_all()
 {
     for (const std::string& name : options_.scenes) {
-        Result<SeenScene> scene = load_seen_scene(name, options_.base, report_);
+        Result<SceneWithView> scene = load_scene_with_view(name, options_.base, report_);
         BN_TRY(scene);
         warn_of_opaque_glass(scene->data->scene, options_.techniques, report_);
         scenes_.push_back(std::move(*scene));
@@ -139,7 +139,7 @@ Status Chart::measure()
     return {};
 }
 
-Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const Environment>& environment, const std::string& env)
+Status Chart::measure_pair(const SceneWithView& scene, const std::shared_ptr<const Environment>& environment, const std::string& env)
 {
     SessionOptions of_tile;
     of_tile.isa = options_.base.isa;
@@ -174,7 +174,7 @@ Status Chart::measure_pair(const SeenScene& scene, const std::shared_ptr<const E
         place.key = reference_key(tile->parts().input(), tile->drawn(place.desc), options_.base.reference);
         if (const Status done = measure_place(place); !done)
             return done;
-        if (const Status saved = keeper_.save(); !saved)
+        if (const Status saved = checkpoint_.save(); !saved)
             return saved;
         if (stopped())
             return {};
@@ -193,17 +193,17 @@ Status Chart::measure_place(const Place& place)
         complete = complete && rows.back().measured.has_errors;
     }
     // Render the reference and compare, unless all is kept
-    const std::string kept_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
-    complete = complete && keeper_.references().count(kept_reference);
-    const std::string picture = keeper_.picture(
-        fmt::format("reference-{}-{}-{:g}", kept_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
+    const std::string cached_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
+    complete = complete && checkpoint_.references().count(cached_reference);
+    const std::string picture = checkpoint_.picture(
+        fmt::format("reference-{}-{}-{:g}", cached_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
         const Result<Image> truth = reference(place, noise);
         BN_TRY(truth);
         if (stopped())
             return {};
-        keeper_.references()[kept_reference] = noise;
+        checkpoint_.references()[cached_reference] = noise;
         if (const Status written = write_small(picture, *truth, false); !written)
             return written;
         for (ChartRow& row : rows) {
@@ -216,7 +216,7 @@ Status Chart::measure_place(const Place& place)
     } else {
         progress_->step(rows.size());
     }
-    out_.references[burnish::place(rows.front())] = {picture, keeper_.references().at(kept_reference)};
+    out_.references[burnish::place(rows.front())] = {picture, checkpoint_.references().at(cached_reference)};
     // Time the rows
     load_.begin();
     const Status timed = time_rows(place, rows);
@@ -234,8 +234,8 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
     options.full_textures = options_.base.reference.full_textures;
     options.stop = &stop_;
     options.quiet = options_.base.quiet;
-    const ReferenceHome home = {options_.base.environment.use_cache, options_.folder};
-    Result<Frame> frame = kept_reference(place.tile, place.desc, options, options_.base.isa, home, report_);
+    const ReferenceCache home = {options_.base.environment.use_cache, options_.folder};
+    Result<Frame> frame = cached_reference(place.tile, place.desc, options, options_.base.isa, home, report_);
     BN_TRY(frame);
     const SamplingStats& s = frame->stats.sampling;
     if (!s.stopped)
@@ -279,10 +279,10 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;
     row.setting = setting, row.cell = place.cell;
-    row.measured = keeper_.row(row.key);
+    row.measured = checkpoint_.row(row.key);
     const std::string name = fmt::format("{}-{}-{:g}", row.key, picture_width_, static_cast<double>(options_.base.exposure_ev));
-    row.picture = keeper_.picture(name);
-    row.error_map = keeper_.picture(name + "-flip");
+    row.picture = checkpoint_.picture(name);
+    row.error_map = checkpoint_.picture(name + "-flip");
     std::error_code ignored;
     row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture, ignored) && fs::exists(row.error_map, ignored);
     return row;
@@ -318,10 +318,10 @@ Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& 
         if (!written)
             return written;
     row.measured.has_errors = true;
-    Measured& kept = keeper_.row(row.key);
+    Measured& kept = checkpoint_.row(row.key);
     kept.has_errors = true;
     kept.errors = e;
-    return keeper_.save_sometimes();
+    return checkpoint_.save_sometimes();
 }
 
 // Times all settings in turn, every other round in reverse order. A slow phase of the machine then slows all settings, and no setting
@@ -344,7 +344,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
     }
     for (std::size_t run = 0; run < runs; ++run) {
         for (const std::size_t i : order) {
-            Measured& kept = keeper_.row(rows[i].key);
+            Measured& kept = checkpoint_.row(rows[i].key);
             if (kept.ms.size() > run)
                 continue;
             const double before = process_cpu_ms();
@@ -358,11 +358,11 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
                 return {};
         }
         std::reverse(order.begin(), order.end());
-        if (const Status saved = keeper_.save_sometimes(); !saved)
+        if (const Status saved = checkpoint_.save_sometimes(); !saved)
             return saved;
     }
     for (ChartRow& row : rows) {
-        const Measured& kept = keeper_.row(row.key);
+        const Measured& kept = checkpoint_.row(row.key);
         row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
         row.measured.ms.resize(runs); // an earlier chart may have had more runs
         row.measured.cpu_ms.resize(runs);
@@ -374,21 +374,22 @@ ChartReport Chart::take()
 {
     mark_pareto(out_.rows);
     if (const std::optional<double> others = load_.others())
-        keeper_.others() = std::max(*others, keeper_.others().value_or(0.0));
-    out_.machine.others = keeper_.others();
+        checkpoint_.others() = std::max(*others, checkpoint_.others().value_or(0.0));
+    out_.machine.others = checkpoint_.others();
     return std::move(out_);
 }
 
 } // namespace
 
-Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, Keeper& keeper, Report& report)
+Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, ChartCheckpoint& checkpoint,
+                                    Report& report)
 {
-    Chart chart(options, jobs, keeper, report);
+    Chart chart(options, jobs, checkpoint, report);
     BN_TRY(chart.load_all());
     report.release();
     BN_TRY(chart.measure());
     MeasuredChart measured_chart{chart.take(), chart.stopped()};
-    BN_TRY(keeper.save());
+    BN_TRY(checkpoint.save());
     return measured_chart;
 }
 

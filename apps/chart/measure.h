@@ -3,7 +3,7 @@
 #pragma once
 #include <memory>
 
-#include "apps/chart/keeper.h"
+#include "apps/chart/chart_checkpoint.h"
 #include "apps/chart/options.h"
 #include "core/jobs/jobs.h"
 
@@ -14,6 +14,7 @@ struct MeasuredChart {
     bool stopped = false; // by a signal; all rows are kept, the report is incomplete
 };
 
-Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, Keeper& keeper, Report& report);
+Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, ChartCheckpoint& checkpoint,
+                                    Report& report);
 
 } // namespace burnish

@@ -125,7 +125,7 @@ FilteredLevels levels_by(MipFilter filter, const TexelMaps& maps, mipnet::Lobe l
                         {mipnet::shipped_weights(lobe), metal, {}, lobe, options.gains ? Gains::as_judged : Gains::none});
     FilteredLevels levels;
     for (std::size_t l = 0; l < kMipRowLevels; ++l)
-        levels.texels.push_back(shown_texels(made.levels[l])), levels.gains.push_back(made.levels[l].gain);
+        levels.texels.push_back(mip_level_texels(made.levels[l])), levels.gains.push_back(made.levels[l].gain);
     return levels;
 }
 
@@ -183,18 +183,18 @@ std::vector<MipRow> mip_rows(const std::vector<mipnet::TestMaterial>& set, const
                 filters.push_back(std::move(levels.texels)), gains.push_back(std::move(levels.gains));
                 ms.push_back(wall_ms() - begin);
             }
-            const auto l1 = [](const std::vector<std::vector<ShownError>>& of, MipFilter filter, std::size_t l) {
+            const auto l1 = [](const std::vector<std::vector<MipError>>& of, MipFilter filter, std::size_t l) {
                 return of[static_cast<std::size_t>(filter)][l].l1;
             };
             std::vector<std::vector<Texels>> second(filters.size());
             std::vector<std::string> names;
             for (const MipFilterInfo& filter : mip_filters())
                 names.emplace_back(filter.name);
-            const ShownSurface surface = shown_surface(lobe, m.material.metal);
+            const MipErrorSurface surface = mip_error_surface(lobe, m.material.metal);
             // Crossed grain: search two lobes a texel
             if (m.set == "crossed") {
                 const double begin = wall_ms();
-                LobePairs pairs = taught_pairs(level0, filters[static_cast<std::size_t>(kMipFilter_teacher)], surface, jobs);
+                LobePairs pairs = optimised_pairs(level0, filters[static_cast<std::size_t>(kMipFilter_teacher)], surface, jobs);
                 filters.push_back(std::move(pairs.first)), second.push_back(std::move(pairs.second));
                 ms.push_back(wall_ms() - begin), names.emplace_back("two lobes");
             }

@@ -6,7 +6,7 @@
 
 #include "apps/report/json.h"
 #include "core/jobs/jobs.h"
-#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/mip_error.h"
 #include "shading/bake/mipnet/families.h"
 
 namespace burnish {
@@ -15,7 +15,7 @@ struct MipRow {
     std::string set, family, material, brdf, filter;
     int level = 0;               // from 1 on
     bool hardest = false;        // in the quarter of its set and model with baseline's largest errors (L1, mean over levels)
-    ShownError error;            // flip is 0 for levels with fewer than 16 texels a side
+    MipError error;              // flip is 0 for levels with fewer than 16 texels a side
     double ms = 0.0;             // wall-clock time for all levels of the material
     std::optional<double> gap{}; // closed share of the L1 gap from baseline (0) to teacher (1); none without a gap
 };

@@ -13,7 +13,7 @@ namespace burnish {
 namespace {
 
 constexpr double kMaxCells = 10000.0;
-constexpr int kUsualErrorWidth = 480; // pixels: references with thousands of samples stay affordable
+constexpr int kDefaultErrorWidth = 480; // pixels: references with thousands of samples stay affordable
 
 Value sweeps(Sweeps& to)
 {
@@ -105,7 +105,7 @@ Status check_pairs(const ChartArguments& in, const OptionTable& given, ChartOpti
 Status check_error_size(const PictureSize& size, bool given, ChartOptions& out)
 {
     const FrameDesc& frame = out.base.frame;
-    out.error_width = std::min(frame.width, kUsualErrorWidth);
+    out.error_width = std::min(frame.width, kDefaultErrorWidth);
     const auto height_at = [&](int width) {
         return std::max(1, static_cast<int>(static_cast<double>(frame.height) * width / frame.width + 0.5));
     };

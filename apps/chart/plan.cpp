@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMaxSamples = 65536; // as in `burnish render`
 constexpr std::size_t kMaxValues = 64;      // in one sweep: more is a typing error
-constexpr int kUsualSamples[] = {1, 2, 4, 8, 16, 32, 64};
+constexpr int kDefaultSamples[] = {1, 2, 4, 8, 16, 32, 64};
 
 Error sweep_error(const std::string& reason)
 {
@@ -91,11 +91,11 @@ std::vector<Setting> settings_of(const std::vector<std::string>& names, const st
         }
         std::vector<int> asked = samples, taken;
         if (samples.empty()) {
-            asked.assign(std::begin(kUsualSamples), std::end(kUsualSamples));
+            asked.assign(std::begin(kDefaultSamples), std::end(kDefaultSamples));
             asked.push_back(technique.default_samples);
         }
         for (const int n : asked)
-            add_once(taken, samples_taken(technique, n));
+            add_once(taken, effective_samples(technique, n));
         std::sort(taken.begin(), taken.end());
         for (const int n : taken)
             settings.push_back({name, n, true});

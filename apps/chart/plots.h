@@ -19,7 +19,7 @@ struct Mark { // a technique's mark: its own shape, and a shade of its family's 
     int family = 0, relative = 0, shape = 0;
 };
 Mark mark_of(const std::string& technique);
-std::string mark_class(const std::string& technique); // "c2 c2a", see apps/report/looks.h
+std::string mark_class(const std::string& technique); // "c2 c2a", see apps/report/chart_style.h
 
 // Plots time against FLIP, one point a setting, with the Pareto front. `rows`: rows of one place.
 Drawing plot_time_flip(const RowList& rows, Layout layout);

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reference_folder(const ReferenceHome& home)
+std::string reference_folder(const ReferenceCache& home)
 {
     if (const std::string cache = cache_folder(); home.use_cache && !cache.empty()) {
         std::error_code failed;
@@ -24,7 +24,7 @@ std::string reference_folder(const ReferenceHome& home)
 
 } // namespace
 
-ReferenceOptions kept_options(ReferenceOptions options, const ReferenceHome& home, Report& report)
+ReferenceOptions cached_reference_options(ReferenceOptions options, const ReferenceCache& home, Report& report)
 {
     options.checkpoint_folder = reference_folder(home);
     options.checkpoint_seconds = home.save_every;
@@ -33,7 +33,7 @@ ReferenceOptions kept_options(ReferenceOptions options, const ReferenceHome& hom
     return options;
 }
 
-Result<Frame> kept_reference(Session& reference, const FrameDesc& desc, const ReferenceOptions& options, Report& report)
+Result<Frame> cached_reference(Session& reference, const FrameDesc& desc, const ReferenceOptions& options, Report& report)
 {
     const RenderInput input = reference.parts().input();
     const FrameDesc drawn = reference.drawn(desc);
@@ -51,14 +51,14 @@ Result<Frame> kept_reference(Session& reference, const FrameDesc& desc, const Re
     return frame;
 }
 
-Result<Frame> kept_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa,
-                             const ReferenceHome& home, Report& report)
+Result<Frame> cached_reference(const Session& session, const FrameDesc& desc, const ReferenceOptions& options, Isa isa,
+                               const ReferenceCache& home, Report& report)
 {
     SessionOptions of_reference;
     of_reference.backend = Backend::reference, of_reference.isa = isa;
-    of_reference.reference = kept_options(options, home, report);
+    of_reference.reference = cached_reference_options(options, home, report);
     Result<Session> reference = Session::make(session.parts(), of_reference);
-    return reference ? kept_reference(*reference, desc, of_reference.reference, report) : reference.error();
+    return reference ? cached_reference(*reference, desc, of_reference.reference, report) : reference.error();
 }
 
 } // namespace burnish

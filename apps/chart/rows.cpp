@@ -113,9 +113,10 @@ void mark_pareto(std::vector<ChartRow>& rows)
     }
 }
 
-std::string kept_json(const Kept& kept)
+std::string chart_results_json(const ChartResults& kept)
 {
-    Json json = {{"kept_version", kKeptVersion}, {"rows", Json::object()}, {"references", Json::object()}, {"other_load", kept.others}};
+    Json json = {
+        {"kept_version", kChartResultsVersion}, {"rows", Json::object()}, {"references", Json::object()}, {"other_load", kept.others}};
     for (const auto& [key, noise] : kept.references)
         json["references"][key] = noise_json(noise);
     for (const auto& [key, m] : kept.rows) {

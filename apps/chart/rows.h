@@ -28,7 +28,7 @@ struct ReferenceNoise {          // estimated error of the reference itself
     double flip = 0.0;           // mean FLIP between the reference and the reference plus as much noise again
 };
 
-struct Kept {                                         // from earlier runs
+struct ChartResults {                                 // from earlier runs
     std::map<std::string, Measured> rows;             // by ChartRow::key
     std::map<std::string, ReferenceNoise> references; // by key of the place and requested samples
     std::optional<double> others{};                   // largest ChartMachine::others of the runs behind the times
@@ -79,9 +79,9 @@ double p95_of(const ChartRow& row);
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
-inline constexpr int kKeptVersion = 2; // file layout
-std::string kept_json(const Kept& kept);
-Result<Kept> parse_kept(const std::string& text, const std::string& file);
+inline constexpr int kChartResultsVersion = 2; // file layout
+std::string chart_results_json(const ChartResults& kept);
+Result<ChartResults> parse_chart_results(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);
 std::string report_csv(const ChartReport& report); // rows only
 

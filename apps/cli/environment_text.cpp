@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "shading/bake/environment/key_lights.h"
+#include "shading/bake/environment/extracted_lights.h"
 
 namespace burnish {
 
@@ -13,7 +13,7 @@ std::string light_text(const Environment& e)
                        static_cast<double>(e.peak_source));
 }
 
-std::string key_light_text(const KeyLight& k)
+std::string extracted_light_text(const ExtractedLight& k)
 {
     constexpr double kDegrees = 57.295779513082321;
     return fmt::format("{:.1f} % of the light, towards {:.4f},{:.4f},{:.4f}, radius {:.2f} degrees, irradiance {:.4g},{:.4g},{:.4g}",
@@ -21,18 +21,18 @@ std::string key_light_text(const KeyLight& k)
                        kDegrees * static_cast<double>(k.angular_radius), k.irradiance[0], k.irradiance[1], k.irradiance[2]);
 }
 
-void report_key_lights(const Environment& environment, Report& report)
+void report_extracted_lights(const Environment& environment, Report& report)
 {
-    for (const KeyLight& light : environment.key_lights)
-        report.detail("key light", key_light_text(turned(light, environment.rotation_deg)));
+    for (const ExtractedLight& light : environment.extracted_lights)
+        report.detail("key light", extracted_light_text(turned(light, environment.rotation_deg)));
 }
 
-Json key_lights_json(const Environment& environment)
+Json extracted_lights_json(const Environment& environment)
 {
     const auto vector = [](const float* v) { return Json::array({v[0], v[1], v[2]}); };
     Json lights = Json::array();
-    for (const KeyLight& baked : environment.key_lights) {
-        const KeyLight k = turned(baked, environment.rotation_deg);
+    for (const ExtractedLight& baked : environment.extracted_lights) {
+        const ExtractedLight k = turned(baked, environment.rotation_deg);
         Json light;
         light["direction"] = vector(k.direction);
         light["irradiance"] = vector(k.irradiance);

@@ -1,4 +1,4 @@
-// Describes a baked environment: its light, and the key lights taken out of it.
+// Describes a baked environment: its light, and the extracted lights taken out of it.
 #pragma once
 #include <string>
 
@@ -9,10 +9,10 @@
 namespace burnish {
 
 std::string light_text(const Environment& environment); // mean and peak radiance
-std::string key_light_text(const KeyLight& light);
-void report_key_lights(const Environment& environment, Report& report); // with -v
+std::string extracted_light_text(const ExtractedLight& light);
+void report_extracted_lights(const Environment& environment, Report& report); // with -v
 
-// Returns {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} for each key light, the strongest first.
-Json key_lights_json(const Environment& environment);
+// Returns {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} for each extracted light, the strongest first.
+Json extracted_lights_json(const Environment& environment);
 
 } // namespace burnish

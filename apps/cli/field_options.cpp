@@ -19,7 +19,7 @@ const std::vector<std::pair<std::string, std::string>>& field_options()
 {
     static const std::vector<std::pair<std::string, std::string>> all = [] {
         std::vector<std::pair<std::string, std::string>> fields = {
-            {"EnvironmentOptions::key_lights", "--key-lights"},
+            {"EnvironmentOptions::extracted_lights", "--key-lights"},
             {"FrameDesc::samples", "--samples"},
             {"FrameDesc::technique", "--technique"},
             {"FrameDesc::width", "--size"},

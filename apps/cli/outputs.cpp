@@ -190,7 +190,7 @@ Status make_output_folder(const std::string& folder)
     return {};
 }
 
-Image shown_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
+Image display_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
 {
     return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts, resolve);
 }
@@ -200,7 +200,7 @@ Status write_picture(const std::string& path, const Image& linear, Tonemap tonem
 {
     if (stores_floats(path))
         return write_image(path, linear);
-    return write_image(path, shown_picture(linear, tonemap, exposure_ev, parts, resolve));
+    return write_image(path, display_picture(linear, tonemap, exposure_ev, parts, resolve));
 }
 
 Status write_text(const std::string& path, const std::string& text)

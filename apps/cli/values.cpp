@@ -78,9 +78,9 @@ Texts names_of(const std::vector<BuiltinInfo>& infos)
 }
 
 // True for builtin:NAME=AMOUNT, a trial scene with an adjustable difficulty.
-bool is_trial(const std::string& text)
+bool is_failure_scene(const std::string& text)
 {
-    return contains(names_of(builtin_trials()), text.substr(0, text.find('=')));
+    return contains(names_of(builtin_failure_scenes()), text.substr(0, text.find('=')));
 }
 
 Value path_value(std::string& to, ValueKind kind)
@@ -90,13 +90,13 @@ Value path_value(std::string& to, ValueKind kind)
 }
 
 // Several values: each is a path, or one of the names if it begins like them.
-Value paths_value(Texts& to, const Texts& names, bool trials = false)
+Value paths_value(Texts& to, const Texts& names, bool failure_scenes = false)
 {
     Value value;
     value.kind = ValueKind::file, value.repeated = true, value.names = names;
-    value.set = [&to, names, trials](const std::string& option, const Texts& texts) -> Status {
+    value.set = [&to, names, failure_scenes](const std::string& option, const Texts& texts) -> Status {
         for (const std::string& text : texts)
-            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text) && !(trials && is_trial(text)))
+            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text) && !(failure_scenes && is_failure_scene(text)))
                 return not_one_of(option, text, names);
         to = texts;
         return {};
@@ -105,12 +105,12 @@ Value paths_value(Texts& to, const Texts& names, bool trials = false)
     return value;
 }
 
-Value builtin_or_path(std::string& to, const Texts& names, bool trials)
+Value builtin_or_path(std::string& to, const Texts& names, bool failure_scenes)
 {
     Value value = path_value(to, ValueKind::file);
     value.names = names;
-    value.set = [&to, names, trials](const std::string& option, const Texts& texts) -> Status {
-        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()) && !(trials && is_trial(texts.back())))
+    value.set = [&to, names, failure_scenes](const std::string& option, const Texts& texts) -> Status {
+        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()) && !(failure_scenes && is_failure_scene(texts.back())))
             return not_one_of(option, texts.back(), names);
         to = texts.back();
         return {};
@@ -357,13 +357,13 @@ Value area_lights(std::vector<AreaLight>& to)
     return value;
 }
 
-Value key_lights(int& to)
+Value extracted_lights(int& to)
 {
     Texts names = {"auto", "off"};
-    for (int n = 0; n <= kMaxKeyLights; ++n)
+    for (int n = 0; n <= kMaxExtractedLights; ++n)
         names.push_back(std::to_string(n));
-    const auto put = [&to](std::size_t i) { to = i == 0 ? kMaxKeyLights : i == 1 ? 0 : static_cast<int>(i) - 2; };
-    return value_detail::name(names, put, [&to] { return to == kMaxKeyLights ? 0 : static_cast<std::size_t>(to) + 2; });
+    const auto put = [&to](std::size_t i) { to = i == 0 ? kMaxExtractedLights : i == 1 ? 0 : static_cast<int>(i) - 2; };
+    return value_detail::name(names, put, [&to] { return to == kMaxExtractedLights ? 0 : static_cast<std::size_t>(to) + 2; });
 }
 
 Value choices(Texts& to, Texts names)

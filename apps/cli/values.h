@@ -62,7 +62,7 @@ Value scenes(std::vector<std::string>& to);
 Value environment(std::string& to);
 Value environments(std::vector<std::string>& to);
 Value area_lights(std::vector<AreaLight>& to); // one for each occurrence
-Value key_lights(int& to);                     // the largest number; auto, off, or a number
+Value extracted_lights(int& to);               // the largest number; auto, off, or a number
 
 // Several words with commas between. `names`: the valid words; empty: any word.
 Value choices(std::vector<std::string>& to, std::vector<std::string> names);

@@ -85,7 +85,7 @@ int run_export(const ExportArguments& arguments)
         return fail(usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples)));
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
-    if (Status written = write_text(arguments.output, text_of(technique, samples_taken(technique, asked))); !written)
+    if (Status written = write_text(arguments.output, text_of(technique, effective_samples(technique, asked))); !written)
         return fail(written.error());
     Report report(arguments.quiet, arguments.verbosity);
     report.release();

@@ -16,13 +16,13 @@
 #define lobe_used(at) true
 
 // Settings of a technique, common to all shading points. specular, box, whole: size (texels along a face's side) and level count of the
-// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. joins_round: 1 to blend anisotropic
+// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. blends_to_isotropic: 1 to blend anisotropic
 // lobes into split_isotropic as they become round. lobe: the model; lobe_traits: 1 for GGX, the default. The others are options of
 // `burnish render`.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
-    int joins_round;
+    int blends_to_isotropic;
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
     int lobe, lobe_traits;
@@ -37,15 +37,15 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
     f.box = f.specular;
     f.grid_count = kGridCount;
     f.samples = sample_count;
-    f.joins_round = 0;
-#define BN_USUAL_number(id, fallback) f.id = fallback;
-#define BN_USUAL_whole(id, fallback) f.id = fallback;
-#define BN_USUAL_flag(id, fallback) f.id = fallback;
-#define BN_USUAL_choice(id, fallback) f.id = fallback;
-#define BN_USUAL_lobe(id, fallback) f.id = fallback;
-#define BN_USUAL_way(id, fallback) f.id = 0;
-#define BN_USUAL_angles(id, fallback) // of materials
-#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_USUAL_##kind(id, fallback)
+    f.blends_to_isotropic = 0;
+#define BN_DEFAULT_number(id, fallback) f.id = fallback;
+#define BN_DEFAULT_whole(id, fallback) f.id = fallback;
+#define BN_DEFAULT_flag(id, fallback) f.id = fallback;
+#define BN_DEFAULT_choice(id, fallback) f.id = fallback;
+#define BN_DEFAULT_lobe(id, fallback) f.id = fallback;
+#define BN_DEFAULT_way(id, fallback) f.id = 0;
+#define BN_DEFAULT_angles(id, fallback) // of materials
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_DEFAULT_##kind(id, fallback)
 #include "shading/models.def"
     f.lobe = 0;
     f.lobe_traits = 1;
@@ -85,15 +85,15 @@ real3 fetched_level(cube_desc cube, real3 direction, int level)
     return fetched(cube, direction, float(level));
 }
 
-cube_desc specular_cube(settings f)
+cube_desc prefiltered_env(settings f)
 {
     return cube_desc(0, f.specular.size, f.specular.levels);
 }
-cube_desc box_cube(settings f)
+cube_desc mip_env(settings f)
 {
     return cube_desc(1, f.box.size, f.box.levels);
 }
-cube_desc whole_cube(settings f)
+cube_desc full_env(settings f)
 {
     return cube_desc(2, f.whole.size, f.whole.levels);
 }
@@ -170,8 +170,8 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     real across = alpha * (1.0 - anisotropy) * root;
     surface_frame axes = frame_of(n, tangent, 1.0);
     shaded_point x;
-    x.surface_axes = axes;
-    x.turned = false;
+    x.geometric_axes = axes;
+    x.has_surface_horizon = false;
     x.lobe.u_axis = select(along >= across, axes.t, axes.b);
     x.lobe.v_axis = select(along >= across, axes.b, -axes.t);
     x.lobe.sigma_u = max(along, across);
@@ -185,7 +185,7 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.albedo = f0 * dfg.x + f90 * dfg.y;
     x.phong_albedo = lit(-1.0);
     x.phong_set = -1;
-    x.brushed = brushed_part(x.lobe.sigma_u, x.lobe.sigma_v);
+    x.anisotropy_blend = anisotropy_blend_of(x.lobe.sigma_u, x.lobe.sigma_v);
     x.gain = vec3(1.0);
     x.compensation = vec3(1.0);
     x.pixel_id = pixel;

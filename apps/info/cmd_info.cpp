@@ -21,7 +21,7 @@
 #include "raster/session/session.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
-#include "shading/bake/environment/key_lights.h"
+#include "shading/bake/environment/extracted_lights.h"
 #include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
@@ -53,7 +53,7 @@ Info gather()
     return info;
 }
 
-// The requested environment with its key lights; null without --env.
+// The requested environment with its extracted lights; null without --env.
 using Seen = std::shared_ptr<const Environment>;
 
 Result<Seen> see_environment(const RenderOptions& options, const OptionTable& given)
@@ -84,7 +84,7 @@ int print_json(const Info& info, const Environment* environment)
         json["environment"] = {{"name", environment->name},
                                {"mean_radiance", environment->energy_source},
                                {"peak_radiance", environment->peak_source},
-                               {"key_lights", key_lights_json(*environment)},
+                               {"key_lights", extracted_lights_json(*environment)},
                                {"warnings", environment->warnings}};
     fmt::print("{}\n", json.dump(2));
     return 0;
@@ -110,8 +110,8 @@ int print_text(const Info& info, const Environment* environment)
         fmt::print("environment  {}: {}\n", printable(environment->name), light_text(*environment));
         for (const std::string& warning : environment->warnings)
             fmt::print("warning      {}\n", warning);
-        for (const KeyLight& light : environment->key_lights)
-            fmt::print("key light    {}\n", key_light_text(turned(light, environment->rotation_deg)));
+        for (const ExtractedLight& light : environment->extracted_lights)
+            fmt::print("key light    {}\n", extracted_light_text(turned(light, environment->rotation_deg)));
     }
     return 0;
 }

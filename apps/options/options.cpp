@@ -87,7 +87,7 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
     if (samples > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique.most_samples, samples));
     BN_TRY(check_lobe(frame, *find_technique(out.backend == "reference" ? "mc" : frame.technique)));
-    frame.samples = samples_taken(technique, static_cast<int>(samples));
+    frame.samples = effective_samples(technique, static_cast<int>(samples));
     if (frame.samples != samples)
         out.warnings.push_back(fmt::format("--samples {}: {} takes {}", samples, frame.technique, frame.samples));
     return {};

@@ -86,7 +86,7 @@ int first_placed_camera(const Scene& scene)
 Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
 {
     const int width = options.frame.width, height = options.frame.height;
-    const float fov_y_rad = options.fov_y_deg.value_or(kUsualFovDeg) * kRadiansPerDegree;
+    const float fov_y_rad = options.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree;
     if (options.eye) {
         const glm::vec3 eye = drawn_place(*options.eye, scene);
         const glm::vec3 target = options.target ? drawn_place(*options.target, scene) : (tables.bounds_min + tables.bounds_max) * 0.5f;
@@ -112,7 +112,7 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
     framing.fov_y_rad = fov_y_rad;
     if (options.target)
         framing.target = drawn_place(*options.target, scene);
-    const glm::vec2 orbit_deg = options.orbit_deg.value_or(kUsualOrbitDeg);
+    const glm::vec2 orbit_deg = options.orbit_deg.value_or(kDefaultOrbitDeg);
     framing.azimuth_rad = orbit_deg.x * kRadiansPerDegree, framing.elevation_rad = orbit_deg.y * kRadiansPerDegree;
     return ChosenView{auto_frame(tables, width, height, framing), options.orbit_deg ? "from --orbit" : "framed automatically", true};
 }

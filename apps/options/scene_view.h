@@ -10,8 +10,8 @@
 
 namespace burnish {
 
-inline constexpr float kRadiansPerDegree = 0.017453292519943295f, kUsualFovDeg = 45.0f;
-inline const glm::vec2 kUsualOrbitDeg(35.0f, 28.0f); // a three-quarter view: a cube shows three faces
+inline constexpr float kRadiansPerDegree = 0.017453292519943295f, kDefaultFovDeg = 45.0f;
+inline const glm::vec2 kDefaultOrbitDeg(35.0f, 28.0f); // a three-quarter view: a cube shows three faces
 
 struct ChosenView {
     View view;

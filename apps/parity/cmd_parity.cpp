@@ -8,7 +8,7 @@
 #include "apps/cli/field_options.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
-#include "apps/options/seen_scene.h"
+#include "apps/options/scene_with_view.h"
 #include "apps/parity/options.h"
 #include "apps/parity/report.h"
 #include "core/base/text.h"
@@ -103,7 +103,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     RenderOptions base = set.frames.front();
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
-    const Result<SeenScene> scene = load_seen_scene(place.scene, base, bench.report);
+    const Result<SceneWithView> scene = load_scene_with_view(place.scene, base, bench.report);
     BN_TRY(scene);
     SessionOptions of_tile, of_device;
     of_tile.isa = base.isa;

@@ -9,7 +9,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
-#include "apps/options/seen_scene.h"
+#include "apps/options/scene_with_view.h"
 #include "apps/parity/race_report.h"
 #include "apps/render/stats.h"
 #include "core/base/clock.h"
@@ -190,7 +190,7 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
 void race_scene(Race& bench, std::size_t first, std::size_t last)
 {
     const std::vector<RenderOptions>& frames = bench.plan.frames;
-    const Result<SeenScene> scene = load_seen_scene(frames[first].scene, frames[first], bench.report);
+    const Result<SceneWithView> scene = load_scene_with_view(frames[first].scene, frames[first], bench.report);
     if (!scene) {
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t d = 0; d < bench.devices.size(); ++d)

@@ -11,7 +11,7 @@
 #include "apps/options/parameters.h"
 #include "apps/plot/ellipsoid.h"
 #include "apps/plot/plot.h"
-#include "apps/report/looks.h"
+#include "apps/report/chart_style.h"
 #include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/image/io/image_io.h"

@@ -6,8 +6,8 @@
 #include "apps/plot/panel.h"
 #include "apps/plot/plot.h"
 #include "apps/report/axes.h"
+#include "apps/report/chart_style.h"
 #include "apps/report/html.h"
-#include "apps/report/looks.h"
 #include "apps/report/svg.h"
 #include "shading/lang/tables.h"
 
@@ -125,7 +125,7 @@ std::string energy_table(const std::vector<EnergyRow>& rows)
 Drawing tilted_lobe(double tilt_deg, double eye_deg)
 {
     LobePlot plot;
-    plot.roughness = 0.5, plot.anisotropy = 0.0, plot.model = lobe_with(kLobeOfTilted), plot.tilt_x_deg = tilt_deg;
+    plot.roughness = 0.5, plot.anisotropy = 0.0, plot.model = lobe_with(kTiltedLobe), plot.tilt_x_deg = tilt_deg;
     plot.theta_deg = eye_deg, plot.phi_deg = 0.0;
     return plot_lobe(plot);
 }

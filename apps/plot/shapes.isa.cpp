@@ -40,7 +40,7 @@ double lobe(double alpha_x, double alpha_y, const PlotVec& o, const PlotVec& i)
     return ggx_aniso_eval(ggx_aniso_params_of(alpha_x, alpha_y), of(o), of(i)) * i.z;
 }
 
-struct Placed { // lobe parameters made by lines of models.def (shading/surface/placed_lobe.t.h)
+struct Placed { // lobe parameters made by lines of models.def (shading/surface/bsdf_lobe.t.h)
     double alpha_u, alpha_v;
     real3 u, v, n;
 };

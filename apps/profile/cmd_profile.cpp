@@ -9,7 +9,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
-#include "apps/options/seen_scene.h"
+#include "apps/options/scene_with_view.h"
 #include "apps/profile/report.h"
 #include "apps/render/picture.h"
 #include "apps/render/stats.h"
@@ -124,7 +124,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 
     // Load the scene and the environment, and make the session
     const auto jobs = std::make_shared<const Jobs>(options.threads);
-    const Result<SeenScene> seen = load_seen_scene(options.scene, options, report);
+    const Result<SceneWithView> seen = load_scene_with_view(options.scene, options, report);
     if (!seen)
         return fail(seen.error());
     const Scene& scene = seen->data->scene;

@@ -112,7 +112,7 @@ int finish(const RenderOptions& options, const Rendered& rendered, Report& repor
 int run_render(RenderArguments& arguments, OptionTable& given)
 {
     if (arguments.plain.turntable || !arguments.animate.empty())
-        return run_row(arguments, given);
+        return run_animation(arguments, given);
     if (given.given("--steps"))
         return fail(usage_error("--steps", "needs --animate"));
     // Check the options and the paths

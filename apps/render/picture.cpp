@@ -9,7 +9,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
-#include "apps/options/seen_scene.h"
+#include "apps/options/scene_with_view.h"
 #include "apps/render/shadows.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
@@ -45,7 +45,7 @@ void report_environment(const Environment& environment, double ms, Report& repor
     report.event("environment", fmt::format("{}: {}; {}", environment.name, light_text(environment),
                                             environment.from_cache ? fmt::format("from the cache in {:.0f} ms", ms)
                                                                    : fmt::format("baked in {:.0f} ms", ms)));
-    report_key_lights(environment, report);
+    report_extracted_lights(environment, report);
 }
 
 // Without a background, coverage becomes the alpha channel.
@@ -164,7 +164,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     BN_TRY(check_paths(options, parts.environment->files));
     figures.env = parts.environment->name;
     figures.environment_from_cache = parts.environment->from_cache;
-    figures.key_lights = key_lights_json(*parts.environment);
+    figures.extracted_lights = extracted_lights_json(*parts.environment);
     report_environment(*parts.environment, figures.bake_ms, report);
     for (const std::string& warning : parts.environment->warnings)
         report.warning(warning);

@@ -46,6 +46,6 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
 Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Session& session, RenderFigures figures);
 
 // Renders the pictures of --animate or --turntable. Returns the exit code.
-int run_row(RenderArguments& arguments, OptionTable& given);
+int run_animation(RenderArguments& arguments, OptionTable& given);
 
 } // namespace burnish

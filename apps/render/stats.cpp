@@ -95,7 +95,7 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["bake_ms"] = figures.bake_ms;
     json["prepare_ms"] = figures.prepare_ms;
     json["environment_from_cache"] = figures.environment_from_cache;
-    json["key_lights"] = figures.key_lights;
+    json["key_lights"] = figures.extracted_lights;
     json["triangles"] = figures.frame.triangles;
     json["triangles_drawn"] = figures.frame.triangles_drawn;
     json["visible_fragments"] = figures.frame.visible_fragments;

@@ -21,7 +21,7 @@ struct RenderFigures {
     double prepare_ms = 0.0;      // renderer made from the tables, texture pyramids included
     std::string env;              // environment name
     bool environment_from_cache = false;
-    Json key_lights;                   // see key_lights_json()
+    Json extracted_lights;             // see extracted_lights_json()
     std::vector<std::string> warnings; // as printed, or as --quiet kept back
 };
 

@@ -1,5 +1,5 @@
 // A chart as a display list, from back to front; SVG (svg.h) and pixels (png.h) are made from the same list. Positions are px from the
-// top left corner, y down. Classes select looks, with colours and widths in apps/report/looks.h. A group's classes hold for all items
+// top left corner, y down. Classes select looks, with colours and widths in apps/report/chart_style.h. A group's classes hold for all items
 // inside.
 #pragma once
 #include <array>

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "apps/report/canvas.h"
-#include "apps/report/looks.h"
+#include "apps/report/chart_style.h"
 #include "core/image/io/image_io.h"
 #include "core/math/scalar_math.h"
 
@@ -29,7 +29,7 @@ Points circle(const std::pair<double, double>& centre, double radius)
 
 void paint_line(Canvas& canvas, const Points& points, const std::string& classes)
 {
-    const LineLook* look = line_look(classes);
+    const ChartLineStyle* look = chart_line_style(classes);
     if (!look)
         return;
     const Paint colour = look->tint ? tint(look->tint) : family(classes);
@@ -48,7 +48,7 @@ void paint_mark(Canvas& canvas, Points outline, const std::string& classes)
 
 void paint_text(Canvas& canvas, const DrawnItem& item, const std::string& classes)
 {
-    const TextLook look = text_look(classes);
+    const ChartTextStyle look = chart_text_style(classes);
     const double anchor = has_class(classes, "middle") ? 0.5 : has_class(classes, "end") ? 1.0 : 0.0;
     canvas.text(item.points[0].first * kPngScale, item.points[0].second * kPngScale, item.text,
                 {look.size * kPngScale, anchor, item.turn_deg, look.bold, look.slanted, look.halo * kPngScale}, look.paint);

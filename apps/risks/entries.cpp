@@ -22,7 +22,8 @@ std::vector<std::string> words_of(const std::string& text)
     return words;
 }
 
-constexpr const char* kAmount = "amount="; // of a path, and of a role's words: what follows a trial's name (core/scene/builtin/trials.cpp)
+constexpr const char* kAmount =
+    "amount="; // of a path, and of a role's words: what follows a trial's name (core/scene/builtin/failure_scenes.cpp)
 
 bool is_amount(const std::string& word)
 {

@@ -57,7 +57,7 @@ constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f};
 constexpr float kBlack = 0.1f; // relative to the picture's median luminance: pixels are compared on top of this
 
 constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of the small picture, about; largest step between them
-constexpr float kUsualNdotV = 0.7f;             // for entries whose path does not move the eye
+constexpr float kDefaultNdotV = 0.7f;           // for entries whose path does not move the eye
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that this picture may break
     std::size_t rule;
@@ -144,7 +144,7 @@ class Looker {
           turn_(sky_from_world(session.parts().environment->rotation_deg))
     {
         turned_ = session.parts().environment->rotation_deg != 0.0f;
-        for (const KeyLight& light : session.parts().environment->key_lights)
+        for (const ExtractedLight& light : session.parts().environment->extracted_lights)
             lamps_.push_back({glm::vec3(light.direction[0], light.direction[1], light.direction[2]) * turn_, luminance_of(light.irradiance),
                               0.5f * light.angular_radius});
         black_ = std::max(1e-20f, kBlack * median());
@@ -157,7 +157,7 @@ class Looker {
         glm::vec3 direction; // world space
         float irradiance, radius;
     };
-    glm::vec2 key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
+    glm::vec2 extracted_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
     float median() const;
     glm::vec3 to_eye(int x, int y) const;
     Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const;
@@ -201,8 +201,9 @@ glm::vec3 Looker::to_eye(int x, int y) const
     return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
 }
 
-// Returns the luminance of the key lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
-glm::vec2 Looker::key_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const
+// Returns the luminance of the extracted lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
+glm::vec2 Looker::extracted_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i,
+                                   const glm::vec3& v) const
 {
     glm::vec2 sum(0.0f);
     const float round = std::max(i.alpha(), 1e-3f), along = std::max(i.along, 1e-3f), across = std::max(i.across, 1e-3f);
@@ -254,7 +255,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     // Evaluate the round and the bent approximation
     const float f = fresnel, one = wanted(Change::round) ? f * seen(n, v, round) : 0.0f, stretch = std::min(measure_bend(i), 0.999f);
     const float bent = wanted(Change::bent) ? f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, bent_of(i)) : 0.0f;
-    const glm::vec2 key = f * key_lights(n, u, w, i, v); // anisotropic, round
+    const glm::vec2 key = f * extracted_lights(n, u, w, i, v); // anisotropic, round
     const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
     const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
     return {apart(mean, one + other + key.y), apart(mean, bent + other + key.x),
@@ -333,7 +334,7 @@ RiskInputs inputs_of_setting(const RenderOptions& o)
     RiskInputs i = inputs_of_frame(o.frame, environment);
     const float roughness = std::max(o.frame.roughness, 0.0f), eta = std::abs(o.frame.anisotropy);
     i.along = roughness * roughness * (1.0f + eta), i.across = roughness * roughness * (1.0f - eta);
-    i.n_dot_v = o.eye ? static_cast<float>(o.eye->z / glm::length(*o.eye)) : kUsualNdotV; // builtin:plate faces +Z
+    i.n_dot_v = o.eye ? static_cast<float>(o.eye->z / glm::length(*o.eye)) : kDefaultNdotV; // builtin:plate faces +Z
     return i;
 }
 

@@ -8,7 +8,7 @@ namespace burnish {
 
 class Sky {
   public:
-    // Reads the prefiltered levels, without key lights, from the first level with at most 128 texels a side. Texels are converted on
+    // Reads the prefiltered levels, without extracted lights, from the first level with at most 128 texels a side. Texels are converted on
     // each
     // lookup: a picture asks for fewer texels than there are.
     explicit Sky(const Environment& environment);

@@ -39,18 +39,18 @@ std::shared_ptr<const DfgTable> dfg(bool coarse)
 }
 
 // Adds suns one degree wide, side by side. The environment's image stays unchanged.
-std::shared_ptr<const Environment> with_key_lights(const Environment& environment, int count)
+std::shared_ptr<const Environment> with_extracted_lights(const Environment& environment, int count)
 {
     auto lit = std::make_shared<Environment>(environment);
-    lit->key_lights.clear();
+    lit->extracted_lights.clear();
     for (int i = 0; i < count; ++i) {
         const float turn = static_cast<float>(i), radius = 0.00873f;
-        lit->key_lights.push_back({{0.6f * std::cos(turn), 0.8f, 0.6f * std::sin(turn)},
-                                   {radius * -std::sin(turn), 0.0f, radius * std::cos(turn)},
-                                   {radius * 0.8f * std::cos(turn), radius * -0.6f, radius * 0.8f * std::sin(turn)},
-                                   {3.0f, 2.0f, 1.0f},
-                                   radius,
-                                   0.1f});
+        lit->extracted_lights.push_back({{0.6f * std::cos(turn), 0.8f, 0.6f * std::sin(turn)},
+                                         {radius * -std::sin(turn), 0.0f, radius * std::cos(turn)},
+                                         {radius * 0.8f * std::cos(turn), radius * -0.6f, radius * 0.8f * std::sin(turn)},
+                                         {3.0f, 2.0f, 1.0f},
+                                         radius,
+                                         0.1f});
     }
     lit->whole = lit->specular;
     return lit;
@@ -137,7 +137,8 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
     SessionOptions tile;
     tile.isa = options.isa;
     const auto jobs = std::make_shared<const Jobs>(w.threads ? w.threads : options.threads);
-    const std::shared_ptr<const Environment> light = w.key_lights ? with_key_lights(**environment, w.key_lights) : *environment;
+    const std::shared_ptr<const Environment> light =
+        w.extracted_lights ? with_extracted_lights(**environment, w.extracted_lights) : *environment;
     Result<Session> session = Session::make({*scene, light, jobs, dfg(options.coarse_environment)}, tile);
     if (!session)
         return session.error();

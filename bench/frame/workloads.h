@@ -25,8 +25,8 @@ struct Workload {
     int packet = 0;    // rays traced together
     bool slow = false; // skipped by --quick
     float alpha_lin = 0.3f;
-    int key_lights = 0; // synthetic ones, above the scene
-    int quads = 0;      // area lights behind the eye; each lights every pixel
+    int extracted_lights = 0; // synthetic ones, above the scene
+    int quads = 0;            // area lights behind the eye; each lights every pixel
     const char* area_way = "ltc";
     int frame_map = kFrameGramSchmidt;
     bool background = true;  // drawn where no surface is

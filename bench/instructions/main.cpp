@@ -46,7 +46,7 @@ std::vector<Workload> small_workloads()
     list.push_back({"parallax", "instructions", S::textured, 6, 160, 90, 1}); // a mean of 16 steps for each fragment
     for (int lights : {1, 4}) {                                               // the difference is the cost of three
         list.push_back({lights == 1 ? "key_lights_1" : "key_lights_4", "instructions", S::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f});
-        list.back().key_lights = lights;
+        list.back().extracted_lights = lights;
     }
     return list;
 }

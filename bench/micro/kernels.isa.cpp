@@ -22,7 +22,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_alpha_lin(lobe), vec3_all(lit(0.04)),
                                                      lit(1.0), lit(1.0));
         shaded_point x = {};
-        x.s = s, x.lobe = lobe, x.surface_axes = frame;
+        x.s = s, x.lobe = lobe, x.geometric_axes = frame;
         x.albedo = s.f0, x.gain = vec3_all(lit(1.0));
         x.pixel_id = iota() + int_lit(i);
         const real3 color = technique_specular(f, technique_tag<kTechnique>{}, x);

@@ -37,23 +37,23 @@ bool is_kept(const std::string& name)
     });
 }
 
-struct KeptFile {
+struct CachedFile {
     fs::file_time_type used;
     fs::path path;
     std::uint64_t bytes;
 };
 
 // Lists the cache files in `folder`. Temporary files count too: a killed run may have left some.
-std::vector<KeptFile> kept_files(const std::string& folder)
+std::vector<CachedFile> cached_files(const std::string& folder)
 {
-    std::vector<KeptFile> files;
+    std::vector<CachedFile> files;
     std::error_code failed;
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
         std::error_code gone; // another process may have removed the file
         const std::string name = at->path().filename().string();
         if (!(is_kept(name) || is_kept(name_of_temporary(name))) || !fs::is_regular_file(at->symlink_status(gone)))
             continue;
-        const KeptFile file{at->last_write_time(gone), at->path(), at->file_size(gone)};
+        const CachedFile file{at->last_write_time(gone), at->path(), at->file_size(gone)};
         if (!gone)
             files.push_back(file);
     }
@@ -72,7 +72,7 @@ std::uint64_t cache_limit()
 {
     const char* text = std::getenv("BURNISH_CACHE_BYTES");
     if (!text)
-        return kUsualCacheBytes;
+        return kDefaultCacheBytes;
     std::uint64_t value = 0;
     const char* end = text + std::strlen(text);
     const auto [rest, error] = std::from_chars(text, end, value);
@@ -80,14 +80,14 @@ std::uint64_t cache_limit()
     const char* unit = end - rest == 1 ? std::strchr(units, *rest) : nullptr;
     const int shift = unit ? 10 * static_cast<int>(unit - units + 1) : 0;
     if (error != std::errc{} || (rest != end && !unit) || value > UINT64_MAX >> shift)
-        return kUsualCacheBytes;
+        return kDefaultCacheBytes;
     return value << shift;
 }
 
 CacheUse cache_use(const std::string& folder)
 {
     CacheUse use;
-    for (const KeptFile& file : kept_files(folder)) {
+    for (const CachedFile& file : cached_files(folder)) {
         ++use.files;
         use.bytes += file.bytes;
     }
@@ -102,15 +102,15 @@ void note_cache_use(const std::string& file)
 
 void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep)
 {
-    std::vector<KeptFile> files = kept_files(folder);
+    std::vector<CachedFile> files = cached_files(folder);
     std::sort(files.begin(), files.end(),
-              [](const KeptFile& a, const KeptFile& b) { return a.used != b.used ? a.used < b.used : a.path < b.path; });
+              [](const CachedFile& a, const CachedFile& b) { return a.used != b.used ? a.used < b.used : a.path < b.path; });
     std::uint64_t bytes = 0;
-    const auto is_temporary = [](const KeptFile& file) { return !name_of_temporary(file.path.filename().string()).empty(); };
-    std::erase_if(files, [&](const KeptFile& file) { return is_temporary(file) && remove_leftover(file.path.string()); });
-    for (const KeptFile& file : files)
+    const auto is_temporary = [](const CachedFile& file) { return !name_of_temporary(file.path.filename().string()).empty(); };
+    std::erase_if(files, [&](const CachedFile& file) { return is_temporary(file) && remove_leftover(file.path.string()); });
+    for (const CachedFile& file : files)
         bytes += file.bytes;
-    for (const KeptFile& file : files) {
+    for (const CachedFile& file : files) {
         if (bytes <= limit)
             return;
         std::error_code failed;

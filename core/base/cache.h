@@ -10,7 +10,7 @@ namespace burnish {
 // Returns $XDG_CACHE_HOME/burnish or ~/.cache/burnish. Returns "" where neither is an absolute path.
 std::string cache_folder();
 
-inline constexpr std::uint64_t kUsualCacheBytes = 2ull << 30; // room for some hundred environments, or twenty references of 1920x1080
+inline constexpr std::uint64_t kDefaultCacheBytes = 2ull << 30; // room for some hundred environments, or twenty references of 1920x1080
 // Returns the size limit in bytes: $BURNISH_CACHE_BYTES, such as 500M or 4G. Returns the default where the variable
 // holds no such number.
 std::uint64_t cache_limit();

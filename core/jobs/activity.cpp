@@ -147,7 +147,7 @@ void Activity::tell(bool on)
     b.changed.notify_one();
 }
 
-void Activity::said_already()
+void Activity::restart_interval()
 {
     board().said_ns = Trace::now_ns();
 }

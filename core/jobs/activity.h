@@ -20,7 +20,7 @@ class Activity {
     Activity& operator=(const Activity&) = delete;
 
     static void tell(bool on);          // turns lines on or off; off at first, because a library is silent
-    static void said_already();         // another report has just appeared: restarts the interval
+    static void restart_interval();     // another report has just appeared: restarts the interval
     static std::uint64_t interval_ns(); // between lines where stderr is no terminal
 
   private:

@@ -71,7 +71,7 @@ struct Progress::Impl {
 
     void draw()
     {
-        Activity::said_already();
+        Activity::restart_interval();
         if (!terminal) {
             std::fprintf(stderr, "%s: %.0f %%%s\n", label.c_str(), part() * 100.0, left().c_str());
             return;

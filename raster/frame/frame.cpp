@@ -348,7 +348,7 @@ void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
         desc.*p.whole = static_cast<std::uint32_t>(value);
 }
 
-int samples_taken(const TechniqueInfo& technique, int samples)
+int effective_samples(const TechniqueInfo& technique, int samples)
 {
     samples = std::min(samples, technique.most_samples);
     if (technique.sampling == Sampling::none)
@@ -400,9 +400,9 @@ const ModelInfo& lobe_model(int lobe)
 int lobe_of(const FrameDesc& d, bool tilted)
 {
     const bool separable = d.masking != 0;
-    if (!(lobe_traits_of(d.brdf) & kLobeOfAll) || !(tilted || separable))
+    if (!(lobe_traits_of(d.brdf) & kDefaultLobe) || !(tilted || separable))
         return d.brdf;
-    return lobe_with(!separable ? kLobeOfTilted : tilted ? kSeparableOfTilted : kSeparableOfAll);
+    return lobe_with(!separable ? kTiltedLobe : tilted ? kSeparableTiltedLobe : kSeparableLobe);
 }
 
 Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
@@ -412,17 +412,17 @@ Status check_lobe(const FrameDesc& d, const TechniqueInfo& technique)
     const std::string name = lobe_model(lobe).name;
     if (tilted && !(lobe_traits_of(lobe) & kLies_surface))
         return Error{ExitCode::usage, "", "",
-                     "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kLobeOfTilted)).name + " can",
+                     "lobes of " + name + " cannot be tilted; those of " + lobe_model(lobe_with(kTiltedLobe)).name + " can",
                      "FrameDesc::tilt"};
-    if (d.masking != 0 && !(lobe_traits_of(d.brdf) & kLobeOfAll))
+    if (d.masking != 0 && !(lobe_traits_of(d.brdf) & kDefaultLobe))
         return Error{ExitCode::usage, "", "",
-                     "lobes of " + name + " have a masking of their own; that of " + lobe_model(lobe_with(kLobeOfAll)).name +
+                     "lobes of " + name + " have a masking of their own; that of " + lobe_model(lobe_with(kDefaultLobe)).name +
                          " can be chosen",
                      "FrameDesc::masking"};
-    if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kLobeOfAll))
+    if (!(technique.traits & kSamplesLobe) && !(lobe_traits_of(d.brdf) & kDefaultLobe))
         return Error{ExitCode::usage, "", "",
-                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kLobeOfAll)).name + ", not for FrameDesc::brdf " +
-                         name + " (FrameDesc::technique mc and SessionOptions::backend reference take it)",
+                     std::string(technique.name) + " is made for " + lobe_model(lobe_with(kDefaultLobe)).name +
+                         ", not for FrameDesc::brdf " + name + " (FrameDesc::technique mc and SessionOptions::backend reference take it)",
                      "FrameDesc::technique"};
     return {};
 }

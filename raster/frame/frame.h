@@ -176,7 +176,7 @@ const std::vector<TechniqueInfo>& techniques();                             // f
 const TechniqueInfo* find_technique(const std::string& name);               // accepts automatic_technique() too; null if unknown
 const TechniqueInfo& automatic_technique();                                 // "auto": picks one of techniques() per material
 const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic); // resolves "auto" for a material
-int samples_taken(const TechniqueInfo& technique, int samples);             // of the requested `samples`
+int effective_samples(const TechniqueInfo& technique, int samples);         // of the requested `samples`
 
 struct ParameterInfo {            // a parameter of techniques
     const char* name;             // the field of FrameDesc; angles lack the suffix _rad

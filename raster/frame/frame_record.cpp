@@ -29,9 +29,9 @@ CubeRecord cube_record(const CubeMap& cube)
     return {cube.size, cube.levels, cube.scale};
 }
 
-KeyLightRecord key_light_record(const KeyLight& light)
+ExtractedLightRecord extracted_light_record(const ExtractedLight& light)
 {
-    KeyLightRecord r = {};
+    ExtractedLightRecord r = {};
     const auto length = [](const float* v) {
         const double x = static_cast<double>(v[0]), y = static_cast<double>(v[1]), z = static_cast<double>(v[2]);
         return std::sqrt(x * x + y * y + z * z);
@@ -81,11 +81,12 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.center_x = d.width / 2 * kSubpixel, f.center_y = d.height / 2 * kSubpixel;
     f.half_width = 0.5f * static_cast<float>(d.width), f.half_height = 0.5f * static_cast<float>(d.height);
     f.pattern = standard_samples(d.msaa);
-    // Environment: cubes and key lights
+    // Environment: cubes and extracted lights
     f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
     f.whole = cube_record(input.environment.picture());
-    f.key_light_count = static_cast<int>(input.environment.key_lights.size());
-    std::transform(input.environment.key_lights.begin(), input.environment.key_lights.end(), f.key_lights, key_light_record);
+    f.extracted_light_count = static_cast<int>(input.environment.extracted_lights.size());
+    std::transform(input.environment.extracted_lights.begin(), input.environment.extracted_lights.end(), f.extracted_lights,
+                   extracted_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
     // Lamps and area lights
     f.light_count = static_cast<int>(input.tables.lights.size());
@@ -98,7 +99,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.positions = f.light_count > 0 || f.area_light_count > 0 || d.layers;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
-    f.joins_round = &technique_of(d, true) != &technique_of(d, false);
+    f.blends_to_isotropic = &technique_of(d, true) != &technique_of(d, false);
     put_parameters(d, tilts(input.scene, d), f);
     if (!has_mapped_normals(input.scene, d)) // then nothing reads the horizon
         f.horizon = 0;
@@ -118,8 +119,8 @@ void FrameMaker::bake(const FrameDesc& desc)
 {
     grid_.clear(), sets_.clear();
     const TechniqueInfo& technique = *find_technique(desc.technique);
-    if ((technique.traits & kReadsBox) && box_cube_.levels == 0)
-        box_cube_ = box_filtered_chain(input_.environment.specular, input_.jobs);
+    if ((technique.traits & kReadsBox) && mip_env_.levels == 0)
+        mip_env_ = box_filtered_chain(input_.environment.specular, input_.jobs);
     grid_ = grid_samples(desc.samples, technique.sampling, technique.traits);
     grid_count_ = grid_count(grid_, technique.traits);
 }
@@ -143,22 +144,22 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
         m.technique_traits = m.unlit ? 0 : t.traits;
         m.refracts = refracts(m, lobe);
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
-        m.lights_lobe = round && lobe == lobe_with(kLobeOfAll) ? lobe_with(kLobeOfRound) : lobe;
+        m.lights_lobe = round && lobe == lobe_with(kDefaultLobe) ? lobe_with(kRoundLobe) : lobe;
     }
 }
 
 namespace {
 
-// Returns brushed_part() for the material's factors. A roughness texture makes some places smoother, and so more brushed; a textured
+// Returns anisotropy_blend_of() for the material's factors. A roughness texture makes some places smoother, and so more brushed; a textured
 // material counts as smooth. With or without a texture, brushing fades in continuously as its strength grows from 0.
-float brushed_by_factors(const ShadingFrame& f, const MaterialRecord& material)
+float anisotropy_blend_by_factors(const ShadingFrame& f, const MaterialRecord& material)
 {
     constexpr float kSmooth = 0.3f;
     MaterialRecord m = material;
     if (texture_used(m, kMetalRoughTex) && m.roughness_fixed == 0)
         m.roughness = std::min(m.roughness, kSmooth);
     const lobe_shape shape = only_lobe_shape(f, m);
-    return brushed_part(shape.sigma_u, shape.sigma_v);
+    return anisotropy_blend_of(shape.sigma_u, shape.sigma_v);
 }
 
 } // namespace
@@ -208,7 +209,7 @@ namespace {
 // Returns true if the frame's lobes are Ashikhmin-Shirley lobes with energy compensation, for any technique.
 bool compensates_phong(const FrameDesc& desc, const Scene& scene)
 {
-    return desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(scene, desc))) & kLobeOfPhong);
+    return desc.energy_compensation && (lobe_traits_of(lobe_of(desc, tilts(scene, desc))) & kPhongLobe);
 }
 
 } // namespace
@@ -220,9 +221,9 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     const bool compensated = compensates_phong(desc, input_.scene);
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = m.phong_slice = m.phong_set = -1, m.brushed = 1.0f;
+        m.albedo_slice = m.phong_slice = m.phong_set = -1, m.anisotropy_blend = 1.0f;
         if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
-            m.brushed = brushed_by_factors(f, m);
+            m.anisotropy_blend = anisotropy_blend_by_factors(f, m);
         if (!one_lobe_shape(m) || desc.specular_aa)
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
@@ -287,7 +288,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.whole_texels = input_.environment.picture().texels.data();
     f.dfg_pairs = input_.dfg.pairs.data();
     f.lobe_albedo_pairs = lobe_albedo_pairs(), f.lobe_slice_pairs = lobe_slices_.data();
-    f.box = cube_record(box_cube_), f.box_texels = box_cube_.texels.data();
+    f.box = cube_record(mip_env_), f.box_texels = mip_env_.texels.data();
     f.grid = grid_.data(), f.grid_count = grid_count_;
     return f;
 }

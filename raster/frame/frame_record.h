@@ -32,7 +32,7 @@ class FrameMaker {
     const SceneTables& scene() const { return scene_; }
     const std::vector<MaterialRecord>& materials() const { return materials_; } // of the last frame
     const std::vector<GridSample>& grid() const { return grid_; }
-    const CubeMap& box_cube() const { return box_cube_; }
+    const CubeMap& mip_env() const { return mip_env_; }
     const std::vector<std::uint16_t>& ltc_texels() const;             // empty if the scene has no area lights
     const Column<float>& lobe_slices() const { return lobe_slices_; } // for all frames so far
 
@@ -46,7 +46,7 @@ class FrameMaker {
     RenderInput input_;
     SceneTables scene_;
     std::vector<MaterialRecord> materials_;
-    CubeMap box_cube_;                                 // made when a technique first needs it
+    CubeMap mip_env_;                                  // made when a technique first needs it
     using SlicedLobe = std::tuple<float, float, bool>; // standard deviations of slope; true for an Ashikhmin-Shirley lobe
     std::map<SlicedLobe, int> sliced_;                 // each lobe's first pair in lobe_slices_
     Column<float> lobe_slices_;

@@ -10,7 +10,7 @@
 #include "raster/frame/colours.h"
 #include "raster/frame/far_normals.h"
 #include "raster/frame/frame.h"
-#include "raster/frame/kept_mips.h"
+#include "raster/frame/mip_cache.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
@@ -71,7 +71,7 @@ Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, cons
     const Jobs jobs(asked.threads);
     if (!takes_net(asked.filter)) {
         if (asked.use_cache && !mips.baked)
-            keep_mips(scene, mips, jobs);
+            cache_mips(scene, mips, jobs);
         return {};
     }
     const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(asked, limits);
@@ -93,7 +93,7 @@ Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, cons
         scene.warnings.push_back(comparison_text(scene.materials[i], *found[i]));
     }
     if (asked.use_cache && !mips.baked)
-        keep_mips(scene, mips, jobs);
+        cache_mips(scene, mips, jobs);
     return {};
 }
 

@@ -363,7 +363,7 @@ bool is_metal(const Scene& scene, const Material& m)
     return static_cast<double>(m.metallic) * sum >= 0.5 * static_cast<double>(texels);
 }
 
-MipHelp mip_help(const Scene& scene, const Material& m, const MaterialMips& mips, const TaughtTexels& advance)
+MipHelp mip_help(const Scene& scene, const Material& m, const MaterialMips& mips, const OptimisedTexels& advance)
 {
     return {mips.net.get(), is_metal(scene, m), advance, mips.lobe, mips.gains ? Gains::of_frames : Gains::none};
 }
@@ -383,7 +383,7 @@ bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, 
            (!has_gains(m, mips) || levels.gained == gained_of(mips.lobe, is_metal(scene, m)));
 }
 
-MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, const Jobs& jobs, const TaughtTexels& advance)
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, const Jobs& jobs, const OptimisedTexels& advance)
 {
     MaterialLevels all(scene.materials.size());
     for (std::size_t i = 0; i < all.size(); ++i) {

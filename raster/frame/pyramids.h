@@ -19,8 +19,8 @@
 #include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/optimised_mip.h"
 #include "shading/bake/mip/settings.h"
-#include "shading/bake/mip/teacher.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/lang/tables.h"
 
@@ -52,7 +52,7 @@ void bind_textures(const Scene& scene, const SceneMips& mips, std::size_t materi
 
 // Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
-MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const TaughtTexels& advance = {});
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const OptimisedTexels& advance = {});
 bool is_metal(const Scene& scene, const Material& material); // more than half of it
 
 // Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
@@ -61,7 +61,7 @@ std::string why_unfiltered(const Scene& scene, const Material& material, const M
 bool has_gains(const Material& material, const MaterialMips& mips);
 // What a filter makes levels of, of a material that it makes any of.
 bool is_filtered(const Scene& scene, const Material& material, const MaterialMips& mips);
-MipHelp mip_help(const Scene& scene, const Material& material, const MaterialMips& mips, const TaughtTexels& advance = {});
+MipHelp mip_help(const Scene& scene, const Material& material, const MaterialMips& mips, const OptimisedTexels& advance = {});
 MipSource mip_source(const Scene& scene, const Material& material);
 // Whether levels that were baked beforehand are of these maps and filters.
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material,

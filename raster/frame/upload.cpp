@@ -269,7 +269,7 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
     if (const int lobe = lobe_of(desc, true); !(lobe_traits_of(lobe) & kLies_surface))
         return Error{ExitCode::usage, "", "",
                      std::string("lobes of ") + lobe_model(lobe).name + " cannot be tilted, as materials of the scene are; those of " +
-                         lobe_model(lobe_with(kLobeOfTilted)).name + " can",
+                         lobe_model(lobe_with(kTiltedLobe)).name + " can",
                      "FrameDesc::brdf"};
     return {};
 }

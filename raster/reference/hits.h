@@ -4,7 +4,7 @@
 #include "core/simd/ticks.h"
 #include "raster/frame/lane_material.h"
 #include "raster/reference/reference_types.h"
-#include "raster/reference/reflector.h"
+#include "raster/reference/surface_bsdf.h"
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/background.t.h"
 #include "shading/surface/coverage.t.h"
@@ -255,7 +255,7 @@ BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted,
 }
 
 struct LaneSurface { // surface at a hit, or background
-    Reflector r;
+    SurfaceBsdf r;
     real3 emission;         // towards the ray's origin
     real3 position, normal; // normal: the triangle's
     mask reflects;
@@ -273,9 +273,9 @@ BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresn
     return r;
 }
 
-BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector& b)
+BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const SurfaceBsdf& b)
 {
-    Reflector r = a;
+    SurfaceBsdf r = a;
     const surface &s = a.x.s, &t = b.x.s;
     r.x.s.n = select(m, s.n, t.n), r.x.s.v = select(m, s.v, t.v), r.x.s.n_dot_v = select(m, s.n_dot_v, t.n_dot_v);
     r.x.s.diffuse = select(m, s.diffuse, t.diffuse);
@@ -286,8 +286,8 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
     const aniso_lobe &k = a.x.lobe, &l = b.x.lobe;
     r.x.lobe.u_axis = select(m, k.u_axis, l.u_axis), r.x.lobe.v_axis = select(m, k.v_axis, l.v_axis);
     r.x.lobe.sigma_u = select(m, k.sigma_u, l.sigma_u), r.x.lobe.sigma_v = select(m, k.sigma_v, l.sigma_v);
-    const surface_frame &p = a.x.surface_axes, &q = b.x.surface_axes;
-    r.x.surface_axes.n = select(m, p.n, q.n), r.x.surface_axes.t = select(m, p.t, q.t), r.x.surface_axes.b = select(m, p.b, q.b);
+    const surface_frame &p = a.x.geometric_axes, &q = b.x.geometric_axes;
+    r.x.geometric_axes.n = select(m, p.n, q.n), r.x.geometric_axes.t = select(m, p.t, q.t), r.x.geometric_axes.b = select(m, p.b, q.b);
     r.x.gain = select(m, a.x.gain, b.x.gain);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
@@ -312,7 +312,7 @@ BN_INLINE Reflector select_reflector(mask m, const Reflector& a, const Reflector
 
 // Reflection and emission of one material at the hits.
 struct MaterialAtHits {
-    Reflector r;
+    SurfaceBsdf r;
     real3 emission;
 };
 
@@ -362,10 +362,10 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
         choose_facets(f, m, at, g, x);
     if (!x.refracts)
         x.through = interface_inputs(); // lanes with other materials may refract
-    coat_layer coat = {x.surface_axes, x.surface_axes.n, lit(0.0), lit(1.0)};
+    coat_layer coat = {x.geometric_axes, x.geometric_axes.n, lit(0.0), lit(1.0)};
     if (m.coated)
-        coat = coat_of(f, m, at, x.surface_axes, x.s.v, seen_handedness(g.fragment));
-    r.r = make_reflector(f, x, m.coated != 0, coat);
+        coat = coat_of(f, m, at, x.geometric_axes, x.s.v, facing_handedness(g.fragment));
+    r.r = make_surface_bsdf(f, x, m.coated != 0, coat);
     r.emission = own_light(m, at);
     if (m.coated)
         r.emission = r.emission * (lit(1.0) - coat.weight);
@@ -382,7 +382,7 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
     bool first = true;
     for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
         const MaterialAtHits at = material_at_hits(f, m, h, g);
-        out.r = first ? at.r : select_reflector(lanes, at.r, out.r); // lanes without a hit hold harmless values
+        out.r = first ? at.r : select_surface_bsdf(lanes, at.r, out.r); // lanes without a hit hold harmless values
         out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
         if (m.emitter)
             out.emitter = either(out.emitter, lanes);

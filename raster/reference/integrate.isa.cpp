@@ -5,8 +5,8 @@
 #include "raster/reference/hits.h"
 #include "raster/reference/light_sampling.h"
 #include "raster/reference/reference_types.h"
-#include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "raster/reference/surface_bsdf.h"
 #include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_sample.t.h"
 #include "shading/lights/punctual.t.h"
@@ -35,7 +35,7 @@ struct EnvironmentEstimate {
     real3 value; // BRDF, cosine, radiance and weight, over the density
 };
 
-BN_INLINE EnvironmentEstimate by_environment(const ReferenceParams& f, const Reflector& r, real2 xi)
+BN_INLINE EnvironmentEstimate by_environment(const ReferenceParams& f, const SurfaceBsdf& r, real2 xi)
 {
     const LightSample l = sample_environment(f.sampler, xi);
     const Reflection at = reflect(r, l.wi);
@@ -45,7 +45,7 @@ BN_INLINE EnvironmentEstimate by_environment(const ReferenceParams& f, const Ref
 }
 
 // Returns the weight of environment light along a lobe's sample.
-BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
+BN_INLINE real lobe_weight(const ReferenceParams& f, const SurfaceBsdfSample& s)
 {
     if (f.strategy == ReferenceStrategy::brdf)
         return lit(1.0);
@@ -54,7 +54,7 @@ BN_INLINE real lobe_weight(const ReferenceParams& f, const ReflectorSample& s)
 }
 
 // Estimates environment light without occlusion.
-BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const ShadeSample& x, const ReflectorSample& s)
+BN_INLINE real3 open_light(const ReferenceParams& f, const SurfaceBsdf& r, const ShadeSample& x, const SurfaceBsdfSample& s)
 {
     real3 sum = vec3_all(lit(0.0));
     if (f.strategy != ReferenceStrategy::brdf)
@@ -65,11 +65,11 @@ BN_INLINE real3 open_light(const ReferenceParams& f, const Reflector& r, const S
 
 // Returns the lanes that see the environment through one interface without occlusion. Path mode has no such lanes: paths continue to the
 // place where light leaves.
-BN_INLINE mask sees_through(const ReferenceParams& f, const Reflector& r, real3 wi)
+BN_INLINE mask sees_through(const ReferenceParams& f, const SurfaceBsdf& r, real3 wi)
 {
     if (!r.x.refracts || f.mode == ReferenceMode::path)
         return mask_from_bits(0);
-    return both(r.refracts, k_dot3(r.x.surface_axes.n, wi) < lit(0.0));
+    return both(r.refracts, k_dot3(r.x.geometric_axes.n, wi) < lit(0.0));
 }
 
 // Returns a ray that leaves a surface. Its origin is lifted off the surface by the possible rounding error.
@@ -87,20 +87,20 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
 
 struct CoatUnderLamps { // a coated surface's point and lobe for punctual lights
     shaded_point point;
-    placed_lobe lobe;
+    bsdf_lobe lobe;
 };
 
-BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const Reflector& r)
+BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const SurfaceBsdf& r)
 {
     CoatUnderLamps c;
     if (!r.coated)
         return c;
-    make_coat_point(f, r.coat, r.x.surface_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
-    c.lobe = placed_lobe_under_lights(lobe_that_has(kLobeOfRound), c.point.lobe, c.point.s, c.point.surface_axes);
+    make_coat_point(f, r.coat, r.x.geometric_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
+    c.lobe = bsdf_lobe_under_lights(lobe_that_has(kRoundLobe), c.point.lobe, c.point.s, c.point.geometric_axes);
     return c;
 }
 
-BN_INLINE real3 coat_lit(const ReferenceParams& f, const Reflector& r, const CoatUnderLamps& coat, const light_sample& towards, int light)
+BN_INLINE real3 coat_lit(const ReferenceParams& f, const SurfaceBsdf& r, const CoatUnderLamps& coat, const light_sample& towards, int light)
 {
     const punctual_light shone = light_from(f, coat.point, coat.lobe, vec3_all(lit(0.0)), towards, light);
     return select(k_dot3(r.coat.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
@@ -110,7 +110,7 @@ BN_INLINE real3 coat_lit(const ReferenceParams& f, const Reflector& r, const Coa
 BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
 {
     const ReferenceParams& f = p.f;
-    const placed_lobe lobe = placed_lobe_under_lights(f.lobe, s.r.x.lobe, s.r.x.s, s.r.x.surface_axes);
+    const bsdf_lobe lobe = bsdf_lobe_under_lights(f.lobe, s.r.x.lobe, s.r.x.s, s.r.x.geometric_axes);
     rough_interface through;
     if (s.r.x.refracts)
         through = rough_interface_at(s.r.x);
@@ -132,7 +132,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
         }
         // In path mode, light from behind enters through the interface
         if (s.r.x.refracts && f.mode == ReferenceMode::path) {
-            const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.surface_axes.n, light.l) < lit(0.0));
+            const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.geometric_axes.n, light.l) < lit(0.0));
             const real3 arriving = splat3(l.radiant) * towards.attenuation;
             light.radiance = select(behind, reflect(s.r, light.l).value * arriving, light.radiance);
             lit_lanes = either(both(lit_lanes, not_(behind)), both(behind, any_light(light.radiance)));
@@ -181,7 +181,7 @@ BN_STAGE mask hides_light(const ReferenceParams& f, const LobeRay& b, const area
 
 // Sums area lights. Each light is sampled by a point on it, and by the lobe's sample if that meets the light. traced: the lobe sample's
 // ray, or null without occlusion.
-BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const ReflectorSample& b, const LobeRay* traced, integer position,
+BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const SurfaceBsdfSample& b, const LobeRay* traced, integer position,
                            int shade, int vertex)
 {
     const ReferenceParams& f = p.f;
@@ -237,7 +237,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             }
         }
         // Sample the lobe, and trace its ray
-        const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
+        const SurfaceBsdfSample b = sample_surface_bsdf(s.r, x.lobe, x.choice);
         const mask wanted = both(s.reflects, any_light(b.weight));
         if (none(wanted) && f.area_light_count == 0)
             break;
@@ -273,7 +273,7 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
 {
     const ReferenceParams& f = p.f;
     const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, 0);
-    const ReflectorSample b = sample_reflector(s.r, x.lobe, x.choice);
+    const SurfaceBsdfSample b = sample_surface_bsdf(s.r, x.lobe, x.choice);
     const real3 light = f.area_lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
     if (f.area_light_count == 0)
         return light;

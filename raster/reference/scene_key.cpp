@@ -102,9 +102,9 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     Key key;
     key.add(kReferenceVersion);
     FrameRecord frame = frame_record(input, reference_desc(d));
-    frame.specular = frame.irradiance = {}; // the reference reads the full environment, with or without key lights
-    frame.whole.levels = 1, frame.key_light_count = 0;
-    std::fill(std::begin(frame.key_lights), std::end(frame.key_lights), KeyLightRecord{});
+    frame.specular = frame.irradiance = {}; // the reference reads the full environment, with or without extracted lights
+    frame.whole.levels = 1, frame.extracted_light_count = 0;
+    std::fill(std::begin(frame.extracted_lights), std::end(frame.extracted_lights), ExtractedLightRecord{});
     frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
     add_records(key, in_frame(material_records(input.scene, input.mips, overrides(input.scene, input.mips, d)), d));

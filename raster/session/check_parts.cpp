@@ -38,14 +38,14 @@ Status check_cube(const Environment& e, const CubeMap& cube, const std::string& 
     return {};
 }
 
-Status check_key_light(const Environment& e, std::size_t i)
+Status check_extracted_light(const Environment& e, std::size_t i)
 {
-    const KeyLight& k = e.key_lights[i];
+    const ExtractedLight& k = e.extracted_lights[i];
     for (const auto& [numbers, name] : {std::pair(k.direction, "direction"), std::pair(k.axis_u, "axis_u"), std::pair(k.axis_v, "axis_v"),
                                         std::pair(k.irradiance, "irradiance")})
         for (int c = 0; c < 3; ++c)
             if (!std::isfinite(numbers[c]))
-                return fault(e, fmt::format("/key_lights/{}/{}/{}", i, name, c), "is not finite");
+                return fault(e, fmt::format("/extracted_lights/{}/{}/{}", i, name, c), "is not finite");
     return {};
 }
 
@@ -60,13 +60,13 @@ Status check_environment(const Environment& e)
     if (!e.irradiance.texels.empty())
         if (Status ok = check_cube(e, e.irradiance, "/irradiance"); !ok)
             return ok;
-    if (!e.key_lights.empty() || picture_only)
+    if (!e.extracted_lights.empty() || picture_only)
         if (Status ok = check_cube(e, e.whole, "/whole"); !ok)
             return ok;
-    if (e.key_lights.size() > static_cast<std::size_t>(kMaxKeyLights))
-        return fault(e, "/key_lights", fmt::format("{} lights, more than {}", e.key_lights.size(), kMaxKeyLights));
-    for (std::size_t i = 0; i < e.key_lights.size(); ++i)
-        if (Status ok = check_key_light(e, i); !ok)
+    if (e.extracted_lights.size() > static_cast<std::size_t>(kMaxExtractedLights))
+        return fault(e, "/extracted_lights", fmt::format("{} lights, more than {}", e.extracted_lights.size(), kMaxExtractedLights));
+    for (std::size_t i = 0; i < e.extracted_lights.size(); ++i)
+        if (Status ok = check_extracted_light(e, i); !ok)
             return ok;
     return {};
 }

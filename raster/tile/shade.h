@@ -32,15 +32,16 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
 
 // Computes the light of fragments. x, y: pixels.
 template <Technique kTechnique>
-BN_INLINE line_record shade_fragments(frame_ref f, material_ref m, const material_inputs& at, const lobe_shape& shape,
-                                      const visible_point& p, integer x, integer y)
+BN_INLINE shared_sample_record shade_fragments(frame_ref f, material_ref m, const material_inputs& at, const lobe_shape& shape,
+                                               const visible_point& p, integer x, integer y)
 {
     using Tag = technique_tag<kTechnique>;
     return light_of_fragment(f, m, Tag{}, at, shape, p, x, y, (Tag::kTraits & kSharesSamples) != 0);
 }
 
 template <Technique kTechnique>
-BN_INLINE line_record shade_planned(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x, integer y)
+BN_INLINE shared_sample_record shade_planned(frame_ref f, material_ref m, const MaterialPlan& plan, const visible_point& p, integer x,
+                                             integer y)
 {
     alignas(material_inputs) std::byte fetched[sizeof(material_inputs)]; // large, so constructed in place
     const material_inputs& at = plan.uniform ? plan.at : *::new (fetched) material_inputs(fetch_lanes(f, m, p));

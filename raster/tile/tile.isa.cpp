@@ -75,9 +75,9 @@ BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
     }
 }
 
-BN_INLINE void store_lines(const Tile& t, const Batch& b, const line_record& r)
+BN_INLINE void store_shared_samples(const Tile& t, const Batch& b, const shared_sample_record& r)
 {
-    const line_words line = words_of_line(r);
+    const shared_sample_words line = words_of_shared_sample(r);
     integer words[16];
     for (int i = 0; i < 16; ++i)
         words[i] = bits_of(line.at[i]);
@@ -91,14 +91,14 @@ BN_INLINE void store_lines(const Tile& t, const Batch& b, const line_record& r)
         __builtin_memcpy(t.s.lines + std::ptrdiff_t{16} * b.fragment[i], part[i], sizeof part[i]);
 }
 
-BN_INLINE line_record load_lines(const TileScratch& s, integer fragment)
+BN_INLINE shared_sample_record load_shared_samples(const TileScratch& s, integer fragment)
 {
     integer words[16];
     load_records16(s.lines, fragment, words);
-    line_words line;
+    shared_sample_words line;
     for (int i = 0; i < 16; ++i)
         line.at[i] = real_from_bits(words[i]);
-    return line_of_words(line);
+    return shared_sample_of_words(line);
 }
 
 // Lists the fragments that share samples, by pixel.
@@ -127,20 +127,20 @@ void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
         const Batch b = load_batch(t, i, end);
         const integer fragment = b.run ? iota() + int_lit(b.fragment[0]) : load_int(b.fragment);
         const integer pixel = b.x - int_lit(t.x0) + (b.y - int_lit(t.y0)) * int_lit(kMaxTileSize);
-        const line_record own = load_lines(s, fragment);
-        line_mean mean = line_mean_begin(own);
+        const shared_sample_record own = load_shared_samples(s, fragment);
+        shared_sample_mean mean = shared_sample_mean_begin(own);
         // Visit the other three pixels of the quad
         for (int k = 1; k < 4; ++k) {
             integer at = gather_int(s.sharing_of_pixel, pixel ^ int_lit((k & 1) + (k >> 1) * kMaxTileSize));
             for (mask some = at > none_left; any(some); some = at > none_left) {
                 const integer other = select(some, at, fragment);
-                const line_record r = load_lines(s, other);
+                const shared_sample_record r = load_shared_samples(s, other);
                 const real cover = covered_share(gather_int(s.fragment_mask, other), each);
-                mean = line_mean_add(mean, own, r, cover, some);
+                mean = shared_sample_mean_add(mean, own, r, cover, some);
                 at = select(some, gather_int(s.next_sharing, other), none_left);
             }
         }
-        store_batch(t, b, line_mean_colour(mean, own));
+        store_batch(t, b, shared_sample_mean_colour(mean, own));
     }
 }
 
@@ -155,7 +155,7 @@ void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t
     constexpr int kGroup = 8;
     Batch batches[kGroup];
     texel_plan plans[kGroup];
-    const cube_desc cube = whole_cube(t.f);
+    const cube_desc cube = full_env(t.f);
     for (std::uint32_t i = begin; i < end;) {
         int n = 0;
         for (; n < kGroup && i < end; ++n, i += kLanes) {
@@ -190,9 +190,9 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
             load_setup(t.s, b.triangle, b.common, setup);
         setup_of = b.common;
         const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false);
-        const line_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
+        const shared_sample_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
         if constexpr ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0)
-            store_lines(t, b, light);
+            store_shared_samples(t, b, light);
         else
             store_batch(t, b, light.rest);
     }
@@ -208,8 +208,8 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
         return;
     }
     // Use plain code if frame and material need nothing more
-    const int more = t.f.light_count | t.f.area_light_count | t.f.key_light_count | t.f.energy_compensation | t.f.dfg_fit | t.f.fresnel |
-                     t.f.diffuse_model | t.f.specular_aa;
+    const int more = t.f.light_count | t.f.area_light_count | t.f.extracted_light_count | t.f.energy_compensation | t.f.dfg_fit |
+                     t.f.fresnel | t.f.diffuse_model | t.f.specular_aa;
     constexpr std::uint32_t kWorthACopy = 8 * kLanes; // below this, copies and hoisted values do not pay
     if (plan.uniform && end - begin >= kWorthACopy && !more && !m.refracts && !m.coated && t.f.lobe == PlainFrame::lobe) {
         constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
@@ -224,9 +224,9 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
         const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
-        const line_record light = shade_planned<kTechnique>(t.f, m, plan, p, b.x, b.y);
+        const shared_sample_record light = shade_planned<kTechnique>(t.f, m, plan, p, b.x, b.y);
         if (m.technique_traits & kSharesSamples)
-            store_lines(t, b, light);
+            store_shared_samples(t, b, light);
         else
             store_batch(t, b, light.rest);
     }

@@ -14,8 +14,8 @@
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
 #include "raster/tile/double_renderer.h"
-#include "raster/tile/long_tiles.h"
 #include "raster/tile/profiler.h"
+#include "raster/tile/tile_split.h"
 #include "raster/tile/tile_types.h"
 
 namespace burnish {
@@ -278,7 +278,7 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         work.lap(FrameStage::prepare);
     }
     // Cut the longest tiles into parts
-    const LongTiles hot = long_tiles(bins_.triangles_by_tile(tiles), input_.jobs.threads());
+    const TileSplit hot = tile_split(bins_.triangles_by_tile(tiles), input_.jobs.threads());
     const auto whole_from = hot.tiles.begin() + static_cast<std::ptrdiff_t>(hot.cut);
     std::vector<std::uint32_t> cut(hot.tiles.begin(), whole_from), known = hot.tiles;
     std::sort(cut.begin(), cut.end()), std::sort(known.begin(), known.end());

@@ -142,15 +142,15 @@ struct TileScratch {
     std::uint8_t* register_passes;   // by register of pixels: largest number of fragments per pixel
     std::uint32_t* pass_lanes;       // by pass: the register's pixels with a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
-    float* lines;                    // [fragment][16] line_record (shading/techniques/shared_line.k.h), for fragments that share samples
-    std::int32_t* sharing_of_pixel;  // [64 y + x] first fragment that shares samples, or -1
-    std::int32_t* next_sharing;      // by fragment: the pixel's next sharing fragment, in pass order, or -1
-    std::int32_t* order;             // fragments sorted by material slot
-    bool in_list_order;              // `order` would hold 0, 1, 2... and is not written
-    std::int32_t only_material;      // of all triangles in the tile; or kNoMaterial, kManyMaterials
-    std::int32_t* slot_of_material;  // by material; -1 outside a tile
-    std::int32_t* slot_material;     // by slot
-    std::uint32_t* slot_begin;       // by slot, into `order`
+    float* lines; // [fragment][16] shared_sample_record (shading/techniques/shared_samples.k.h), for fragments that share samples
+    std::int32_t* sharing_of_pixel; // [64 y + x] first fragment that shares samples, or -1
+    std::int32_t* next_sharing;     // by fragment: the pixel's next sharing fragment, in pass order, or -1
+    std::int32_t* order;            // fragments sorted by material slot
+    bool in_list_order;             // `order` would hold 0, 1, 2... and is not written
+    std::int32_t only_material;     // of all triangles in the tile; or kNoMaterial, kManyMaterials
+    std::int32_t* slot_of_material; // by material; -1 outside a tile
+    std::int32_t* slot_material;    // by slot
+    std::uint32_t* slot_begin;      // by slot, into `order`
     std::uint32_t fragment_count, background_pixels;
     float* output;                               // the frame's RGB pixels
     std::uint32_t* output_ids;                   // the frame's triangle ids [pixel][sample], or null

@@ -21,7 +21,7 @@ std::int32_t used_textures(const MaterialRecord& m)
 
 void ForwardPass::prepare(const FrameDesc& desc, std::size_t band_bytes)
 {
-    const bool box = scene_.box_cube().levels > 0;
+    const bool box = scene_.mip_env().levels > 0;
     if (sampler_ == VulkanSampler::native && (!native_ || native_->has_box() != box)) {
         native_.reset();
         native_.emplace(context_, pipelines_.native_layout(), input_, scene_);

@@ -43,7 +43,7 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     texels_.push_back(texel_page(context, input.dfg.pairs));
     texels_.push_back(make_filled_buffer(context, lobe_albedo_pairs(), lobe_albedo_bytes(), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT); // its slices
-    if (input.environment.key_lights.empty())                                                           // then it equals the specular cube
+    if (input.environment.extracted_lights.empty())                                                     // then it equals the specular cube
         texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
     else
         texels_.push_back(texel_page(context, input.environment.whole.texels));
@@ -61,7 +61,7 @@ void GpuScene::upload_pages(Context& context)
     std::vector<std::uint64_t> addresses;
     for (const Buffer& b : texels_)
         addresses.push_back(b.address());
-    if (input_.environment.key_lights.empty())
+    if (input_.environment.extracted_lights.empty())
         addresses[kGpuWholePage] = addresses[kGpuSpecularPage];
     pages_ = filled(context, addresses);
 }
@@ -114,7 +114,7 @@ void GpuScene::prepare(Context& context, const FrameDesc& desc, std::uint32_t se
         held = texel_page(context, texels);
         upload_pages(context);
     };
-    grown(kGpuBoxPage, maker_.box_cube().texels);
+    grown(kGpuBoxPage, maker_.mip_env().texels);
     grown(kGpuLobeSlicePage, maker_.lobe_slices());
     if (const std::vector<GridSample>& grid = maker_.grid(); !grid.empty()) {
         BN_CHECK_OP(grid.size(), <=, static_cast<std::size_t>(kGpuMaxGrid));

@@ -32,7 +32,7 @@ class GpuScene {
     Status check(const FrameDesc& desc) const { return maker_.check(desc); }
     const SceneTables& tables() const { return maker_.scene(); }
     const std::vector<MaterialRecord>& materials_of_frame() const { return maker_.materials(); }
-    const CubeMap& box_cube() const { return maker_.box_cube(); }
+    const CubeMap& mip_env() const { return maker_.mip_env(); }
     const std::vector<GridSample>& grid() const { return maker_.grid(); }
     const Column<float>& lobe_slices() const { return maker_.lobe_slices(); }
 

@@ -19,7 +19,7 @@ constexpr const char* kLeanTechniques[] = {
     "filtered_is_ggx", "mc",          "as_mc"};
 
 // Traits of a material, as in surface.glsl.
-constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kBrushedInPart = 32,
+constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAnisotropyBlended = 32,
                        kAlphaTest = 64, kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048,
                        kPhongTable = 4096;
 
@@ -55,13 +55,13 @@ glm::vec3 vec3(const float* v)
 // Returns the frame's feature that the stages lack; null: none.
 const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
 {
-    if (f.key_light_count > 0)
-        return "key lights (EnvironmentOptions::key_lights off leaves them in the environment)";
+    if (f.extracted_light_count > 0)
+        return "key lights (EnvironmentOptions::extracted_lights off leaves them in the environment)";
     if (f.light_count > 0)
         return "punctual lights";
     if (f.area_light_count > 0)
         return "area lights (FrameDesc::area_way off)";
-    if (f.lobe != lobe_with(kLobeOfAll))
+    if (f.lobe != lobe_with(kDefaultLobe))
         return "lobes other than the usual one (FrameDesc::brdf, FrameDesc::tilt, FrameDesc::masking)";
     if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || f.horizon != 0 || desc.specular_aa ||
         desc.frame_map != 0)
@@ -219,7 +219,7 @@ LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const
     r.f0 = glm::mix(r.dielectric, glm::vec4(vec3(m.base_color), 1.0f), m.metallic);
     r.diffuse = glm::vec4(vec3(m.base_color) * (1.0f - m.metallic), m.alpha_cutoff);
     r.factors = glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength);
-    r.emissive = glm::vec4(vec3(m.emissive), f.joins_round ? m.brushed : 1.0f);
+    r.emissive = glm::vec4(vec3(m.emissive), f.blends_to_isotropic ? m.anisotropy_blend : 1.0f);
     // Lobe: widths, roughness, grain and stretch
     ShadingFrame shapes = {};
     shapes.override_anisotropy = desc.override_anisotropy, shapes.anisotropy = desc.anisotropy;
@@ -258,7 +258,7 @@ void LeanScene::fill_materials(const FrameDesc& desc)
         trait(one_lobe_shape(m), kOneShape);
         trait(m.uses_color != 0, kVertexColors);
         trait(m.double_sided != 0, kTwoSided);
-        trait(m.anisotropic && m.brushed != 1.0f, kBrushedInPart);
+        trait(m.anisotropic && m.anisotropy_blend != 1.0f, kAnisotropyBlended);
         trait(m.alpha_mode == kAlpha_mask, kAlphaTest);
         trait(m.unlit != 0, kUnlit);
         trait(one_lobe_shape(m) && folded.lobe.x + folded.lobe.y <= 1e-6f, kMirror);

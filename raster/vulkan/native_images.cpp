@@ -22,10 +22,10 @@ void strip_border(const std::uint16_t* from, int width, int height, std::vector<
 NativeImages::NativeImages(Context& context, VkDescriptorSetLayout layout, const RenderInput& input, const GpuScene& scene)
     : NativeImages(context)
 {
-    has_box_ = scene.box_cube().levels > 0;
+    has_box_ = scene.mip_env().levels > 0;
     const CubeMap& specular = input.environment.specular;
     for (const CubeMap* cube :
-         {&specular, &input.environment.irradiance, has_box_ ? &scene.box_cube() : &specular, &input.environment.picture()})
+         {&specular, &input.environment.irradiance, has_box_ ? &scene.mip_env() : &specular, &input.environment.picture()})
         cubes_.push_back(upload(cube->texels.data(), cube->offset, cube->size, cube->size, 6));
     for (const TexturePyramid& p : scene.tables().pyramids)
         textures_.push_back(upload(p.texels.data(), {p.offset, p.offset + p.levels}, p.width, p.height, 1));

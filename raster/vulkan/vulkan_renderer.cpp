@@ -125,7 +125,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     const bool shares = (technique_of(desc, anisotropic).traits & kSharesSamples) != 0;
     const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =
-        std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuLineWords : 1),
+        std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuSharedSampleWords : 1),
                   msaa * static_cast<std::size_t>(blends() ? kGpuPeelWords : 1), recorded_words(recorded, desc.msaa, 1)}); // per pixel
     const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
     Targets t;
@@ -148,7 +148,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     t.depths = Buffer(context_, samples * sizeof(float), Buffer::Place::host);
     t.color = Buffer(context_, 3 * pixels * sizeof(float), Buffer::Place::host);
     t.records = Buffer(context_, recorded_words(recorded, desc.msaa, pixels) * sizeof(std::uint32_t), Buffer::Place::host);
-    t.lines = Buffer(context_, shares ? samples * kGpuLineWords * sizeof(float) : 0, Buffer::Place::device);
+    t.lines = Buffer(context_, shares ? samples * kGpuSharedSampleWords * sizeof(float) : 0, Buffer::Place::device);
     t.peel = Buffer(context_, blends() ? samples * kGpuPeelWords * sizeof(float) : 0, Buffer::Place::host);
     targets_ = std::move(t); // only a complete set
 }
@@ -251,9 +251,9 @@ Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
         for (std::size_t at = 0; at < all.size(); ++at)
             if (((all[at].traits & kSharesSamples) != 0) == sharing && frame.technique == all[at].name)
                 used.techniques |= 1 << at;
-        used.lobes |= 1 << lobe_with(kLobeOfRound) | 1 << lobe_of(frame, frame.tilt_rad != glm::vec2(0.0f));
+        used.lobes |= 1 << lobe_with(kRoundLobe) | 1 << lobe_of(frame, frame.tilt_rad != glm::vec2(0.0f));
         if (frame.masking != 0)
-            used.lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
+            used.lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
     }
     return used;
 }
@@ -263,14 +263,14 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
 {
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // the frame compares it with the default lobe
-        lobes |= 1 << lobe_with(kLobeOfAll) | 1 << lobe_with(kSeparableOfAll);
+        lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
     static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuCoatBit);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials) {
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
         if (m.coated) // a coat has a round lobe
-            lobes |= 1 << kGpuCoatBit | 1 << lobe_with(kLobeOfRound);
+            lobes |= 1 << kGpuCoatBit | 1 << lobe_with(kRoundLobe);
     }
     return {techniques, lobes};
 }

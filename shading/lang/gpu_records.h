@@ -31,7 +31,7 @@ const int kGpuSolid = 0, kGpuLayer = 1, kGpuAll = 2;
 // Words per sample in BnPeel; stages/peel.glsl names them. For a pixel's first sample, the last word says if the pixel
 // shows a layer.
 const int kGpuPeelWords = 12;
-const int kGpuLineWords = 16; // line_record (shading/techniques/shared_line.k.h)
+const int kGpuSharedSampleWords = 16; // shared_sample_record (shading/techniques/shared_samples.k.h)
 // The forward pipeline records a sample's words in groups of four, as colours: group 0 holds triangle ids, then
 // interpolants and material inputs, then colour.
 const int kGpuForwardGroups = 1 + (kInterpolantWords + kMaterialWords + 3) / 4, kGpuColorGroup = kGpuForwardGroups;

@@ -9,7 +9,7 @@ namespace burnish {
 #endif
 
 const int kMaxSamples = 16; // samples per pixel
-const int kMaxKeyLights = 8;
+const int kMaxExtractedLights = 8;
 const int kLobeSliceSize = 24; // texels along n.v in a table of one lobe's albedo; half as many along the azimuth
 const int kTextureSlots = 0    // per material
 #define BN_SLOT(slot, at, texture, encoding, power) +1
@@ -35,7 +35,7 @@ const int kSamplesLobe = 2;     // samples the lobe itself; other techniques are
 const int kTakesRoundLobes = 4; // treats every lobe as round with the same roughness; lights then do so too
 const int kReadsBox = 8;        // reads the environment's box-filtered mip chain
 const int kGgxGrid = 16;        // its grid holds GGX slopes; otherwise Beckmann slopes
-const int kSharesSamples = 32;  // shares samples within a 2x2 quad of fragments, see shared_line.k.h
+const int kSharesSamples = 32;  // shares samples within a 2x2 quad of fragments, see shared_samples.k.h
 const int kAutoRound = 64;      // `auto` takes this technique for materials without a grain
 const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
 
@@ -49,13 +49,13 @@ const int kLeastReliefSteps = 8, kMostReliefSteps = 32; // steps to the deepest 
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
 // Lobe traits (shading/models.def), and the words of the lobes' lines.
-const int kLobeOfAll = 1;    // the default lobe
-const int kLobeOfRound = 2;  // replaces it for lights, on materials without a grain and where a technique treats lobes as round
-const int kLobeOfTilted = 4; // replaces the default lobe where lobes are tilted
+const int kDefaultLobe = 1;  // the default lobe
+const int kRoundLobe = 2;    // replaces it for lights, on materials without a grain and where a technique treats lobes as round
+const int kTiltedLobe = 4;   // replaces the default lobe where lobes are tilted
 const int kPunctualOnly = 8; // has no albedo: only punctual lights use it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
-const int kSeparableOfAll = 1024, kSeparableOfTilted = 2048; // replace the default and the tilted lobe under separable masking
-const int kLobeOfPhong = 4096;                               // the Ashikhmin-Shirley lobe, see MaterialRecord::phong_slice
+const int kSeparableLobe = 1024, kSeparableTiltedLobe = 2048; // replace the default and the tilted lobe under separable masking
+const int kPhongLobe = 4096;                                  // the Ashikhmin-Shirley lobe, see MaterialRecord::phong_slice
 const int kNormals_ggx = 256, kNormals_own = 512;
 const int kLobeCount = 0
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
@@ -101,7 +101,7 @@ struct CubeRecord { // 0 levels: no cube
     float scale; // factor on every texel
 };
 
-struct KeyLightRecord {                       // an evenly bright ellipse on the sky (KeyLight in shading/bake/environment)
+struct ExtractedLightRecord {                 // an evenly bright ellipse on the sky (ExtractedLight in shading/bake/environment)
     float direction[3], axis_u[3], axis_v[3]; // unit direction; half axes, as tangents
     float radiance[3], irradiance[3];         // the ellipse's radiance; irradiance on a surface that faces the ellipse
 };
@@ -118,11 +118,11 @@ struct FrameRecord {
     int center_x, center_y;        // sub-pixel units; snapped position + center counts from the image's top left corner
     float half_width, half_height; // pixels
     SamplePattern pattern;
-    CubeRecord specular, irradiance; // without key lights
-    CubeRecord whole;                // the environment with key lights; equals `specular` where there are none
-    CubeRecord box;                  // box-filtered mip chain without key lights; only for techniques that read it
-    int key_light_count;
-    KeyLightRecord key_lights[kMaxKeyLights];
+    CubeRecord specular, irradiance; // without extracted lights
+    CubeRecord whole;                // the environment with extracted lights; equals `specular` where there are none
+    CubeRecord box;                  // box-filtered mip chain without extracted lights; only for techniques that read it
+    int extracted_light_count;
+    ExtractedLightRecord extracted_lights[kMaxExtractedLights];
     int grid_count;                 // samples in the grid
     int dfg_size, lobe_albedo_size; // sizes of the directional albedo tables
     int light_count;
@@ -131,8 +131,8 @@ struct FrameRecord {
     int positions;    // something reads the positions of visible points
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
     int background, samples, texture_taps;
-    int joins_round; // round and anisotropic lobes have different techniques: the anisotropic one blends to the round one as lobes become
-                     // round
+    int blends_to_isotropic; // round and anisotropic lobes have different techniques: the anisotropic one blends to the round one as lobes
+                             // become round
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
 #define BN_RECORD_flag(id) int id;
@@ -195,12 +195,13 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int refracts;                    // transmits light, and its technique follows transmitted light
     int coated;                      // has a clear coat in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
-    float brushed;    // brushed_part() of its factors where the technique shares samples; 1 elsewhere and where slopes widen lobes
-    int albedo_slice; // first pair of the albedo slice for a lobe with constant widths; else -1
-    int phong_slice;  // the same for the Ashikhmin-Shirley lobe, where the technique samples this lobe or the frame compensates it; else -1
-    int frame_map;    // the frame's; kFrameQuaternion where textures hold a mip filter's lobes, which are made for it
-    int phong_set;    // first sample of this lobe's half vectors in the grid; -1: each fragment computes its own
-    int keeps;        // the alpha of normal-map levels is the share of light that facets keep, see bake/mip/kept_light.h
+    float anisotropy_blend; // anisotropy_blend_of() of its factors where the technique shares samples; 1 elsewhere and where slopes widen
+                            // lobes
+    int albedo_slice;       // first pair of the albedo slice for a lobe with constant widths; else -1
+    int phong_slice; // the same for the Ashikhmin-Shirley lobe, where the technique samples this lobe or the frame compensates it; else -1
+    int frame_map;   // the frame's; kFrameQuaternion where textures hold a mip filter's lobes, which are made for it
+    int phong_set;   // first sample of this lobe's half vectors in the grid; -1: each fragment computes its own
+    int keeps;       // the alpha of normal-map levels is the share of light that facets keep, see bake/mip/kept_light.h
     float kept[kKeptKnots];        // loss of light at view cosines .1, .4, .7, 1, as multiples of the levels' value
     int facets;                    // groups of normals that replace the map from afar, see bake/mip/facets.h
     float facets_from;             // share of light that facets lose there

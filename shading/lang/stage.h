@@ -14,8 +14,8 @@
 //   texture_desc_of(f, m, slot); texel_at_level(one_level, slot, uv)   a used texture's description, and one texel of it anywhere
 //   dfg_pairs(f) lobe_albedo_pairs(f) lobe_slice_pairs(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
 //   ltc_texels(f)                        the table of linearly transformed cosines, for ltc_lookup()
-//   specular_cube(f) irradiance_cube(f) box_cube(f)   cubes without key lights, for cube_sample() and the sums below
-//   whole_cube(f)                        the environment with its key lights; level 0 alone
+//   prefiltered_env(f) irradiance_cube(f) mip_env(f)   cubes without extracted lights, for cube_sample() and the sums below
+//   full_env(f)                        the environment with its extracted lights; level 0 alone
 //   lobe_used(at)                        true where the frame may use lobe number `at` from shading/models.def
 //   area_way_used(at)                    true where the frame may use line `at` of BN_AREA_LIGHTS
 //   coats_used()                         true where any material may have a clear coat

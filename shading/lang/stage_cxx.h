@@ -85,11 +85,11 @@ BN_INLINE const AreaLightRecord& the_area_light(frame_ref f, int i)
     return f.area_lights[i];
 }
 
-BN_INLINE cube_desc specular_cube(frame_ref f)
+BN_INLINE cube_desc prefiltered_env(frame_ref f)
 {
     return {f.specular_texels, f.specular.size, f.specular.levels};
 }
-BN_INLINE cube_desc whole_cube(frame_ref f)
+BN_INLINE cube_desc full_env(frame_ref f)
 {
     return {f.whole_texels, f.whole.size, f.whole.levels};
 }
@@ -97,7 +97,7 @@ BN_INLINE cube_desc irradiance_cube(frame_ref f)
 {
     return {f.irradiance_texels, f.irradiance.size, f.irradiance.levels};
 }
-BN_INLINE cube_desc box_cube(frame_ref f)
+BN_INLINE cube_desc mip_env(frame_ref f)
 {
     return {f.box_texels, f.box.size, f.box.levels};
 }
@@ -151,9 +151,9 @@ BN_INLINE constexpr bool coats_used()
 // A frame and materials where only geometry varies. They have no textures, vertex colours, punctual or area lights, energy
 // compensation, exact Fresnel, transmission or coats, and the default lobe only.
 struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, area_light_count = 0, key_light_count = 0, energy_compensation = 0, dfg_fit = 0, fresnel = 0,
-                         diffuse_model = 0, specular_aa = 0;
-    static constexpr int lobe = lobe_with(kLobeOfAll), lobe_traits = lobe_traits_of(lobe);
+    static constexpr int light_count = 0, area_light_count = 0, extracted_light_count = 0, energy_compensation = 0, dfg_fit = 0,
+                         fresnel = 0, diffuse_model = 0, specular_aa = 0;
+    static constexpr int lobe = lobe_with(kDefaultLobe), lobe_traits = lobe_traits_of(lobe);
 };
 struct PlainMaterial : MaterialRecord {
     static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, coated = 0, relief = 0;

@@ -43,13 +43,13 @@ template <class Tag> BN_FN real3 technique_specular(frame_ref f, Tag, const shad
 #include "shading/models.def"
 }
 
-template <class Tag> BN_FN line_record technique_shared(frame_ref f, Tag, const shaded_point& x, real offset)
+template <class Tag> BN_FN shared_sample_record technique_shared(frame_ref f, Tag, const shaded_point& x, real offset)
 {
 #define BN_SHARING(id)                                                                                                                     \
     if constexpr (Tag::kId == Technique::id)                                                                                               \
         return id##_shared(f, x, offset);
 #include "shading/models.def"
-    return line_record{};
+    return shared_sample_record{};
 }
 
 } // namespace BN_ISA_NS
@@ -71,10 +71,10 @@ real3 technique_specular(frame_ref f, technique_ref technique, shaded_point x)
     return vec3_all(lit(0.0));
 }
 
-line_record technique_shared(frame_ref f, technique_ref technique, shaded_point x, real offset)
+shared_sample_record technique_shared(frame_ref f, technique_ref technique, shaded_point x, real offset)
 {
     int at = -1; // index of the technique line before
-    line_record r;
+    shared_sample_record r;
 #define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) ++at;
 #define BN_SHARING(id)                                                                                                                     \
     if ((kTechniques >> at & 1) != 0 && technique == at)                                                                                   \

@@ -126,8 +126,8 @@ BN_STAGE ltc_light area_part(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clip
 
 // Returns the same for a lobe tilted against its surface. The cosine stands for the untilted lobe, whose masking differs.
 // So scale its share by the ratio of both lobes' values in the light's mean direction. lobe: x's.
-BN_STAGE ltc_light area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe) cosine, bool clipless, BN_IN(shaded_point) x,
-                                     BN_IN(aniso_lobe) lobe)
+BN_STAGE ltc_light area_part_tilted(any_frame f, BN_IN(area_view) v, BN_IN(ltc_lobe) cosine, bool clipless, BN_IN(shaded_point) x,
+                                    BN_IN(aniso_lobe) lobe)
 {
     ltc_light light = area_through(v, cosine, clipless);
     // Find the mean direction of the light
@@ -138,14 +138,14 @@ BN_STAGE ltc_light area_part_leaning(any_frame f, BN_IN(area_view) v, BN_IN(ltc_
     axes.b = lobe.v_axis;
     // Compare the tilted with the untilted lobe in that direction
     real3 wi = axes.t * d.x + axes.b * d.y + axes.n * d.z;
-    int usual = the_frame(f).masking != 0 ? lobe_that_has(kLobeOfAll) : the_frame(f).lobe;
-    placed_lobe leaning = placed_lobe_at(f, x);
-    placed_lobe upright = placed_lobe_of(usual, lobe, x.s.n, x.s.v, axes);
-    real share = placed_lobe_value(leaning, wi) / max(placed_lobe_value(upright, wi), lit(1e-12));
+    int untilted = the_frame(f).masking != 0 ? lobe_that_has(kDefaultLobe) : the_frame(f).lobe;
+    bsdf_lobe tilted = bsdf_lobe_at(f, x);
+    bsdf_lobe upright = make_bsdf_lobe(untilted, lobe, x.s.n, x.s.v, axes);
+    real share = bsdf_lobe_eval_cos(tilted, wi) / max(bsdf_lobe_eval_cos(upright, wi), lit(1e-12));
     // An eye below the lobe's own horizon sees no untilted lobe: use the ratio of albedos there.
     real above = k_saturate(k_dot3(x.s.n, x.s.v) * lit(10.0));
-    real shown = x.shown + (min(share, lit(4.0)) - x.shown) * above;
-    light.part = light.part * shown;
+    real ratio = x.albedo_ratio + (min(share, lit(4.0)) - x.albedo_ratio) * above;
+    light.part = light.part * ratio;
     return light;
 }
 
@@ -188,9 +188,9 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     bool clipless = the_frame(f).area_way == kAreaWay_ltc_clipless;
     // Find the surface's horizon in the lobe's axes
     real3 up = vec3_of(lit(0.0), lit(0.0), lit(1.0));
-    if (x.turned)
-        up = to_lobe(lobe, x.s.n, x.surface_axes.n);
-    bool leans = x.turned && stands_in(f) && layer_has(layer, kLies_surface);
+    if (x.has_surface_horizon)
+        up = to_lobe(lobe, x.s.n, x.geometric_axes.n);
+    bool tilts = x.has_surface_horizon && uses_substitute_lobe(f) && layer_has(layer, kLies_surface);
     real3 specular = vec3_all(lit(0.0));
     real3 diffuse = vec3_all(lit(0.0));
     // Visit the lights that face the point
@@ -209,13 +209,13 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
             side_v = view.at.corner[3] - corner;
         }
         // Clip at the surface's horizon
-        if (x.turned)
+        if (x.has_surface_horizon)
             view = area_above(view, up);
         // Find the specular share
         real3 radiance = splat3(the_area_light(f, i).radiance);
         ltc_light seen;
-        if (leans)
-            seen = area_part_leaning(f, view, shiny, clipless, x, lobe);
+        if (tilts)
+            seen = area_part_tilted(f, view, shiny, clipless, x, lobe);
         else
             seen = area_part(view, shiny, clipless);
         // Add it with the light's or its picture's radiance
@@ -235,13 +235,13 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     albedo.scale = shiny.all - shiny.grazing;
     albedo.bias = shiny.grazing;
     real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
-    if (stands_in(f) && !leans)
-        sum = sum * x.shown;
+    if (uses_substitute_lobe(f) && !tilts)
+        sum = sum * x.albedo_ratio;
     if (layer_has(layer, kPunctualOnly))
         sum = vec3_all(lit(0.0));
     // Add the diffuse part
     if (x.diffuse) {
-        real passed = passed_to_diffuse(f, x);
+        real passed = diffuse_energy_share(f, x);
         sum = sum + x.s.diffuse * diffuse * passed;
     }
     return sum;
@@ -251,7 +251,7 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
 BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model, real3 position)
 {
     // Prepare the lobe and the interface
-    placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
+    bsdf_lobe lobe = bsdf_lobe_under_lights(model, x.lobe, x.s, x.geometric_axes);
     bool apart = lobe_has(lobe.model, kLies_surface + kLies_thread); // its value includes the cosine
     rough_interface through;
     if (x.refracts)
@@ -282,15 +282,15 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
             // Test the surface's horizon
             real cosine = max(k_dot3(x.s.n, s.wi), lit(0.0));
             mask seen = s.pdf > lit(0.0);
-            if (x.turned)
-                seen = both(seen, k_dot3(x.surface_axes.n, s.wi) > lit(0.0));
+            if (x.has_surface_horizon)
+                seen = both(seen, k_dot3(x.geometric_axes.n, s.wi) > lit(0.0));
             real weight = select(seen, lit(1.0) / max(s.pdf, lit(1e-20)), lit(0.0));
             // Evaluate the lobe or the interface
             real value = lit(0.0);
             if (apart)
-                value = placed_lobe_value(lobe, s.wi);
+                value = bsdf_lobe_eval_cos(lobe, s.wi);
             else
-                value = select(cosine > lit(0.0), placed_lobe_light(lobe, x.s, s.wi), lit(0.0)) * cosine;
+                value = select(cosine > lit(0.0), bsdf_lobe_light(lobe, x.s, s.wi), lit(0.0)) * cosine;
             // Add the specular part with Fresnel
             real3 fresnel = reflectance_of(x.s, punctual_v_dot_h(x.s, s.wi));
             real part = value * weight;
@@ -308,7 +308,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
     // Apply gain, and add the diffuse part
     real3 sum = specular * x.gain;
     if (x.diffuse) {
-        real passed = passed_to_diffuse(f, x) * lit(0.31830988618379067);
+        real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;
     }
     return sum;

@@ -1,4 +1,4 @@
-// The environment with its key lights, as seen where no triangle is.
+// The environment with its extracted lights, as seen where no triangle is.
 #ifndef BN_BACKGROUND_T_H
 #define BN_BACKGROUND_T_H
 
@@ -8,7 +8,7 @@
 
 BN_KERNELS_BEGIN
 
-// Converts a texel to radiance. texel: level 0 of whole_cube() in a direction.
+// Converts a texel to radiance. texel: level 0 of full_env() in a direction.
 BN_FN real3 radiance_of_texel(frame_ref f, real3 texel)
 {
     return texel * splat(the_frame(f).whole.scale);
@@ -17,7 +17,7 @@ BN_FN real3 radiance_of_texel(frame_ref f, real3 texel)
 // Returns the environment's radiance. direction: any length.
 BN_FN real3 environment_radiance(frame_ref f, real3 direction)
 {
-    return radiance_of_texel(f, cube_sample_level(whole_cube(f), direction, 0));
+    return radiance_of_texel(f, cube_sample_level(full_env(f), direction, 0));
 }
 
 // Returns the ray through a pixel centre, not unit. view: the frame's. x, y: pixel.

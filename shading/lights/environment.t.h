@@ -5,7 +5,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/shaded_point.t.h"
-#include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/shared_samples.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -15,14 +15,14 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
 {
     real3 left = specular;
     // Scale to the substitute lobe's albedo
-    if (stands_in(f) && (traits & kSamplesLobe) == 0) {
-        left = specular * x.shown;
+    if (uses_substitute_lobe(f) && (traits & kSamplesLobe) == 0) {
+        left = specular * x.albedo_ratio;
         if (lies_in_surface(f)) // the factor covers the horizon too
             return left;
     }
     // Fade at the surface's horizon
-    if (x.turned && (traits & kTestsHorizon) == 0)
-        return left * horizon_fade(x.lobe, x.s.n, x.s.v, x.surface_axes.n);
+    if (x.has_surface_horizon && (traits & kTestsHorizon) == 0)
+        return left * horizon_fade(x.lobe, x.s.n, x.s.v, x.geometric_axes.n);
     return left;
 }
 
@@ -32,10 +32,10 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
 BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 {
     real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    if (!x.turned)
+    if (!x.has_surface_horizon)
         return whole;
-    real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.surface_axes.n));
-    real3 back = cube_sample(irradiance_cube(f), -x.surface_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.geometric_axes.n));
+    real3 back = cube_sample(irradiance_cube(f), -x.geometric_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
     return max(whole - back * below, vec3_all(lit(0.0)));
 }
 
@@ -51,7 +51,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
         return alone;
     }
     // Add the diffuse part
-    real passed = passed_to_diffuse(f, x);
+    real passed = diffuse_energy_share(f, x);
     real3 irradiance = irradiance_at(f, x);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
     return sum;
@@ -59,7 +59,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
 
 // Completes the record of a fragment whose technique shares samples. r: the technique's result; `rest` is what an unshared
 // technique returns. more: light from other sources.
-BN_FN line_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, line_record r, real3 more)
+BN_FN shared_sample_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, shared_sample_record r, real3 more)
 {
     real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);
     r.factor = select(r.width < lit(0.0), vec3_all(lit(0.0)), seen_of_lobe(f, x, traits, whole) * x.s.occlusion);

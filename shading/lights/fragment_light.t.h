@@ -7,21 +7,21 @@
 #include "shading/lang/techniques.h"
 #include "shading/lights/area.t.h"
 #include "shading/lights/environment.t.h"
-#include "shading/lights/key.t.h"
+#include "shading/lights/extracted.t.h"
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/coat.t.h"
 #include "shading/surface/facets.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/mc.t.h"
-#include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/shared_samples.k.h"
 #include "shading/techniques/split_isotropic.t.h"
 
 BN_KERNELS_BEGIN
 
-// Returns reflected light from key lights. lobe: the lobe for lights, its index in shading/models.def.
+// Returns reflected light from extracted lights. lobe: the lobe for lights, its index in shading/models.def.
 BN_STAGE real3 light_of_sky(any_frame f, BN_IN(shaded_point) x, int lobe)
 {
-    return light_from_key_lights(f, x, lobe, base_layer(f));
+    return light_from_extracted_lights(f, x, lobe, base_layer(f));
 }
 
 // Returns reflected light from punctual lights.
@@ -47,22 +47,22 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
                                   int traits)
 {
     // Make a point for the coat
-    surface_frame axes = seen_axes(p);
+    surface_frame axes = facing_geometric_axes(p);
     real3 v = k_normalize3(-p.ray);
-    coat_layer coat = coat_of(f, m, at, axes, v, seen_handedness(p));
+    coat_layer coat = coat_of(f, m, at, axes, v, facing_handedness(p));
     shaded_point c;
     c.pixel_id = pixel_id;
     make_coat_point(f, coat, axes, v, at.occlusion, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
-    int lobe = lobe_that_has(kLobeOfRound);
+    int lobe = lobe_that_has(kRoundLobe);
     // Add environment light
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
-        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, placed_coat(c)));
+        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, coat_bsdf_lobe(c)));
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
-    // Add key lights, lamps and area lights
-    if (the_frame(f).key_light_count > 0)
-        light = light + light_from_key_lights(f, c, lobe, layer_with_lobe(lobe));
+    // Add extracted lights, lamps and area lights
+    if (the_frame(f).extracted_light_count > 0)
+        light = light + light_from_extracted_lights(f, c, lobe, layer_with_lobe(lobe));
     if (the_frame(f).light_count > 0)
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
@@ -79,20 +79,20 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
 // above that direction.
 BN_FN real facet_share(BN_IN(shaded_point) x)
 {
-    if (!x.turned)
+    if (!x.has_surface_horizon)
         return lit(1.0);
     real alpha = x.s.roughness * x.s.roughness;
     real rest = lit(1.0) - x.s.n_dot_v;
     real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
-    real high = k_dot3(x.surface_axes.n, mirrored) * lit(0.5) + alpha * (lit(2.0) * rest * rest);
+    real high = k_dot3(x.geometric_axes.n, mirrored) * lit(0.5) + alpha * (lit(2.0) * rest * rest);
     real half_share = high * lit(0.5) / sqrt(max(high * high + alpha * alpha, lit(1e-12)));
     return lit(0.5) + half_share;
 }
 
-// Adds key lights, lamps and area lights to `light`. position: of the surface, world space.
+// Adds extracted lights, lamps and area lights to `light`. position: of the surface, world space.
 BN_FN real3 plus_lights(frame_ref f, material_ref m, BN_IN(shaded_point) x, real3 position, real3 light)
 {
-    if (the_frame(f).key_light_count > 0)
+    if (the_frame(f).extracted_light_count > 0)
         light = light + light_of_sky(f, x, the_material(m).lights_lobe);
     if (the_frame(f).light_count > 0)
         light = light + light_of_lamps(f, x, the_material(m).lights_lobe, position);
@@ -123,14 +123,14 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         // Find its environment light, by samples or by a fetch
         bool met = (the_frame(f).lobe_traits & kPunctualOnly) == 0;
         if (met && samples)
-            specular = mc_of_lobe(f, x, placed_lobe_at(f, x));
+            specular = mc_of_lobe(f, x, bsdf_lobe_at(f, x));
         // Weight the fetch by its share above the horizon
         if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
             fetched = fetched + split_isotropic_specular(f, x) * x.gain * (share * x.s.occlusion);
-            if (x.turned)
-                groups = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v)).groups;
+            if (x.has_surface_horizon)
+                groups = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v)).groups;
         }
         // Add the lights, weighted by the group's share of the map
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
@@ -143,14 +143,14 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
 }
 
 // Shades a fragment. shape: lobe_shape_at(f, m, at, p). px, py: pixel. shares: the technique shares samples, and fragments
-// can read their neighbours; line_mean then makes the colour from all their samples.
-BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape,
-                                    BN_IN(visible_point) p, integer px, integer py, bool shares)
+// can read their neighbours; shared_sample_mean then makes the colour from all their samples.
+BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, technique_ref t, BN_IN(material_inputs) at,
+                                             BN_IN(lobe_shape) shape, BN_IN(visible_point) p, integer px, integer py, bool shares)
 {
     // Take the material's own emission
     real3 light = own_light(m, at);
     if (the_material(m).unlit != 0)
-        return line_alone(light);
+        return unshared_record(light);
     // Make the shaded point
     shaded_point x;
     make_shaded_point(f, m, at, shape, p, py * int_lit(the_frame(f).width) + px, x);
@@ -160,11 +160,11 @@ BN_FN line_record light_of_fragment(frame_ref f, material_ref m, technique_ref t
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
     light = plus_lights(f, m, x, p.position, light);
     // Keep the shared part apart
-    line_record r;
+    shared_sample_record r;
     if (shares)
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
     else
-        r = line_alone(light);
+        r = unshared_record(light);
     // Blend to facets far away
     if (texture_used(m, kNormalTex) && the_material(m).facets > 0) {
         real far = facets_seen(m, at, x);

@@ -31,8 +31,7 @@ BN_FN real3 diffuse_under_light(frame_ref f, BN_IN(real3) diffuse, real n_dot_l)
 }
 
 // Returns reflected radiance from one light. lobe: x's, under lights. diffuse: diffuse_brdf(). at: light_towards().
-BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe, BN_IN(real3) diffuse, light_sample at,
-                                int light)
+BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe, BN_IN(real3) diffuse, light_sample at, int light)
 {
     // Find irradiance, reflectance and the diffuse part
     real3 intensity = splat3(the_light(f, light).radiant) * at.attenuation;
@@ -42,9 +41,9 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
-        r.radiance = punctual_radiance_apart(x.s, at.l, placed_lobe_value(lobe, at.l), reflectance, dull, x.gain, intensity);
+        r.radiance = punctual_radiance_apart(x.s, at.l, bsdf_lobe_eval_cos(lobe, at.l), reflectance, dull, x.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, placed_lobe_light(lobe, x.s, at.l), reflectance, dull, x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, bsdf_lobe_light(lobe, x.s, at.l), reflectance, dull, x.gain, intensity);
     return r;
 }
 
@@ -69,7 +68,7 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
 {
     real3 sum = vec3_all(lit(0.0));
     // Prepare the lobe, the diffuse part and the interface
-    placed_lobe lobe = placed_lobe_under_lights(model, x.lobe, x.s, x.surface_axes);
+    bsdf_lobe lobe = bsdf_lobe_under_lights(model, x.lobe, x.s, x.geometric_axes);
     real3 diffuse = vec3_all(lit(0.0));
     if (x.diffuse)
         diffuse = diffuse_brdf(f, x);
@@ -89,8 +88,8 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
         else
             light = light_from(f, x, lobe, diffuse, at, i);
         // Test the surface's horizon
-        if (x.turned)
-            light.radiance = select(k_dot3(x.surface_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
+        if (x.has_surface_horizon)
+            light.radiance = select(k_dot3(x.geometric_axes.n, light.l) > lit(0.0), light.radiance, vec3_all(lit(0.0)));
         sum = sum + light.radiance;
     }
     return sum;

@@ -156,7 +156,7 @@ void main()
     record_material(word, at);
 #else
     // No sharing: a fragment cannot read its neighbours.
-    line_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_at(0, m, at, p), p, px, py, false);
+    shared_sample_record light = light_of_fragment(0, m, materials[m].technique, at, lobe_shape_at(0, m, at, p), p, px, py, false);
     radiance = vec4(light.rest, 1.0);
 #endif
 }

@@ -17,11 +17,11 @@ layout(std430, set = 0, binding = 11) readonly buffer BnIds { int ids[]; };
 layout(std430, set = 0, binding = 13) writeonly buffer BnColor { float colors[]; };
 layout(constant_id = 3) const bool kShares = false; // some materials share samples: share.comp makes the colours
 
-#include "shading/stages/lines.glsl"
+#include "shading/stages/shared_samples.glsl"
 
 // Shades one (pixel, triangle) pair and records its words. pixel: index in the band; pair: index of the pair's first
 // sample.
-line_record shade_pair(int slot, int px, int py, int covered, int pixel, int pair)
+shared_sample_record shade_pair(int slot, int px, int py, int covered, int pixel, int pair)
 {
     if (recorded(kGpuRecordStages))
         records[stages_at(pair)] = covered;
@@ -30,7 +30,7 @@ line_record shade_pair(int slot, int px, int py, int covered, int pixel, int pai
     if (slot == kGpuNoTriangle) {
         for (int i = 0; central && i < kLayerWords; ++i)
             records[layers_at(pixel) + i] = 0;
-        return line_alone(background_color(0, view_params_of(frame.view), px, py));
+        return unshared_record(background_color(0, view_params_of(frame.view), px, py));
     }
     // Find the visible point and its material
     triangle_setup t = load_setup(slot);
@@ -73,10 +73,10 @@ void main()
                 covered |= 1 << s;
         rest &= ~covered;
         // Shade the triangle, and weight its colour by the covered share
-        line_record shaded = shade_pair(slot, px, py, covered, pixel, first + begin);
+        shared_sample_record shaded = shade_pair(slot, px, py, covered, pixel, first + begin);
         real3 color = shaded.rest;
         if (kShares)
-            store_line(first + begin, shaded);
+            store_shared_sample(first + begin, shaded);
         else if (kRecords != 0)
             record_color(first + begin, color);
         real weight = covered_share(covered, inv);

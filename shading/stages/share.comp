@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #include "shading/stages/interface.glsl"
-#include "shading/stages/lines.glsl"
+#include "shading/stages/shared_samples.glsl"
 #include "shading/stages/pass.glsl"
 #include "shading/stages/records.glsl"
 #include "shading/surface/coverage.t.h"
@@ -23,10 +23,10 @@ int samples_of_pair(int first, int begin)
 }
 
 // Returns a pair's colour, averaged with the other pixels of its quad. x, y: pixel in the band.
-real3 shared_colour(line_record own, int x, int y)
+real3 shared_colour(shared_sample_record own, int x, int y)
 {
     real inv = lit(1.0) / to_real(frame.msaa);
-    line_mean mean = line_mean_begin(own);
+    shared_sample_mean mean = shared_sample_mean_begin(own);
     // Visit the three other pixels of the quad
     for (int k = 1; k < 4; ++k) {
         int qx = x ^ (k & 1), qy = y ^ (k >> 1);
@@ -37,11 +37,11 @@ real3 shared_colour(line_record own, int x, int y)
         while (rest != 0) {
             int begin = findLSB(rest), covered = samples_of_pair(first, begin);
             rest &= ~covered;
-            line_record r = load_line(first + begin);
-            mean = line_mean_add(mean, own, r, covered_share(covered, inv), r.width >= 0.0);
+            shared_sample_record r = load_shared_sample(first + begin);
+            mean = shared_sample_mean_add(mean, own, r, covered_share(covered, inv), r.width >= 0.0);
         }
     }
-    return line_mean_colour(mean, own);
+    return shared_sample_mean_colour(mean, own);
 }
 
 void main()
@@ -57,7 +57,7 @@ void main()
     while (rest != 0) {
         int begin = findLSB(rest), covered = samples_of_pair(first, begin);
         rest &= ~covered;
-        line_record own = load_line(first + begin);
+        shared_sample_record own = load_shared_sample(first + begin);
         real3 color = own.rest;
         if (own.width >= 0.0)
             color = shared_colour(own, x, y);

@@ -23,10 +23,10 @@ real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
 #define lobe_slice_pairs(f) kGpuLobeSlicePage
 #define ltc_texels(f) kGpuLtcPage
 
-cube_desc specular_cube(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }
-cube_desc whole_cube(frame_ref f) { return cube_desc(kGpuWholePage, frame.whole.size, frame.whole.levels); }
+cube_desc prefiltered_env(frame_ref f) { return cube_desc(kGpuSpecularPage, frame.specular.size, frame.specular.levels); }
+cube_desc full_env(frame_ref f) { return cube_desc(kGpuWholePage, frame.whole.size, frame.whole.levels); }
 cube_desc irradiance_cube(frame_ref f) { return cube_desc(kGpuIrradiancePage, frame.irradiance.size, frame.irradiance.levels); }
-cube_desc box_cube(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
+cube_desc mip_env(frame_ref f) { return cube_desc(kGpuBoxPage, frame.box.size, frame.box.levels); }
 real4 grid_of_four(frame_ref f, int first, integer set)
 {
     int at = 3 * first + set;

@@ -22,7 +22,7 @@ struct coat_layer {
 };
 
 // Returns the coat of a coated material. axes: the geometry's, facing the eye; v: to the eye, unit, world space;
-// handedness: seen_handedness().
+// handedness: facing_handedness().
 BN_FN coat_layer coat_of(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(surface_frame) axes, real3 v, real handedness)
 {
     coat_layer c;
@@ -44,8 +44,8 @@ BN_FN coat_layer coat_of(frame_ref f, material_ref m, BN_IN(material_inputs) at,
 // Makes a point that lights and techniques can shade from the coat. axes: the geometry's; v: as in coat_of(); turned: the
 // normal differs from the geometry's, and the frame tests the horizon. Fills c except members that only other lobes and
 // random numbers use.
-BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_frame) axes, real3 v, real occlusion, bool turned,
-                           BN_INOUT(shaded_point) c)
+BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_frame) axes, real3 v, real occlusion,
+                           bool has_surface_horizon, BN_INOUT(shaded_point) c)
 {
     // Set up a surface with the coat's specular part alone
     real3 whole = vec3_all(coat.weight);
@@ -63,10 +63,10 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     c.lobe.v_axis = coat.axes.b;
     c.lobe.sigma_u = coat.roughness * coat.roughness * lit(0.70710678118654752);
     c.lobe.sigma_v = c.lobe.sigma_u;
-    c.surface_axes = axes;
-    c.turned = turned;
+    c.geometric_axes = axes;
+    c.has_surface_horizon = has_surface_horizon;
     c.diffuse = false;
-    c.brushed = lit(0.0);
+    c.anisotropy_blend = lit(0.0);
     // Look up directional albedo
     if (the_frame(f).dfg_fit != 0)
         c.dfg = dfg_fit(c.s.n_dot_v, coat.roughness);
@@ -78,7 +78,7 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
     c.own_dfg.scale = lit(1.0);
     c.own_dfg.bias = lit(0.0);
     c.phong_set = -1;
-    c.shown = lit(1.0);
+    c.albedo_ratio = lit(1.0);
     c.whole = c.own_dfg;
     c.compensation = vec3_all(lit(1.0));
     c.gain = c.compensation;
@@ -89,9 +89,9 @@ BN_FN void make_coat_point(frame_ref f, BN_IN(coat_layer) coat, BN_IN(surface_fr
 }
 
 // Returns the coat's lobe, for samples and densities.
-BN_FN placed_lobe placed_coat(BN_IN(shaded_point) c)
+BN_FN bsdf_lobe coat_bsdf_lobe(BN_IN(shaded_point) c)
 {
-    return placed_lobe_of(lobe_that_has(kLobeOfRound), c.lobe, c.s.n, c.s.v, c.surface_axes);
+    return make_bsdf_lobe(lobe_that_has(kRoundLobe), c.lobe, c.s.n, c.s.v, c.geometric_axes);
 }
 
 BN_KERNELS_END

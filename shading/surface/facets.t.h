@@ -19,7 +19,7 @@ BN_FN real facets_seen(material_ref m, BN_IN(material_inputs) at, BN_IN(shaded_p
     real lost = (lit(1.0) - at.kept) / splat(the_material(m).facets_from);
     real share = k_saturate((lost - lit(0.7)) * lit(4.0));
     // Fade where the texel's normal tilts
-    real level = k_saturate((k_dot3(x.s.n, x.surface_axes.n) - lit(0.92)) * lit(20.0));
+    real level = k_saturate((k_dot3(x.s.n, x.geometric_axes.n) - lit(0.92)) * lit(20.0));
     return share * share * (lit(3.0) - lit(2.0) * share) * level;
 }
 
@@ -97,9 +97,9 @@ BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inpu
         x.gain = gain + (x.gain - gain) * chosen;
     }
     // Keep the map's share of light above the horizon
-    if (!x.turned)
+    if (!x.has_surface_horizon)
         return;
-    facet_light light = facet_light_of(m, k_dot3(x.surface_axes.n, x.s.v));
+    facet_light light = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v));
     x.gain = x.gain * (lit(1.0) + (light.map_over_groups - lit(1.0)) * chosen);
 }
 

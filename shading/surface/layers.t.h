@@ -40,7 +40,7 @@ BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inpu
 {
     // Find the lobe on the surface
     lobe_shape shape = lobe_shape_at(f, m, at, p);
-    surface_frame axes = lobe_axes(f, m, at, seen_axes(p), seen_handedness(p));
+    surface_frame axes = lobe_axes(f, m, at, facing_geometric_axes(p), facing_handedness(p));
     aniso_lobe lobe = lobe_in_frame(m, shape, axes);
     layer_values r;
     // Fill the layers

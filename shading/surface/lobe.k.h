@@ -29,7 +29,7 @@ BN_FN real lobe_eta(aniso_lobe lobe)
 
 // Returns the anisotropic share of a blend with round lobes, [0,1]: 0 for equal widths, 1 from a relative difference of an
 // eighth on. Round lobes use simpler methods with other results, so the blend avoids a step.
-BN_FN real brushed_part(real sigma_u, real sigma_v)
+BN_FN real anisotropy_blend_of(real sigma_u, real sigma_v)
 {
     return k_saturate(lit(8.0) * (sigma_u - sigma_v) / max(sigma_u, lit(1e-20)));
 }

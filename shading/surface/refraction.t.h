@@ -9,7 +9,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/models/ellipsoid_dielectric.k.h"
-#include "shading/surface/placed_lobe.t.h"
+#include "shading/surface/bsdf_lobe.t.h"
 #include "shading/surface/reflectance.t.h"
 
 BN_KERNELS_BEGIN
@@ -38,7 +38,7 @@ BN_FN real index_of_far_side(real ior, mask front)
 // Makes an interface. n: lobe normal, v: to the eye, unit, world space; axes: the geometry's.
 BN_FN rough_interface rough_interface_of(interface_inputs at, aniso_lobe lobe, real3 n, real3 v, surface_frame axes)
 {
-    placed_lobe a = placed_lobe_of(lobe_that_has(kSeparableOfTilted), lobe, n, v, axes);
+    bsdf_lobe a = make_bsdf_lobe(lobe_that_has(kSeparableTiltedLobe), lobe, n, v, axes);
     rough_interface r;
     r.at = at;
     r.p = ellipsoid_dielectric_params_of(a.ellipsoid, at.parts.ior);

@@ -23,7 +23,7 @@ BN_FN real depth_in_map(BN_IN(texture_one_level) map, real2 uv)
 
 // Returns where on its way through the height map, [0,1], a ray meets the heights. n_dot_v: [0,1], sets the number of
 // steps. from, way: coordinates at the ray's start, and their change until its end.
-BN_FN real relief_met(BN_IN(texture_one_level) map, real2 from, real2 way, real n_dot_v)
+BN_FN real relief_hit(BN_IN(texture_one_level) map, real2 from, real2 way, real n_dot_v)
 {
     // Choose the step
     real most = to_real(int_lit(kMostReliefSteps));
@@ -78,7 +78,7 @@ BN_STAGE void see_relief(any_frame f, material_ref m, BN_IN(relief_plane) plane,
     texture_desc desc = texture_desc_of(f, m, kNormalTex);
     texture_one_level map = texture_one_level_of(desc, texture_footprint_of(desc, place.dx, place.dy, the_frame(f).texture_taps));
     // Move the coordinates to the crossing
-    real met = relief_met(map, place.uv, through, n_dot_v);
+    real met = relief_hit(map, place.uv, through, n_dot_v);
     p.uv0 = p.uv0 + vec2_of(way.x, way.y) * met;
     p.uv1 = p.uv1 + vec2_of(way.z, way.w) * met;
 }

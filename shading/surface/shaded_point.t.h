@@ -4,12 +4,12 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
+#include "shading/surface/bsdf_lobe.t.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/diffuse.k.h"
 #include "shading/surface/energy.k.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
-#include "shading/surface/placed_lobe.t.h"
 #include "shading/surface/reflectance.t.h"
 #include "shading/surface/refraction.t.h"
 #include "shading/surface/surface.k.h"
@@ -20,15 +20,15 @@ BN_KERNELS_BEGIN
 struct shaded_point {
     surface s;
     aniso_lobe lobe;
-    surface_frame surface_axes; // the geometry's
-    bool turned;                // a normal map or a tilt turns s.n from surface_axes.n; the surface's horizon cuts off light
-    bool diffuse;               // s.diffuse may be above 0
-    real brushed;               // the material's
+    surface_frame geometric_axes; // the geometry's
+    bool has_surface_horizon;     // a normal map or a tilt turns s.n from geometric_axes.n; the surface's horizon cuts off light
+    bool diffuse;                 // s.diffuse may be above 0
+    real anisotropy_blend;        // the material's
     dfg_value dfg;
     real3 albedo;       // the lobe's directional albedo, for techniques with a split integral
     real phong_albedo;  // directional albedo of an Ashikhmin-Shirley lobe with the same widths, from a table; -1: no table
     int phong_set;      // MaterialRecord's
-    real shown;         // albedo(frame's lobe) / albedo(default lobe, untilted); 1 for the default lobe
+    real albedo_ratio;  // albedo(frame's lobe) / albedo(default lobe, untilted); 1 for the default lobe
     dfg_value own_dfg;  // of a lobe compensated by its own albedo (has_own_gain); else dfg
     dfg_value whole;    // own_dfg of the material's lobe before normals widen it: the reflectance of all facets in a pixel
     real3 compensation; // the lobe's energy compensation; 1 without
@@ -41,15 +41,15 @@ struct shaded_point {
 };
 
 // Returns the frame's lobe on the surface.
-BN_FN placed_lobe placed_lobe_at(frame_ref f, BN_IN(shaded_point) x)
+BN_FN bsdf_lobe bsdf_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 {
-    return placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, x.surface_axes);
+    return make_bsdf_lobe(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, x.geometric_axes);
 }
 
 // Returns the transmissive surface's interface.
 BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
 {
-    return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.surface_axes);
+    return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.geometric_axes);
 }
 
 // A layer of a material, as lights see it: its lobe's index in shading/models.def, and the lobe's traits.
@@ -88,7 +88,7 @@ BN_FN bool lies_in_surface(frame_ref f)
 }
 
 // Returns true where a material's lobes may tilt against the normal of their surface.
-BN_FN bool leans(frame_ref f, material_ref m)
+BN_FN bool can_tilt(frame_ref f, material_ref m)
 {
     bool upright = the_material(m).tilted == 0 && !texture_used(m, kNormalTex) && the_frame(f).lobe != the_frame(f).brdf;
     return lies_in_surface(f) && !upright;
@@ -96,14 +96,14 @@ BN_FN bool leans(frame_ref f, material_ref m)
 
 // Returns true where the frame's lobe replaces the default one, for tilts or separable masking. The tables hold the default
 // lobe.
-BN_FN bool stands_in(frame_ref f)
+BN_FN bool uses_substitute_lobe(frame_ref f)
 {
-    return (the_frame(f).lobe_traits & kLobeOfAll) == 0 && lobe_has(the_frame(f).brdf, kLobeOfAll);
+    return (the_frame(f).lobe_traits & kDefaultLobe) == 0 && lobe_has(the_frame(f).brdf, kDefaultLobe);
 }
 
-// Computes shaded_point::shown. Uses the same samples for both lobes, so errors cancel and the ratio goes to 1 with the
+// Computes shaded_point::albedo_ratio. Uses the same samples for both lobes, so errors cancel and the ratio goes to 1 with the
 // tilt. The number of samples hides single ones that sink below the horizon as the tilt changes.
-BN_FN real share_of_usual(frame_ref f, material_ref m, BN_IN(shaded_point) x)
+BN_FN real default_albedo_ratio(frame_ref f, material_ref m, BN_IN(shaded_point) x)
 {
     real least = lit(0.05);
     surface_frame upright;
@@ -112,15 +112,15 @@ BN_FN real share_of_usual(frame_ref f, material_ref m, BN_IN(shaded_point) x)
     upright.b = x.lobe.v_axis;
     real share = lit(1.0);
     // Compare the tilted with the untilted lobe
-    if (leans(f, m)) {
-        placed_lobe own = placed_lobe_of(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, upright);
-        share = placed_lobe_mean(placed_lobe_at(f, x), 55, 34) / max(placed_lobe_mean(own, 55, 34), least);
+    if (can_tilt(f, m)) {
+        bsdf_lobe own = make_bsdf_lobe(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, upright);
+        share = bsdf_lobe_albedo(bsdf_lobe_at(f, x), 55, 34) / max(bsdf_lobe_albedo(own, 55, 34), least);
     }
     // Compare separable with correlated masking
     if (the_frame(f).masking != 0) {
-        placed_lobe separable = placed_lobe_of(lobe_that_has(kSeparableOfAll), x.lobe, x.s.n, x.s.v, upright);
-        placed_lobe usual = placed_lobe_of(lobe_that_has(kLobeOfAll), x.lobe, x.s.n, x.s.v, upright);
-        share = share * placed_lobe_mean(separable, 55, 34) / max(placed_lobe_mean(usual, 55, 34), least);
+        bsdf_lobe separable = make_bsdf_lobe(lobe_that_has(kSeparableLobe), x.lobe, x.s.n, x.s.v, upright);
+        bsdf_lobe correlated = make_bsdf_lobe(lobe_that_has(kDefaultLobe), x.lobe, x.s.n, x.s.v, upright);
+        share = share * bsdf_lobe_albedo(separable, 55, 34) / max(bsdf_lobe_albedo(correlated, 55, 34), least);
     }
     real most = lit(1.0) / max(x.dfg.scale + x.dfg.bias, least); // no lobe reflects more light than it receives
     return min(share, most);
@@ -140,10 +140,10 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
         own = lobe_albedo_lookup(lobe_albedo_pairs(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
     else
         own = lobe_slice_lookup(lobe_slice_pairs(f), the_material(m).albedo_slice, lobe, s.n, s.v);
-    if (the_material(m).brushed == 1.0f)
+    if (the_material(m).anisotropy_blend == 1.0f)
         return own;
     // Blend with the round lobe's albedo
-    real part = splat(the_material(m).brushed);
+    real part = splat(the_material(m).anisotropy_blend);
     real still = lit(1.0) - part;
     dfg_value round = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
     own.scale = round.scale * still + own.scale * part;
@@ -183,14 +183,14 @@ BN_FN surface_frame frame_by_map(material_ref m, surface_frame axes, real3 map, 
 }
 
 // Return the geometry's frame; a surface seen from behind shows its other side.
-BN_FN real seen_handedness(BN_IN(visible_point) p)
+BN_FN real facing_handedness(BN_IN(visible_point) p)
 {
     return select(p.front, p.tangent_sign, -p.tangent_sign);
 }
-BN_FN surface_frame seen_axes(BN_IN(visible_point) p)
+BN_FN surface_frame facing_geometric_axes(BN_IN(visible_point) p)
 {
     real3 normal = select(p.front, p.normal, -p.normal);
-    return geometric_frame(normal, p.tangent, seen_handedness(p));
+    return geometric_frame(normal, p.tangent, facing_handedness(p));
 }
 
 // Returns the lobe's frame: the geometry's frame turned by the normal map, then tilted.
@@ -210,7 +210,8 @@ BN_FN surface_frame lobe_axes(frame_ref f, material_ref m, BN_IN(material_inputs
 // Returns true where lobes are compensated by their own albedo, which no table of the default lobe holds.
 BN_FN bool has_own_gain(frame_ref f)
 {
-    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kLobeOfAll + kPunctualOnly)) == 0 && !stands_in(f);
+    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kDefaultLobe + kPunctualOnly)) == 0 &&
+           !uses_substitute_lobe(f);
 }
 
 // Returns the albedo of a round lobe.
@@ -280,7 +281,7 @@ BN_FN void undo_widening(frame_ref f, real own_roughness, BN_INOUT(shaded_point)
     real3 grown = quotient_of(albedo_of(x.s, x.whole), albedo_of(x.s, met));
     if (the_frame(f).energy_compensation != 0)
         grown = grown * quotient_of(energy_compensation(x.s.f0, x.whole), energy_compensation(x.s.f0, met));
-    real facing = k_saturate(min(x.s.n_dot_v, k_dot3(x.surface_axes.n, x.s.v)) * lit(8.0));
+    real facing = k_saturate(min(x.s.n_dot_v, k_dot3(x.geometric_axes.n, x.s.v)) * lit(8.0));
     x.gain = x.gain * (vec3_all(lit(1.0)) + (grown - vec3_all(lit(1.0))) * facing);
 }
 
@@ -292,8 +293,8 @@ BN_FN void keep_light(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN
         x.whole = x.own_dfg;
     if (widens_lobes(m))
         undo_widening(f, own_alpha_lin(f, m, at), x);
-    if (x.turned && the_material(m).keeps != 0)
-        x.gain = x.gain * kept_light(m, at.kept, k_dot3(x.surface_axes.n, x.s.v));
+    if (x.has_surface_horizon && the_material(m).keeps != 0)
+        x.gain = x.gain * kept_light(m, at.kept, k_dot3(x.geometric_axes.n, x.s.v));
 }
 
 // Fills x.
@@ -303,9 +304,9 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.pixel_id = pixel_id;
     // Find the shading frame and the lobe
     real3 v = k_normalize3(-p.ray);
-    x.surface_axes = seen_axes(p);
-    surface_frame axes = lobe_axes(f, m, at, x.surface_axes, seen_handedness(p));
-    x.turned = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || leans(f, m);
+    x.geometric_axes = facing_geometric_axes(p);
+    surface_frame axes = lobe_axes(f, m, at, x.geometric_axes, facing_handedness(p));
+    x.has_surface_horizon = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || can_tilt(f, m);
     x.lobe = lobe_in_frame(m, shape, axes);
     // Set up the surface and its reflectances
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
@@ -318,7 +319,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
-    x.brushed = splat(the_material(m).brushed);
+    x.anisotropy_blend = splat(the_material(m).anisotropy_blend);
     // Look up directional albedo
     x.dfg = directional_albedo(f, m, x.s, x.lobe);
     x.albedo = albedo_of(x.s, x.dfg);
@@ -332,22 +333,22 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     }
     x.gain = energy_gain(f, x.s.f0, x.dfg);
     // Find the gain by energy compensation, and the albedo ratio of a substitute lobe
-    x.shown = lit(1.0);
+    x.albedo_ratio = lit(1.0);
     x.own_dfg = x.dfg;
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         x.gain = vec3_all(lit(1.0));
-    else if ((the_frame(f).lobe_traits & kLobeOfAll) == 0) {
+    else if ((the_frame(f).lobe_traits & kDefaultLobe) == 0) {
         bool compensated = the_frame(f).energy_compensation != 0;
         real albedo = lit(1.0);
         // Scale the table's albedo, or compute the lobe's own
-        if (stands_in(f)) {
+        if (uses_substitute_lobe(f)) {
             if (compensated || (the_material(m).technique_traits & kSamplesLobe) == 0 || the_frame(f).area_light_count > 0)
-                x.shown = share_of_usual(f, m, x);
-            albedo = (x.dfg.scale + x.dfg.bias) * x.shown;
+                x.albedo_ratio = default_albedo_ratio(f, m, x);
+            albedo = (x.dfg.scale + x.dfg.bias) * x.albedo_ratio;
         } else if (compensated) {
             albedo = x.phong_albedo;
-            if (the_material(m).phong_slice < 0 || !lobe_has(the_frame(f).lobe, kLobeOfPhong)) {
-                lobe_energy own = placed_lobe_own_energy(placed_lobe_at(f, x));
+            if (the_material(m).phong_slice < 0 || !lobe_has(the_frame(f).lobe, kPhongLobe)) {
+                lobe_energy own = bsdf_lobe_own_energy(bsdf_lobe_at(f, x));
                 albedo = own.albedo;
                 phong.bias = own.grazing;
             }
@@ -377,7 +378,7 @@ BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
 // Returns the diffuse transmittance: the share of light that the dielectric's specular part lets through to the diffuse
 // part, for any light. It is 1 minus the lobe's directional albedo. (The uncompensated diffuse part of Ashikhmin and
 // Shirley uses f0 instead, with phong_diffuse_lit() for the light.)
-BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
+BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
 {
     if (the_frame(f).diffuse_model != 0 && the_frame(f).energy_compensation == 0 && !x.refracts) {
         real3 own = x.dielectric_f0;
@@ -400,7 +401,7 @@ BN_FN real passed_to_diffuse(frame_ref f, BN_IN(shaded_point) x)
 // Returns the diffuse part's BRDF, 1/sr; multiply by diffuse_lit().
 BN_FN real3 diffuse_brdf(frame_ref f, BN_IN(shaded_point) x)
 {
-    real share = passed_to_diffuse(f, x) * lit(0.31830988618379067);
+    real share = diffuse_energy_share(f, x) * lit(0.31830988618379067);
     return x.s.diffuse * share;
 }
 

@@ -23,7 +23,7 @@ BN_FN real3 normal_beside(frame_ref f, material_ref m, BN_IN(material_inputs) at
         p.uv1 = p.uv1 + uv1_step;
         there.normal_map = normal_of_texel(m, texel_beside(f, m, kNormalTex, p));
     }
-    surface_frame axes = lobe_axes(f, m, there, seen_axes(p), seen_handedness(p));
+    surface_frame axes = lobe_axes(f, m, there, facing_geometric_axes(p), facing_handedness(p));
     return axes.n;
 }
 
@@ -31,7 +31,7 @@ BN_FN real3 normal_beside(frame_ref f, material_ref m, BN_IN(material_inputs) at
 BN_STAGE slope_covariance covariance_of_pixel(any_frame f, material_ref m, BN_IN(material_inputs) at, BN_IN(visible_point) p)
 {
     // Difference the shading normals of neighbouring pixels
-    surface_frame here = lobe_axes(f, m, at, seen_axes(p), seen_handedness(p));
+    surface_frame here = lobe_axes(f, m, at, facing_geometric_axes(p), facing_handedness(p));
     real3 dx = normal_beside(f, m, at, p, p.normal_dx, p.uv0_dx, p.uv1_dx) - here.n;
     real3 dy = normal_beside(f, m, at, p, p.normal_dy, p.uv0_dy, p.uv1_dy) - here.n;
     // Project them as slopes

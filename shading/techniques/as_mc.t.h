@@ -9,7 +9,7 @@
 // samples is how many of them lie below the horizon. One sample is a mirror.
 //
 // There are four sets, which together form one set with four times the samples. Each pixel of a 2x2 quad has its own set,
-// and similar lobes average their results (shared_line.k.h). The level offsets minimise FLIP errors: shared sets read a
+// and similar lobes average their results (shared_samples.k.h). The level offsets minimise FLIP errors: shared sets read a
 // quarter level finer than all their samples ask for, a single set half a level finer than its own.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
@@ -18,7 +18,7 @@
 #include "shading/lang/stage.h"
 #include "shading/models/ashikhmin_shirley.k.h"
 #include "shading/surface/energy.k.h"
-#include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/shared_samples.k.h"
 #include "shading/techniques/technique.t.h"
 
 BN_KERNELS_BEGIN
@@ -77,7 +77,7 @@ BN_FN k_sin_cos_pair turn_of_pixel(frame_ref f, BN_IN(shaded_point) x)
 // Returns the reflected light, unless the lobe is a mirror. set: the pixel's, 0 to 3, where sets are shared.
 BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool shared_sets)
 {
-    cube_desc cube = box_cube(f);
+    cube_desc cube = mip_env(f);
     real3 o = eye_in_lobe(x);
     // Find the texels per sample
     real size = to_real(int_lit(cube.size));
@@ -138,13 +138,13 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
         albedo = select(x.phong_albedo > lit(0.0), x.phong_albedo, albedo);
     real mean_weight = kept / count;
     // Correct for tilt and for the known albedo
-    if (x.turned && lies_in_surface(f)) // as if the lobe were untilted, as in filtered_is
+    if (x.has_surface_horizon && lies_in_surface(f)) // as if the lobe were untilted, as in filtered_is
         total = total * albedo / max(mean_weight, lit(1e-4));
     else if (the_frame(f).as_tables == 0)
         total = total * (albedo / max(of_samples, lit(1e-4)));
     if (the_frame(f).energy_compensation != 0) { // for this lobe, not for the default one
-        if (stands_in(f))
-            albedo = albedo * x.shown;
+        if (uses_substitute_lobe(f))
+            albedo = albedo * x.albedo_ratio;
         total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.compensation;
     }
     // Take the mean, in units of the prefiltered environment
@@ -163,16 +163,16 @@ BN_FN real3 as_mc_specular(frame_ref f, BN_IN(shaded_point) x)
 // Returns the shared record: light over the default lobe's albedo, so that each fragment applies its own f0. A mirror puts
 // everything in `rest`. More samples resolve finer detail, so the more samples, the more similar lobes must be. With few
 // samples, even lobes 3.5 widths apart share: single pixels would show as dots where surfaces turn fast.
-BN_FN line_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
+BN_FN shared_sample_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     if (the_frame(f).grid_count == 1)
-        return line_alone(mirrored(f, x, lit(1.0)));
+        return unshared_record(mirrored(f, x, lit(1.0)));
     // Sample this pixel's set
     real3 nothing = vec3_all(lit(0.0));
     real3 found = as_mc_of_set(f, x, to_int(offset * lit(4.0)), true);
     mask mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     // Fill light and rest
-    line_record r;
+    shared_sample_record r;
     r.light = select(mirror, nothing, found / max(x.albedo, vec3_all(lit(1e-6))));
     r.rest = select(mirror, mirrors_apart(f, x, nothing, lit(1.0)), nothing);
     // Describe the lobe for its similarity to others

@@ -13,7 +13,7 @@ BN_KERNELS_BEGIN
 // Sums the grid's samples.
 BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
 {
-    cube_desc cube = box_cube(f);
+    cube_desc cube = mip_env(f);
     // Find the texels per sample
     real3 o = eye_in_lobe(x);
     real size = to_real(int_lit(cube.size));
@@ -51,13 +51,14 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
     // Correct the sum for tilt and energy
     real3 total = cube_terms_value(sum);
     real own = weights / count;
-    if (x.turned && lies_in_surface(f)) { // as if the lobe were untilted: x.shown has the loss of a tilted lobe below the horizon
+    if (x.has_surface_horizon &&
+        lies_in_surface(f)) { // as if the lobe were untilted: x.albedo_ratio has the loss of a tilted lobe below the horizon
         real mean_weight = kept / count;
         total = total * own / max(mean_weight, lit(1e-4));
     }
     if (the_frame(f).energy_compensation != 0) { // the albedo of these few samples, or of a Beckmann lobe, differs from the table's
-        if (stands_in(f))
-            own = own * x.shown;
+        if (uses_substitute_lobe(f))
+            own = own * x.albedo_ratio;
         total = total * energy_compensation_of_albedo(x.s.f0, own) / x.compensation;
     }
     // Take the mean; replace lobes without width by mirrors

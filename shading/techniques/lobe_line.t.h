@@ -6,7 +6,7 @@
 #include "shading/lang/stage.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/lobe_line.k.h"
-#include "shading/techniques/shared_line.k.h"
+#include "shading/techniques/shared_samples.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -33,8 +33,8 @@ BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t,
 BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
 {
     real part = lit(1.0);
-    if (the_frame(f).joins_round != 0)
-        part = x.brushed;
+    if (the_frame(f).blends_to_isotropic != 0)
+        part = x.anisotropy_blend;
     return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
@@ -47,7 +47,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     real count = lobe_line_count(line, to_real(int_lit(limit)));
     // Take the middle sample
     line_sum sum;
-    sum.cube = specular_cube(f);
+    sum.cube = prefiltered_env(f);
     sum.weights = lit(0.0);
     cube_sum_begin(sum.light, sum.cube);
     real middle = (offset - lit(0.5)) * lit(2.0) / count;
@@ -65,10 +65,10 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
 }
 
 // Returns the shared record except `factor`.
-BN_FN line_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
+BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     lobe_line line = lobe_line_for(f, x);
-    line_record r = line_alone(vec3_all(lit(0.0)));
+    shared_sample_record r = unshared_record(vec3_all(lit(0.0)));
     r.light = lobe_line_radiance(f, x, line, offset);
     r.width = line.width * line.part; // round lobes share nothing
     r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;

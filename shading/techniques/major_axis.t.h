@@ -20,7 +20,7 @@ BN_FN real major_axis_lod(real radius, cube_desc cube)
 BN_FN real3 major_axis_specular(frame_ref f, BN_IN(shaded_point) x)
 {
     // Set up the line in the lobe's frame
-    cube_desc cube = specular_cube(f);
+    cube_desc cube = prefiltered_env(f);
     int n = the_frame(f).samples;
     int last = n > 1 ? n - 1 : 1;
     real inv = lit(1.0) / to_real(int_lit(n));
@@ -78,7 +78,7 @@ BN_FN major_axis_grain grain_of(frame_ref f, BN_IN(shaded_point) x)
 // narrower than the samples' spacing; the factor minimises HDR-FLIP errors, see the notebook.
 BN_FN real3 major_axis_weighted_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    cube_desc cube = specular_cube(f);
+    cube_desc cube = prefiltered_env(f);
     int n = the_frame(f).samples;
     // Set up the lobe and the spacing
     major_axis_grain grain = grain_of(f, x);
@@ -101,7 +101,7 @@ BN_FN real3 major_axis_weighted_specular(frame_ref f, BN_IN(shaded_point) x)
 // vanish without a step. One sample lies in the middle and the others in pairs. So an even --samples counts as one less.
 BN_FN real3 major_axis_adaptive_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    cube_desc cube = specular_cube(f);
+    cube_desc cube = prefiltered_env(f);
     // Set up the lobe
     major_axis_grain grain = grain_of(f, x);
     real beta = splat(the_frame(f).major_axis_beta);

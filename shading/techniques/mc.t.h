@@ -1,11 +1,11 @@
-// Monte Carlo over a lobe of any model (placed_lobe.t.h) or over a rough interface (refraction.t.h), by their own samples,
+// Monte Carlo over a lobe of any model (bsdf_lobe.t.h) or over a rough interface (refraction.t.h), by their own samples,
 // with Fresnel per sample.
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
-#include "shading/surface/placed_lobe.t.h"
+#include "shading/surface/bsdf_lobe.t.h"
 #include "shading/techniques/technique.t.h"
 
 BN_KERNELS_BEGIN
@@ -37,14 +37,14 @@ BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
 }
 
 // Samples a lobe.
-BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lobe)
+BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe)
 {
-    bool meets_keys = !lobe_has(lobe.model, kNormals_ggx); // key.t.h leaves this lobe to samples
-    // Choose the environment: with key lights where samples meet them
-    cube_desc cube = specular_cube(f);
+    bool samples_extracted_lights = !lobe_has(lobe.model, kNormals_ggx); // extracted.t.h leaves this lobe to samples
+    // Choose the environment: with extracted lights where samples meet them
+    cube_desc cube = prefiltered_env(f);
     uniform_real scale = 1.0f;
-    if (meets_keys) {
-        cube = whole_cube(f);
+    if (samples_extracted_lights) {
+        cube = full_env(f);
         scale = the_frame(f).whole.scale / the_frame(f).specular.scale;
     }
     // Sum radiance times weight and Fresnel
@@ -52,23 +52,23 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(placed_lobe) lo
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
     for (int i = 0; i < the_frame(f).samples; ++i) {
-        bsdf_sample b = placed_lobe_sample(lobe, mc_point(points, i));
+        bsdf_sample b = bsdf_lobe_sample(lobe, mc_point(points, i));
         real3 fresnel = reflectance_of(x.s, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
     }
     // Take the mean; replace lobes without width by mirrors
     real3 mean = cube_terms_value(sum) * splat(points.inv);
-    if (meets_keys)
+    if (samples_extracted_lights)
         mean = mean * splat(scale);
-    return mirrors_apart(f, x, mean, placed_lobe_mirror_albedo(lobe));
+    return mirrors_apart(f, x, mean, bsdf_lobe_mirror_albedo(lobe));
 }
 
-// Samples one interface: each microfacet reflects and refracts the environment with its key lights.
+// Samples one interface: each microfacet reflects and refracts the environment with its extracted lights.
 BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
 {
     // Prepare the interface and the points
     rough_interface g = rough_interface_at(x);
-    cube_desc cube = whole_cube(f);
+    cube_desc cube = full_env(f);
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
@@ -95,7 +95,7 @@ BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
         return mc_of_interface(f, x);
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         return vec3_all(lit(0.0));
-    return mc_of_lobe(f, x, placed_lobe_at(f, x));
+    return mc_of_lobe(f, x, bsdf_lobe_at(f, x));
 }
 
 BN_KERNELS_END

@@ -12,9 +12,9 @@ BN_KERNELS_BEGIN
 // Returns the weight, or 0 where wi lies below the surface's horizon.
 BN_FN real above_horizon(BN_IN(shaded_point) x, real3 wi, real weight)
 {
-    if (!x.turned)
+    if (!x.has_surface_horizon)
         return weight;
-    return select(k_dot3(x.surface_axes.n, wi) > lit(0.0), weight, lit(0.0));
+    return select(k_dot3(x.geometric_axes.n, wi) > lit(0.0), weight, lit(0.0));
 }
 
 // Returns the direction to the eye in the lobe's own frame, never below its horizon.
@@ -30,7 +30,7 @@ BN_FN real3 mirrored(frame_ref f, BN_IN(shaded_point) x, real dim)
 {
     real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     real seen = above_horizon(x, r, dim);
-    return cube_sample_level(specular_cube(f), r, 0) * x.albedo * seen;
+    return cube_sample_level(prefiltered_env(f), r, 0) * x.albedo * seen;
 }
 
 // Replaces the value by a mirror where the lobe has no width, since sampled lobes have a least width.

@@ -77,7 +77,7 @@ def furnaces(bench):
 # Eye and lamp change places over a brushed metal plate: radiance divided by the lamp's cosine stays equal. Directions (theta, phi) from the
 # normal and the tangent, in degrees.
 PLACES = ((35, 20), (45, 190))
-SAME = {"lamp": 1e-5, "key": 0.005}  # relative: rounding; a key light is as large as a texel
+SAME = {"lamp": 1e-5, "key": 0.005}  # relative: rounding; an extracted light is as large as a texel
 MAPPED = 2e-3  # for mapped normals, whose texels are half floats
 # Compensation for lights uses the eye's direction alone, as a factor 1 + f0 (1 - E) / E with the lobe's albedo E. Swapped places therefore
 # differ by the change of E: the measured difference alone ("") and with another option. The fit has equal E for both.

@@ -105,7 +105,7 @@ def members(text, struct, to, source):
 def in_place(text, name):
     """Returns GLSL that calls the file's functions in place of the program's."""
     hooks = ["#define BURNISH_OWN_FETCHES"] + [f"#define burnish_{fetch} {fetch}" for fetch in FETCHES]
-    hooks += [f"#define burnish_{cube}(f) {cube}(0)" for cube in ("specular_cube", "box_cube", "whole_cube")]
+    hooks += [f"#define burnish_{cube}(f) {cube}(0)" for cube in ("prefiltered_env", "mip_env", "full_env")]
     hooks += ["#define burnish_grid_sample(f, i) grid_sample(0, i)", "#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)", "#define burnish_fetched cube_sample",
               "#define burnish_fetched_level cube_sample_level"]
     code = hooks + [text]
@@ -114,7 +114,7 @@ def in_place(text, name):
         code += [f"burnish_{result} {function}({parameter})", "{", f"burnish_{result} r;", *members(text, struct, "r", source), "return r;", "}"]
     code.append(f"#define {name}_specular(f, x) burnish_{name}_specular(own_settings(), own_point(x))")
     if f"burnish_{name}_shared" in text:
-        code += ["line_record own_record(burnish_line_record x)", "{", "line_record r;", *members(text, "line_record", "r", "x"), "return r;", "}",
+        code += ["shared_sample_record own_record(burnish_shared_sample_record x)", "{", "shared_sample_record r;", *members(text, "shared_sample_record", "r", "x"), "return r;", "}",
                  f"#define {name}_shared(f, x, o) own_record(burnish_{name}_shared(own_settings(), own_point(x), o))"]
     return "\n".join(code) + "\n"
 

@@ -131,7 +131,7 @@ def same_on_every_road(bench):
 
 @case("key_lights.lower_the_error_under_suns", tier="nightly")
 def lower_the_error(bench):
-    """The small table of bench/lab/key_lights.py: under suns, key lights lower the mean error to at most .85 times."""
+    """The small table of bench/lab/key_lights.py: under suns, extracted lights lower the mean error to at most .85 times."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
     done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],

@@ -107,7 +107,7 @@ def small_picture(bench):
     check_equal(report)
 
 
-# Key lights: discs and needles, tilted lobes, mirrors, shared samples.
+# Extracted lights: discs and needles, tilted lobes, mirrors, shared samples.
 @case("parity.light_of_suns_is_equal", tier="nightly")
 def light_of_suns(bench):
     check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",

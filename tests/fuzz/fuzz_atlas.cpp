@@ -2,7 +2,7 @@
 #include <string>
 
 #include "apps/lab/atlas/judge.h"
-#include "apps/lab/atlas/kept.h"
+#include "apps/lab/atlas/result_cache.h"
 #include "core/base/check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -22,8 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (line == std::string::npos)
         return 0;
     const std::string key = text.substr(0, line);
-    if (const std::optional<MeasuredEntry> kept = parse_kept_entry(text.substr(line + 1), key)) {
-        const std::optional<MeasuredEntry> again = parse_kept_entry(kept_entry_json(*kept, key), key);
+    if (const std::optional<MeasuredEntry> kept = parse_cached_entry(text.substr(line + 1), key)) {
+        const std::optional<MeasuredEntry> again = parse_cached_entry(cached_entry_json(*kept, key), key);
         BN_CHECK(again && again->id == kept->id && again->steps.size() == kept->steps.size());
     }
     return 0;

@@ -1,5 +1,5 @@
 // libFuzzer entry: any bytes as a baked environment in the cache. An odd first byte sets the right checksums, and its second bit requests
-// key lights.
+// extracted lights.
 #include <cmath>
 
 #include "core/base/check.h"
@@ -30,6 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     BN_CHECK(!found || sealed);
     if (found)
         for (const float figure : {found->specular.scale, found->irradiance.scale, found->whole.scale, found->peak_source})
-            BN_CHECK(std::isfinite(figure) && found->content_hash == kContent && found->key_lights.empty() == found->whole.texels.empty());
+            BN_CHECK(std::isfinite(figure) && found->content_hash == kContent &&
+                     found->extracted_lights.empty() == found->whole.texels.empty());
     return 0;
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "shading/bake/ltc/part.h"
-#include "shading/bake/mipnet/training_part.h"
+#include "shading/bake/ltc/bake_checkpoint.h"
+#include "shading/bake/mipnet/training_checkpoint.h"
 #include "tests/fuzz/sealed.h"
 
 namespace {
@@ -34,15 +34,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             numbers->assign(kNumbers, 1.0f);
         if (sealed)
             complete(bytes, kMagic + 16 + 4 * kNumbers * sizeof(float) + kHash);
-        const Status read = mipnet::parse_training_part(bytes, "fuzz", kKey, kSteps, t);
+        const Status read = mipnet::parse_training_checkpoint(bytes, "fuzz", kKey, kSteps, t);
         BN_CHECK(read || (!read.error().reason.empty() && t.step == 0 && t.numbers[0] == 1.0f));
         BN_CHECK(t.step <= kSteps && t.numbers.size() == kNumbers && std::isfinite(t.mean[0]));
-        BN_CHECK(!read || mipnet::training_part_bytes(kKey, t) == bytes);
+        BN_CHECK(!read || mipnet::training_checkpoint_bytes(kKey, t) == bytes);
         return 0;
     }
     ltc::Grid grid;
     grid.size = 2, grid.beyond = 0, grid.round = true;
-    ltc::Progressed p(grid);
+    ltc::BakeProgress p(grid);
     if (sealed && bytes.size() > 4 * 8) {
         const bool begun = bytes[4 * 8] & 1;
         std::memset(bytes.data() + 4 * 8, 0, std::min<std::size_t>(8, bytes.size() - 4 * 8));
@@ -50,9 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::size_t head = kMagic + 4 * sizeof(std::uint64_t) + 3 * sizeof(double);
         complete(bytes, head + grid.nodes() * (sizeof(double) + (begun ? 2 : 1) * sizeof(ltc::Matrix)) + kHash);
     }
-    const Status read = ltc::parse_part(bytes, "fuzz", kKey, kSteps, p);
+    const Status read = ltc::parse_bake_checkpoint(bytes, "fuzz", kKey, kSteps, p);
     BN_CHECK(read || (!read.error().reason.empty() && p.chains == 0 && p.state.entries.empty()));
     BN_CHECK(p.chains <= p.all_chains && p.steps <= kSteps && p.nodes.size() == grid.nodes());
-    BN_CHECK(!read || ltc::part_bytes(kKey, p).size() == bytes.size());
+    BN_CHECK(!read || ltc::bake_checkpoint_bytes(kKey, p).size() == bytes.size());
     return 0;
 }

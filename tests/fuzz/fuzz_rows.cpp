@@ -7,13 +7,13 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace burnish;
-    const Result<Kept> kept = parse_kept(std::string(data, data + size), "fuzz");
+    const Result<ChartResults> kept = parse_chart_results(std::string(data, data + size), "fuzz");
     if (!kept) {
         BN_CHECK(!kept.error().reason.empty());
         return 0;
     }
-    const std::string text = kept_json(*kept);
-    const Result<Kept> again = parse_kept(text, "fuzz");
-    BN_CHECK(again && kept_json(*again) == text);
+    const std::string text = chart_results_json(*kept);
+    const Result<ChartResults> again = parse_chart_results(text, "fuzz");
+    BN_CHECK(again && chart_results_json(*again) == text);
     return 0;
 }

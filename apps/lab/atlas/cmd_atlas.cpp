@@ -60,23 +60,23 @@ Result<BlessedTable> blessed_table(const AtlasOptions& options)
 }
 
 // Files of an earlier walk of an entry in DIR.
-struct KeptFiles {
+struct CachedFiles {
     std::string key, json, strip;
 };
 
-KeptFiles kept_files(const AtlasOptions& options, const AtlasEntry& entry)
+CachedFiles cached_files(const AtlasOptions& options, const AtlasEntry& entry)
 {
     const std::string stem = fmt::format("{}/{}-{}", options.folder, entry.id, options.walk().name);
     return {entry_key(entry, options.walk()), stem + ".json", stem + ".png"};
 }
 
-std::optional<MeasuredEntry> read_kept(const KeptFiles& files)
+std::optional<MeasuredEntry> read_cached(const CachedFiles& files)
 {
     std::error_code ignored;
     if (!fs::exists(files.json, ignored) || !fs::exists(files.strip, ignored))
         return std::nullopt;
     const Result<std::vector<std::uint8_t>> bytes = read_file(files.json, kMaxTableBytes);
-    return bytes ? parse_kept_entry(std::string(bytes->begin(), bytes->end()), files.key) : std::nullopt;
+    return bytes ? parse_cached_entry(std::string(bytes->begin(), bytes->end()), files.key) : std::nullopt;
 }
 
 class Atlas {
@@ -102,7 +102,7 @@ class Atlas {
     BlessedTable blessed_;
     bool compared_;
     Report& report_;
-    Darkroom room_;
+    PictureCache room_;
     std::vector<AtlasResult> results_;
 };
 
@@ -110,14 +110,14 @@ Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
 {
     if (options_.folder.empty())
         return walk_entry(entry, options_.walk(), room_);
-    const KeptFiles files = kept_files(options_, entry);
-    if (std::optional<MeasuredEntry> kept = read_kept(files))
+    const CachedFiles files = cached_files(options_, entry);
+    if (std::optional<MeasuredEntry> kept = read_cached(files))
         return WalkedEntry{std::move(*kept), {}, false};
     Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), room_);
     if (!walked || walked->stopped)
         return walked;
     BN_TRY(write_image(files.strip, walked->strip));
-    BN_TRY(write_file(files.json, kept_entry_json(walked->measured, files.key)));
+    BN_TRY(write_file(files.json, cached_entry_json(walked->measured, files.key)));
     return walked;
 }
 
@@ -128,7 +128,7 @@ void Atlas::judge_entry(const AtlasEntry& entry, MeasuredEntry measured)
     const auto row = rows.find(entry.id);
     result.judged = judge(entry, result.measured, compared_ && row != rows.end() ? &row->second : nullptr);
     if (!options_.folder.empty())
-        result.strip = fs::path(kept_files(options_, entry).strip).filename();
+        result.strip = fs::path(cached_files(options_, entry).strip).filename();
     results_.push_back(std::move(result));
 }
 

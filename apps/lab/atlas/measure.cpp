@@ -38,7 +38,7 @@ double mean_of(const Image& map, const std::vector<bool>& covered)
 void take_more(FrameDesc& frame)
 {
     const TechniqueInfo& technique = *find_technique(frame.technique);
-    frame.samples = samples_taken(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
+    frame.samples = effective_samples(technique, std::min({frame.samples * kMoreSamples, kMostSamples, technique.most_samples}));
     frame.light_samples = std::min(frame.light_samples * kMoreSamples, static_cast<std::uint32_t>(kMostSamples));
     frame.msaa = kMaxSamples;
 }
@@ -46,7 +46,7 @@ void take_more(FrameDesc& frame)
 // Walks the path of one entry.
 class Walker {
   public:
-    Walker(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room) : entry_(entry), walk_(walk), room_(room)
+    Walker(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room) : entry_(entry), walk_(walk), room_(room)
     {
         out_.measured.id = entry.id;
         out_.strip = make_image(walk.side * walk.steps, walk.side * kAtlasRows, 3, PixelType::u8);
@@ -66,7 +66,7 @@ class Walker {
 
     const AtlasEntry& entry_;
     const AtlasWalk& walk_;
-    Darkroom& room_;
+    PictureCache& room_;
     WalkedEntry out_;
     std::optional<Picture> before_; // the tested picture
     std::shared_ptr<const Truth> truth_before_;
@@ -247,7 +247,7 @@ void summarise(const AtlasEntry& entry, MeasuredEntry& m)
     }
 }
 
-Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room)
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room)
 {
     return Walker(entry, walk, room).walk();
 }

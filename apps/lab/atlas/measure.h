@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/atlas/darkroom.h"
+#include "apps/lab/atlas/picture_cache.h"
 #include "apps/report/json.h"
 
 namespace burnish {
@@ -47,6 +47,6 @@ struct WalkedEntry {
     Image strip;
     bool stopped = false; // by a signal; the results are unusable
 };
-Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, Darkroom& room);
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room);
 
 } // namespace burnish

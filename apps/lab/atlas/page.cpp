@@ -6,9 +6,9 @@
 #include "apps/lab/atlas/assets.h"
 #include "apps/report/assets.h"
 #include "apps/report/axes.h"
+#include "apps/report/chart_style.h"
 #include "apps/report/drawing.h"
 #include "apps/report/html.h"
-#include "apps/report/looks.h"
 #include "apps/report/svg.h"
 #include "core/base/version.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/lab/atlas/kept.h"
+#include "apps/lab/atlas/result_cache.h"
 
 namespace burnish {
 

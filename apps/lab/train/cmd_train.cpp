@@ -171,7 +171,7 @@ std::string command_of(const TrainArguments& a)
         words += t.loss == mipnet::Loss::l2 ? " --loss l2" : " --loss charbonnier";
     if (t.tone != mipnet::Tone::display)
         words += " --tone log";
-    if (t.mirrored != mipnet::kUsualMirrored)
+    if (t.mirrored != mipnet::kDefaultMirrored)
         words += fmt::format(" --mirrored {}", t.mirrored);
     if (t.light != 0.0)
         words += fmt::format(" --light {}", t.light);
@@ -230,7 +230,7 @@ int run_training(TrainArguments& a, Report& report)
     return 0;
 }
 
-Json figures_json(const ShownError& f)
+Json figures_json(const MipError& f)
 {
     return {{"flip", f.flip}, {"l1", f.l1}, {"mse", f.mse}, {"light", f.light}};
 }
@@ -244,7 +244,7 @@ std::string summary_lines(const std::vector<mipnet::Summary>& all)
         if (s.filter == "baseline")
             base = &s;
         const auto change = [](double is, double was) { return 100.0 * (is / was - 1.0); };
-        const ShownError &m = s.mean, &b = base->mean;
+        const MipError &m = s.mean, &b = base->mean;
         lines += fmt::format(
             "{:10} {:10} {:4} {:7.1f} {:7.2f} {:7.2f}   {:+5.1f}% {:+5.1f}% {:+5.1f}%   {:5.2f} {:6.2f}  {:.0f}/{:.0f}/{:.0f} %\n", s.set,
             s.filter, s.materials, 1e3 * m.flip, 1e3 * m.l1, 1e3 * m.mse, change(m.flip, b.flip), change(m.l1, b.l1), change(m.mse, b.mse),

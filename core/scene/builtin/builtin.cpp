@@ -51,10 +51,10 @@ template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[
 }
 
 // Makes a test scene by name; returns nothing where `name` is not one of them.
-std::optional<Result<Scene>> make_trial(const std::string& name)
+std::optional<Result<Scene>> make_failure_scene(const std::string& name)
 {
     const std::size_t at = name.find('=');
-    for (const TrialMaker& trial : trial_makers()) {
+    for (const FailureSceneMaker& trial : failure_scene_makers()) {
         if (name.substr(0, at) != trial.info.name)
             continue;
         double amount = trial.usual;
@@ -74,11 +74,11 @@ std::optional<Result<Scene>> make_trial(const std::string& name)
 
 } // namespace
 
-const std::vector<BuiltinInfo>& builtin_trials()
+const std::vector<BuiltinInfo>& builtin_failure_scenes()
 {
     static const std::vector<BuiltinInfo> list = [] {
         std::vector<BuiltinInfo> infos;
-        for (const TrialMaker& trial : trial_makers())
+        for (const FailureSceneMaker& trial : failure_scene_makers())
             infos.push_back(trial.info);
         return infos;
     }();
@@ -99,7 +99,7 @@ const std::vector<BuiltinInfo>& builtin_environments()
 
 Result<Scene> make_builtin_scene(const std::string& name)
 {
-    std::optional<Result<Scene>> trial = make_trial(name);
+    std::optional<Result<Scene>> trial = make_failure_scene(name);
     Result<Scene> scene = trial ? std::move(*trial) : make_named(kScenes, name, "scene");
     if (scene)
         update_world(*scene);

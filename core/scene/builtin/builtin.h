@@ -17,7 +17,7 @@ const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
 // Parametric failure scenes, which break a method as one number grows. The name takes =AMOUNT; without it, the default
 // amount applies.
-const std::vector<BuiltinInfo>& builtin_trials();
+const std::vector<BuiltinInfo>& builtin_failure_scenes();
 
 Result<Scene> make_builtin_scene(const std::string& name); // built-in scenes and failure scenes
 

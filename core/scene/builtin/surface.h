@@ -56,12 +56,12 @@ Scene make_glass();
 Scene make_bumps();
 Scene make_lacquer();
 Scene make_shaderballs();
-struct TrialMaker {
+struct FailureSceneMaker {
     BuiltinInfo info;
     double usual, least, most; // default and range of the amount
     Scene (*make)(double amount);
 };
-const std::vector<TrialMaker>& trial_makers();
+const std::vector<FailureSceneMaker>& failure_scene_makers();
 Image make_studio();
 Image make_sky();
 Image make_night();

@@ -160,7 +160,7 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
 }
 
 // Loads a primitive. `by` bends the mesh; an empty Bend leaves the mesh as the file has it.
-void load_primitive(Document& doc, const Json& json, const Bend& by, const std::string& place, const std::string& mesh)
+void load_primitive(Document& doc, const Json& json, const SkinMorph& by, const std::string& place, const std::string& mesh)
 {
     // Skip points and lines
     const int mode = static_cast<int>(get_uint(json, "mode", kTriangles));
@@ -182,14 +182,14 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
     }
     // Bend the vertices by joints and morph targets
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
-    Bent bent; // storage for the attributes
+    DeformedVertices bent; // storage for the attributes
     if (by.any()) {
         if (corners.attributes.position.all_zero())
             fail(place + "/attributes/POSITION", "has no buffer view, and is bent by joints or morph targets");
         const AttributeOf attribute = [&](const Json& attributes, const std::string& name, int components) {
             return attribute_view(source, attributes, name, components, components);
         };
-        bent = bend(doc, json, by, corners.attributes, attribute, place);
+        bent = deform(doc, json, by, corners.attributes, attribute, place);
     }
     // Convert strips and fans to triangles
     if (mode == kTriangles && indices.size() % 3 != 0)
@@ -213,7 +213,7 @@ void load_primitive(Document& doc, const Json& json, const Bend& by, const std::
     doc.scene.primitives.push_back(primitive);
 }
 
-Mesh load_mesh(Document& doc, std::size_t m, const Bend& by)
+Mesh load_mesh(Document& doc, std::size_t m, const SkinMorph& by)
 {
     const Json& json = doc.json["meshes"][m];
     Mesh mesh;
@@ -227,7 +227,7 @@ Mesh load_mesh(Document& doc, std::size_t m, const Bend& by)
 }
 
 // Makes a separate mesh for each node that bends one. A skinned mesh lies in world space, whatever its node.
-void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
+void load_deformed_meshes(Document& doc, const std::vector<SkinMorph>& bends)
 {
     for (std::size_t i = 0; i < bends.size(); ++i) {
         if (!bends[i].any())
@@ -248,11 +248,11 @@ void load_bent_meshes(Document& doc, const std::vector<Bend>& bends)
 
 void load_meshes(Document& doc)
 {
-    std::vector<Bend> bends(doc.scene.nodes.size());
+    std::vector<SkinMorph> bends(doc.scene.nodes.size());
     std::vector<bool> plain(table_size(doc.json, "meshes"), true); // drawn as in the file, or not at all
     for (std::size_t i = 0; i < bends.size(); ++i)
         if (doc.scene.nodes[i].mesh != kNone) {
-            bends[i] = bend_of(doc, i);
+            bends[i] = skin_morph_of(doc, i);
             if (bends[i].any())
                 plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = false;
         }
@@ -261,7 +261,7 @@ void load_meshes(Document& doc)
             plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = true;
     for (std::size_t m = 0; m < plain.size(); ++m)
         doc.scene.meshes.push_back(plain[m] ? load_mesh(doc, m, {}) : Mesh{});
-    load_bent_meshes(doc, bends);
+    load_deformed_meshes(doc, bends);
     update_world(doc.scene);
     if (doc.scene.materials.empty())
         doc.scene.materials.emplace_back();

@@ -14,7 +14,7 @@ namespace burnish::gltf {
 void set_moment(Document& doc, const Moment& moment);
 
 // Deformation of a mesh at a node.
-struct Bend {
+struct SkinMorph {
     std::vector<double> weights;    // morph target weights
     std::vector<glm::dmat4> joints; // from the mesh's space to world space, relative to `away`; empty: no skin
     glm::dvec3 away{0.0};           // for a skin far from the origin; floats hold it exactly
@@ -22,16 +22,16 @@ struct Bend {
 };
 // Returns the bend at a scene node. Expects the joints' world transforms. Empty where all weights are 0 and there is no
 // skin.
-Bend bend_of(Document& doc, std::size_t scene_node);
+SkinMorph skin_morph_of(Document& doc, std::size_t scene_node);
 
 // Bent positions, normals and tangents. Owns the data that the attributes then view.
-struct Bent {
+struct DeformedVertices {
     std::vector<float> position, normal, tangent;
 };
 using AttributeOf = std::function<AccessorView(const Json& attributes, const std::string& name, int components)>;
 // Bends a primitive. `primitive` is its JSON; `attribute` reads an attribute of an object in it.
-Bent bend(Document& doc, const Json& primitive, const Bend& by, Attributes& attributes, const AttributeOf& attribute,
-          const std::string& place);
+DeformedVertices deform(Document& doc, const Json& primitive, const SkinMorph& by, Attributes& attributes, const AttributeOf& attribute,
+                        const std::string& place);
 
 // Returns the local matrices of EXT_mesh_gpu_instancing; empty where the node has none.
 std::vector<glm::mat4> instances_of(Document& doc, const Json& node, const std::string& place);

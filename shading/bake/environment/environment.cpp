@@ -14,8 +14,8 @@
 #include "shading/bake/environment/cube_picture.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/environment/equirect.h"
+#include "shading/bake/environment/extracted_lights.h"
 #include "shading/bake/environment/image_light.h"
-#include "shading/bake/environment/key_lights.h"
 #include "shading/bake/environment/light_tree.h"
 #include "shading/bake/environment/prefilter.h"
 #include "shading/lang/records.h"
@@ -132,8 +132,8 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
         return bad_option("the cube size of the environment must be a power of two from 4 to 4096");
     if (o.levels < 0 || o.levels > 13 || (o.levels > 0 && (o.cube_size >> (o.levels - 1)) == 0))
         return bad_option("the environment's cube is too small for that many levels");
-    if (o.key_lights < 0 || o.key_lights > kMaxKeyLights)
-        return bad_option(fmt::format("the environment's key lights must be 0 to {}", kMaxKeyLights));
+    if (o.extracted_lights < 0 || o.extracted_lights > kMaxExtractedLights)
+        return bad_option(fmt::format("the environment's key lights must be 0 to {}", kMaxExtractedLights));
     if (o.samples < 1 || o.samples > 65536)
         return bad_option("the samples of the environment must be 1 to 65536");
     if (!(std::fabs(o.exposure_ev) <= 32.0f))
@@ -143,7 +143,7 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
     return {};
 }
 
-// Bakes all cubes and key lights of an image.
+// Bakes all cubes and extracted lights of an image.
 Environment bake(const Image& image, const std::string& name, const EnvironmentOptions& options, int levels, const Jobs& jobs)
 {
     const TraceSpan span("bake environment");
@@ -151,14 +151,14 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     Equirect source = make_equirect(image);
     e.peak_source = peak_value(source);
     e.energy_source = mean_luminance(source);
-    // Sample the picture, and extract key lights
+    // Sample the picture, and extract extracted lights
     double peak = static_cast<double>(e.peak_source);
 
     Progress progress("baking " + name, prefilter_texels(options.cube_size, levels), options.quiet || options.picture_only);
     CubeLevel sampled = sample_equirect(source, options.cube_size, jobs);
     std::vector<SkyCap> changed;
-    e.key_lights = take_key_lights(source, options.key_lights, changed);
-    if (!e.key_lights.empty()) {
+    e.extracted_lights = extract_lights(source, options.extracted_lights, changed);
+    if (!e.extracted_lights.empty()) {
         e.whole = make_cube_map(options.cube_size, 1, cube_scale(peak));
         store_cube_level(e.whole, 0, averaged_to(sampled, options.cube_size, jobs).rgb.data(), jobs);
         sample_equirect_again(sampled, source, changed, jobs);
@@ -166,7 +166,7 @@ Environment bake(const Image& image, const std::string& name, const EnvironmentO
     }
     // Stop at the picture if nothing else is needed
     if (options.picture_only) {
-        if (e.key_lights.empty()) {
+        if (e.extracted_lights.empty()) {
             e.specular = make_cube_map(options.cube_size, 1, cube_scale(peak));
             store_cube_level(e.specular, 0, averaged_to(sampled, options.cube_size, jobs).rgb.data(), jobs);
         }
@@ -193,7 +193,7 @@ void turn_and_expose(Environment& e, const EnvironmentOptions& options)
     const auto expose = [gain](float& value) { value = static_cast<float>(static_cast<double>(value) * gain); };
     for (float* value : {&e.specular.scale, &e.irradiance.scale, &e.whole.scale, &e.peak_source})
         expose(*value);
-    for (KeyLight& light : e.key_lights)
+    for (ExtractedLight& light : e.extracted_lights)
         for (float& irradiance : light.irradiance)
             expose(irradiance);
     e.energy_source *= gain, e.energy_cube *= gain;

@@ -31,7 +31,7 @@ struct CubeMap {
 };
 
 // A small strong light extracted from the environment: an evenly bright ellipse on the sky. Directions as in the cubes.
-struct KeyLight {
+struct ExtractedLight {
     float direction[3];         // unit
     float axis_u[3], axis_v[3]; // half axes of an ellipse with the light's moments and mean radiance, as tangents; |u| >= |v|
     float irradiance[3];        // linear RGB, on a surface facing the light; exposure included
@@ -42,13 +42,13 @@ struct KeyLight {
 struct Environment {
     std::string name;
     float rotation_deg = 0.0f; // drawing angle about +Y, counter-clockwise seen from above; the data below is not turned
-    // Neither cube holds key lights. With EnvironmentOptions::picture_only both are empty, except specular's level 0 if there are no key
-    // lights.
-    CubeMap specular;                 // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
-    CubeMap irradiance;               // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
-    std::vector<KeyLight> key_lights; // strongest first
-    CubeMap whole;                    // level 0 with key lights; empty if there are none
-    const CubeMap& picture() const { return key_lights.empty() ? specular : whole; } // its level 0 is the full environment
+    // Neither cube holds extracted lights. With EnvironmentOptions::picture_only both are empty, except specular's level 0 if there are no
+    // extracted lights.
+    CubeMap specular;                             // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
+    CubeMap irradiance;                           // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
+    std::vector<ExtractedLight> extracted_lights; // strongest first
+    CubeMap whole;                                // level 0 with extracted lights; empty if there are none
+    const CubeMap& picture() const { return extracted_lights.empty() ? specular : whole; } // its level 0 is the full environment
     double energy_source = 0.0,
            energy_cube = 0.0; // mean luminance over the sphere before and after, exposure included
     float peak_source = 0.0f; // largest channel value in the source, exposure included
@@ -66,9 +66,9 @@ struct EnvironmentOptions {
     // Options of the bake:
     int cube_size = 512;       // power of two, 4 to 4096
     int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
-    int key_lights = 8;        // most lights to extract, 0 to 8
+    int extracted_lights = 8;  // most lights to extract, 0 to 8
     int samples = 1024;        // approximate number of light pieces in a texel's sum; 1 to 65536
-    bool picture_only = false; // bake only picture() and the key lights, uncached, unless a bake is cached; for the reference
+    bool picture_only = false; // bake only picture() and the extracted lights, uncached, unless a bake is cached; for the reference
     bool use_cache = true;
     std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish
     bool quiet = true;     // no progress bar

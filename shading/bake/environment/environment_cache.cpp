@@ -19,21 +19,21 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "cache files are little-endian");
 
-// The file's header. The specular texels, the irradiance texels and, with key lights, the whole environment's texels follow.
+// The file's header. The specular texels, the irradiance texels and, with extracted lights, the whole environment's texels follow.
 struct Header {
     char magic[8];
     std::uint32_t version;
     std::int32_t size, levels, irradiance_size;
     float specular_scale, irradiance_scale, whole_scale, peak_source;
-    std::int32_t key_light_count;
-    KeyLight key_lights[kMaxKeyLights];
+    std::int32_t extracted_light_count;
+    ExtractedLight extracted_lights[kMaxExtractedLights];
     std::uint32_t zero;
     double energy_source, energy_cube;
     std::uint64_t content_hash;
     std::uint64_t payload_hash;
     std::uint64_t header_hash; // of all fields above
 };
-static_assert(sizeof(KeyLight) == 56 && sizeof(Header) == 536);
+static_assert(sizeof(ExtractedLight) == 56 && sizeof(Header) == 536);
 constexpr char kMagic[8] = {'b', 'u', 'r', 'n', 'e', 'n', 'v', '\n'};
 
 constexpr std::uint64_t kMostBytes = 1u << 30; // a cube of 2048 texels has 200 MB
@@ -55,8 +55,8 @@ bool holds_light(const CubeMap& cube)
     return std::all_of(cube.texels.begin(), cube.texels.end(), [](std::uint16_t half) { return half < kInfinite || half == kMinusZero; });
 }
 
-// Returns true if all numbers of a key light are in range for drawing.
-bool is_key_light(const KeyLight& k)
+// Returns true if all numbers of an extracted light are in range for drawing.
+bool is_extracted_light(const ExtractedLight& k)
 {
     const auto within = [](const float* v, float least, float most) {
         return std::all_of(v, v + 3, [&](float x) { return x >= least && x <= most; });
@@ -72,10 +72,10 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 {
     const struct {
         std::uint32_t version;
-        std::int32_t width, height, channels, type, size, levels, samples, key_lights;
+        std::int32_t width, height, channels, type, size, levels, samples, extracted_lights;
         float zero[2]; // former place of rotation and exposure; zeros keep older files valid
-    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,  static_cast<std::int32_t>(equirect.type),
-             options.cube_size, levels,         options.samples, options.key_lights, {0.0f, 0.0f}};
+    } key = {kBakeVersion,      equirect.width, equirect.height, equirect.channels,        static_cast<std::int32_t>(equirect.type),
+             options.cube_size, levels,         options.samples, options.extracted_lights, {0.0f, 0.0f}};
     return hash_bytes(equirect.bytes.data(), equirect.bytes.size(), hash_bytes(&key, sizeof(key)));
 }
 
@@ -100,8 +100,8 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
     std::memcpy(&h, data, sizeof(h));
     const std::uint8_t* payload = data + sizeof(h);
     if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
-        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) || h.key_light_count < 0 ||
-        h.key_light_count > kMaxKeyLights || (h.key_light_count > 0) != (bytes == most) ||
+        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
+        h.extracted_light_count < 0 || h.extracted_light_count > kMaxExtractedLights || (h.extracted_light_count > 0) != (bytes == most) ||
         h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
         return std::nullopt;
     // Largest scale with which every half float up to 65504 gives a finite float.
@@ -111,15 +111,15 @@ std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std
         if (!std::isfinite(figure) || figure < 0.0)
             return std::nullopt;
     if (!(std::max({h.specular_scale, h.irradiance_scale, h.whole_scale}) <= kMostScale) ||
-        !std::all_of(h.key_lights, h.key_lights + h.key_light_count, is_key_light))
+        !std::all_of(h.extracted_lights, h.extracted_lights + h.extracted_light_count, is_extracted_light))
         return std::nullopt;
     std::memcpy(e.specular.texels.data(), payload, specular);
     std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
-    if (h.key_light_count > 0) {
+    if (h.extracted_light_count > 0) {
         std::memcpy(whole.texels.data(), payload + specular + irradiance, bytes_of(whole));
         whole.scale = h.whole_scale;
         e.whole = std::move(whole);
-        e.key_lights.assign(h.key_lights, h.key_lights + h.key_light_count);
+        e.extracted_lights.assign(h.extracted_lights, h.extracted_lights + h.extracted_light_count);
     }
     if (!holds_light(e.specular) || !holds_light(e.irradiance) || !holds_light(e.whole))
         return std::nullopt;
@@ -153,8 +153,8 @@ std::vector<std::uint8_t> environment_cache_bytes(const Environment& e)
     h.size = e.specular.size, h.levels = e.specular.levels, h.irradiance_size = e.irradiance.size;
     h.specular_scale = e.specular.scale, h.irradiance_scale = e.irradiance.scale, h.whole_scale = e.whole.scale;
     h.peak_source = e.peak_source;
-    h.key_light_count = static_cast<std::int32_t>(e.key_lights.size());
-    std::copy(e.key_lights.begin(), e.key_lights.end(), h.key_lights);
+    h.extracted_light_count = static_cast<std::int32_t>(e.extracted_lights.size());
+    std::copy(e.extracted_lights.begin(), e.extracted_lights.end(), h.extracted_lights);
     h.energy_source = e.energy_source, h.energy_cube = e.energy_cube;
     h.content_hash = e.content_hash;
     h.payload_hash = hash_bytes(file.data() + sizeof(Header), file.size() - sizeof(Header));

@@ -21,7 +21,7 @@ std::uint64_t environment_hash(const Image& equirect, const EnvironmentOptions& 
 std::string environment_cache_path(const EnvironmentOptions& options, std::uint64_t content_hash);
 
 // Parses a cache file with this content hash, for a cube of `size` texels and `levels` levels. Returns nothing unless all checksums match
-// and all figures, texels and key lights lie in their ranges.
+// and all figures, texels and extracted lights lie in their ranges.
 std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
                                                    int levels);
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels);

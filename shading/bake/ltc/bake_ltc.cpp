@@ -7,7 +7,7 @@
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/albedo_fit.h"
-#include "shading/bake/ltc/part.h"
+#include "shading/bake/ltc/bake_checkpoint.h"
 
 namespace burnish::ltc {
 namespace {
@@ -36,25 +36,26 @@ std::uint64_t key_of(const BakeOptions& o)
     return hash_bytes(key, sizeof key);
 }
 
-Status keep(const BakeOptions& options, const Progressed& p)
+Status keep(const BakeOptions& options, const BakeProgress& p)
 {
     if (options.checkpoint.empty())
         return {};
-    const std::vector<std::uint8_t> bytes = part_bytes(key_of(options), p);
+    const std::vector<std::uint8_t> bytes = bake_checkpoint_bytes(key_of(options), p);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 
-Status go_on(const BakeOptions& options, Progressed& p)
+Status go_on(const BakeOptions& options, BakeProgress& p)
 {
     std::error_code ignored;
     if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
         return {};
     const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 32);
-    return read ? parse_part(*read, options.checkpoint, key_of(options), static_cast<std::uint64_t>(options.steps), p) : read.error();
+    return read ? parse_bake_checkpoint(*read, options.checkpoint, key_of(options), static_cast<std::uint64_t>(options.steps), p)
+                : read.error();
 }
 
 // Stores a chain, and its mirror image by symmetry.
-void put(const BakeOptions& options, int phi, int alpha, int lambda, const Chain& chain, Progressed& p)
+void put(const BakeOptions& options, int phi, int alpha, int lambda, const Chain& chain, BakeProgress& p)
 {
     const Grid& grid = options.grid;
     const int last = grid.size - 1;
@@ -140,7 +141,7 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             options.advance(units);
     };
     const auto stopped = [&] { return options.stop && options.stop->load(); };
-    Progressed p(grid);
+    BakeProgress p(grid);
     BN_TRY(go_on(options, p));
     // Resume, then fit chains of nodes, with checkpoints
     advance(p.chains + p.steps * kStepUnits);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/damped.h"
+#include "shading/bake/ltc/levenberg_marquardt.h"
 
 namespace burnish::ltc {
 namespace {
@@ -116,7 +116,7 @@ NodeFit fit_lobe(const LobePoints& lobe, const Matrix& start, Mask zero, Norm no
     int settled = 0;
     while (best.evaluations < kEvaluations && mu < 1e4 && settled < 2) {
         std::array<double, 9> e;
-        if (!solve_damped(sums.hessian, sums.gradient, mu, zero, e)) {
+        if (!levenberg_marquardt_step(sums.hessian, sums.gradient, mu, zero, e)) {
             mu *= 5.0;
             continue;
         }

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/damped.h"
+#include "shading/bake/ltc/levenberg_marquardt.h"
 
 namespace burnish::ltc {
 namespace {
@@ -94,7 +94,7 @@ PairFit fit_from(const LobePoints& lobe, const PairFit& start)
     double mu = 0.02;
     while (best.evaluations < kPairEvaluations && mu < 1e3) {
         std::array<double, kUnknowns> by;
-        if (!solve_damped(sums.hessian, sums.gradient, mu, 0, by)) {
+        if (!levenberg_marquardt_step(sums.hessian, sums.gradient, mu, 0, by)) {
             mu *= 5.0;
             continue;
         }

@@ -24,7 +24,7 @@ std::vector<Texels> filtered_pyramid(const Texels& level0, MipFilter filter, con
 {
     std::vector<Texels> levels = {level0};
     for (const MipLevel& level : make_mean_levels(rows_of_texels(level0), filter, 0.0f, jobs))
-        levels.push_back(shown_texels(level));
+        levels.push_back(mip_level_texels(level));
     return levels;
 }
 
@@ -46,7 +46,7 @@ std::vector<Filter> filters_of(const Texels& level0, Lobe lobe, bool metal, cons
             for (std::size_t c = 0; c < kChannels; ++c)
                 to[c] = level0.channel[c][static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
         });
-        const double kappa = static_cast<double>(kUsualMipKappa);
+        const double kappa = static_cast<double>(kDefaultMipKappa);
         const Comparison on = compare_on(sample, cascades[k], kappa, metal, jobs);
         const Method closed = on.prefers_kappa() ? Method::kappa : Method::baseline;
         filters.push_back({name + " auto", on.keeps_net() ? filters.back().levels : classical_pyramid(level0, closed, kappa)});
@@ -68,11 +68,11 @@ std::vector<std::vector<Texels>> judged_levels(const std::vector<std::vector<Tex
 std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lobe lobe, bool metal, const Jobs& jobs)
 {
     const Texels& level0 = pyramids.front().front();
-    const ShownPairs pairs = {.first = kJudgedPairs, .times = kTileTimes, .tiles = level0.width / kTileSide, .lamps = 0};
+    const MipErrorPairs pairs = {.first = kJudgedPairs, .times = kTileTimes, .tiles = level0.width / kTileSide, .lamps = 0};
     std::vector<double> means;
-    for (const std::vector<ShownError>& levels : shown_errors(level0, judged_levels(pyramids), shown_surface(lobe, metal), jobs, pairs)) {
+    for (const std::vector<MipError>& levels : mip_errors(level0, judged_levels(pyramids), mip_error_surface(lobe, metal), jobs, pairs)) {
         means.push_back(0.0);
-        for (const ShownError& level : levels)
+        for (const MipError& level : levels)
             means.back() += level.l1 / kJudgedLevels;
     }
     return means;
@@ -90,7 +90,7 @@ std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const
             rows.push_back({m.set, m.material.name, f.name, {}});
             pyramids.push_back(f.levels);
         }
-        const ShownSurface surface = shown_surface(lobe, m.material.metal);
+        const MipErrorSurface surface = mip_error_surface(lobe, m.material.metal);
         const auto errors = judged_errors(pyramids[0][0], judged_levels(pyramids), surface, jobs, {.times = kJudgedPairs});
         for (std::size_t f = 0; f < rows.size(); ++f)
             std::copy(errors[f].begin(), errors[f].end(), rows[f].level + 1);
@@ -121,7 +121,7 @@ std::vector<Summary> summaries(const std::vector<Judged>& rows)
             s = all.emplace(all.end());
             s->set = row.set, s->filter = row.filter;
         }
-        const ShownError &f = row.level[0], &b = base->level[0];
+        const MipError &f = row.level[0], &b = base->level[0];
         ++s->materials;
         s->mean.flip += f.flip, s->mean.l1 += f.l1, s->mean.mse += f.mse, s->first_level_l1 += row.level[1].l1;
         s->wins[0] += f.flip < b.flip, s->wins[1] += f.l1 < b.l1, s->wins[2] += f.mse < b.mse;

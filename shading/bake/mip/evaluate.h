@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/jobs/jobs.h"
-#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/mip_error.h"
 #include "shading/bake/mipnet/families.h"
 #include "shading/bake/mipnet/weights.h"
 
@@ -18,7 +18,7 @@ std::vector<double> mean_l1(const std::vector<std::vector<Texels>>& pyramids, Lo
 
 struct Judged {
     std::string set, material, filter;
-    ShownError level[kJudgedLevels + 1]; // 0: the mean over levels
+    MipError level[kJudgedLevels + 1]; // 0: the mean over levels
 };
 
 // Judges the filters of one lobe: baseline, kappa .25, .5 and 1, ssgt or leadr, and the given cascades, called "mipnet", with a number if
@@ -28,7 +28,7 @@ std::vector<Judged> judge(const std::vector<TestMaterial>& set, Lobe lobe, const
 struct Summary {
     std::string set, filter;
     std::size_t materials = 0;
-    ShownError mean;
+    MipError mean;
     double wins[3] = {};         // share of materials better than baseline: FLIP, L1, MSE
     double worst_l1 = 0.0;       // largest ratio to baseline's L1
     double first_level_l1 = 0.0; // level 1 alone

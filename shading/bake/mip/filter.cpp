@@ -332,7 +332,7 @@ void put_gains(const MipSource& source, mipnet::Lobe lobe, bool metal, Gains rul
             planes[0] = t.nx, planes[count] = t.ny, planes[2 * count] = t.a, planes[3 * count] = t.b, planes[4 * count] = t.c;
         }
     };
-    const std::vector<float> gains = level_gains(sizes, texels, shown_surface(lobe, metal), rule);
+    const std::vector<float> gains = level_gains(sizes, texels, mip_error_surface(lobe, metal), rule);
     for (std::size_t l = 0; l < gains.size(); ++l)
         to.levels[l].gain = gains[l];
     to.gained = gained_of(lobe, metal);
@@ -351,7 +351,7 @@ MipLevels make_mip_levels(const MipSource& source, MipFilter filter, float kappa
     if (filter == kMipFilter_mipnet)
         put_net_levels(level0.rows(), net, jobs, made);
     else if (filter == kMipFilter_teacher)
-        put_taught_levels(level0.rows(), net, help, jobs, made);
+        put_optimised_levels(level0.rows(), net, help, jobs, made);
     else
         made.levels = make_mean_levels(level0.rows(), filter, made.kappa, jobs);
     made.source = level0.hash();

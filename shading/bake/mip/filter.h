@@ -8,8 +8,8 @@
 
 #include "core/jobs/jobs.h"
 #include "shading/bake/mip/levels.h"
+#include "shading/bake/mip/optimised_mip.h"
 #include "shading/bake/mip/source.h"
-#include "shading/bake/mip/teacher.h"
 #include "shading/bake/mipnet/texels.h"
 
 namespace burnish {
@@ -27,7 +27,7 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
 struct MipHelp {                          // for filters that are not means
     const mipnet::Weights* net = nullptr; // null: the built-in net for GGX lobes
     bool metal = false;                   // for teacher: the material reflects as a metal
-    TaughtTexels advance{};
+    OptimisedTexels advance{};
     mipnet::Lobe lobe = mipnet::Lobe::ggx_aniso; // for gains, if no net names the lobe
     Gains gains = Gains::none;
 };

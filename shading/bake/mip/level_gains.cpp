@@ -67,7 +67,7 @@ struct Given {
 
 // Returns the light that a level reflects, summed over the points.
 Given given_back(const Points& p, std::size_t count, int level, const LevelSize& size, const LevelTexels& texels,
-                 const ShownSurface& surface, Gains rule)
+                 const MipErrorSurface& surface, Gains rule)
 {
     std::vector<float> planes(kChannels * count), scaled(count), rest(count);
     std::vector<int> x(count), y(count);
@@ -84,7 +84,7 @@ Given given_back(const Points& p, std::size_t count, int level, const LevelSize&
 
 } // namespace
 
-std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface, Gains rule)
+std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const MipErrorSurface& surface, Gains rule)
 {
     static const Points points = make_points();
     const std::size_t area = static_cast<std::size_t>(sizes[0].width) * static_cast<std::size_t>(sizes[0].height);
@@ -99,7 +99,7 @@ std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelT
     return gains;
 }
 
-std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const ShownSurface& surface)
+std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const MipErrorSurface& surface)
 {
     std::vector<LevelSize> sizes;
     for (const mipnet::Texels& level : levels)
@@ -114,7 +114,7 @@ std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const 
     return level_gains(sizes, texels, surface, Gains::as_judged);
 }
 
-ShownSurface gained(const ShownSurface& surface, float gain)
+MipErrorSurface gained(const MipErrorSurface& surface, float gain)
 {
     return {surface.lobe, std::min(surface.f0 * gain, 1.0f), std::min(surface.diffuse * gain, 1.0f)};
 }

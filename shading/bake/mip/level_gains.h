@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/mip_error.h"
 
 namespace burnish {
 
@@ -21,12 +21,12 @@ struct LevelSize {
 // level's mean radiance equal to that of level 0. Light has radiance 1 from within 84 degrees of +z; eyes are on all sides. The estimate
 // uses 2048 or 4096 points of the map that never change. The gain scales f0 and the diffuse part; grazing reflection stays. The bits
 // depend neither on threads nor on the instruction set. rule: the lighting that the gains are made for.
-std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const ShownSurface& surface, Gains rule);
+std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const MipErrorSurface& surface, Gains rule);
 
 // Returns the gains of texels' levels for the lighting that levels are judged by. levels: level 0 and all levels after it.
-std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const ShownSurface& surface);
+std::vector<float> level_gains(const std::vector<mipnet::Texels>& levels, const MipErrorSurface& surface);
 
 // Returns the surface with reflectances times a gain, at most 1.
-ShownSurface gained(const ShownSurface& surface, float gain);
+MipErrorSurface gained(const MipErrorSurface& surface, float gain);
 
 } // namespace burnish

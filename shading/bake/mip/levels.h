@@ -23,7 +23,7 @@ struct MipFilterInfo {
 const std::vector<MipFilterInfo>& mip_filters(); // from shading/models.def, in order
 
 // Purpose of the levels' gains. of_frames: texels that turn away from the eye count as at grazing angles. as_judged: such texels are dark,
-// as in the light that judges levels (shown.h).
+// as in the light that judges levels (mip_error.h).
 enum class Gains { none, of_frames, as_judged };
 
 // Returns the code of gains for a lobe and a metal or dielectric, for MipLevels::gained.

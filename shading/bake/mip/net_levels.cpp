@@ -61,7 +61,7 @@ void put_net_levels(const MipRows& level0, const mipnet::Weights& net, const Job
 }
 
 // Search from several starts: the net's levels and four filters' levels
-void put_taught_levels(const MipRows& level0_rows, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
+void put_optimised_levels(const MipRows& level0_rows, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to)
 {
     const mipnet::TexelRows rows = bands_of(level0_rows);
     mipnet::Texels level0 = mipnet::make_texels(level0_rows.width, level0_rows.height);
@@ -72,10 +72,10 @@ void put_taught_levels(const MipRows& level0_rows, const mipnet::Weights& net, c
     for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_kappa, kMipFilter_leadr, kMipFilter_ssgt}) {
         starts.emplace_back();
         for (const MipLevel& level : make_mean_levels(level0_rows, filter, to.kappa, jobs))
-            starts.back().push_back(shown_texels(level));
+            starts.back().push_back(mip_level_texels(level));
     }
     to.net = levels_hash(net, kMipFilter_teacher, help.metal);
-    put_levels(taught_levels(level0, starts, shown_surface(net.shape.lobe, help.metal), jobs, help.advance), to);
+    put_levels(optimised_levels(level0, starts, mip_error_surface(net.shape.lobe, help.metal), jobs, help.advance), to);
 }
 
 mipnet::Comparison compare_net(const MipSource& source, const mipnet::Weights& net, float kappa, bool metal, const Jobs& jobs)

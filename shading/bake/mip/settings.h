@@ -12,12 +12,12 @@
 namespace burnish {
 
 enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
-inline constexpr float kUsualMipKappa =
+inline constexpr float kDefaultMipKappa =
     0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/lab/notebook/mip_filters.md)
 
 struct MipSettings {             // of all materials
     MipFilter filter{};          // the first: that of the file of levels, where there is one
-    std::optional<float> kappa;  // of filters kappa and mipnet; none: kUsualMipKappa
+    std::optional<float> kappa;  // of filters kappa and mipnet; none: kDefaultMipKappa
     std::string net;             // weights of `burnish train mip` for filter mipnet; empty: the program's
     int brdf = 0;                // model of lobes that the program's and gains are for, a place of BN_LOBE
     MipFallback fallback{};      // of filter mipnet

@@ -5,7 +5,7 @@
 
 #include "core/math/scalar_math.h"
 #include "core/simd/dispatch.h"
-#include "shading/bake/mip/taught_light.h"
+#include "shading/bake/mip/training_light.h"
 
 namespace burnish {
 namespace {
@@ -42,41 +42,42 @@ struct TexelGroup { // kSlots texels in a level, and the radiance that they shou
 
 class PairSearch {
   public:
-    PairSearch(const ShownSurface& surface, const TaughtLight& light) : surface_(surface), light_(light) {}
+    PairSearch(const MipErrorSurface& surface, const TrainingLight& light) : surface_(surface), light_(light) {}
 
     // Moves one lobe, with `other` fixed. Writes the pair's error to `loss`.
     void turn(const TexelGroup& group, const Texels& other, Texels& moved, float* loss) const
     {
-        std::vector<float> rest(kTaughtPairs * kSlots), one(kTaughtPairs), from(kChannels * kSlots), shown(rest.size()), out(from.size());
+        std::vector<float> rest(kTrainingPairs * kSlots), one(kTrainingPairs), from(kChannels * kSlots), shown(rest.size()),
+            out(from.size());
         // Gather the other lobe's light
-        const TaughtAxis only(0, 1, 1);
+        const FootprintAxis only(0, 1, 1);
         for (std::size_t slot = 0; slot < kSlots; ++slot) {
             Texels texel = mipnet::make_texels(1, 1);
             const std::size_t at = std::min(group.first + slot, other.count() - 1);
             for (std::size_t c = 0; c < kChannels; ++c)
                 texel.channel[c][0] = other.channel[c][at], from[c * kSlots + slot] = moved.channel[c][at];
             gather_light(texel, surface_, light_, only, only, one.data());
-            for (std::size_t p = 0; p < kTaughtPairs; ++p)
+            for (std::size_t p = 0; p < kTrainingPairs; ++p)
                 rest[p * kSlots + slot] = 0.5f * one[p];
         }
         // Fit the moving lobe to the remainder
-        pick<mipnet::TeacherFns>().fit({surface_.lobe, kTaughtPairs, light_.rows.data(), group.wanted.data(), from.data(), 1, kPairSteps,
-                                        kTaughtBatch, shown.data(), out.data(), rest.data(), 0.5f, loss});
+        pick<mipnet::TeacherFns>().fit({surface_.lobe, kTrainingPairs, light_.rows.data(), group.wanted.data(), from.data(), 1, kPairSteps,
+                                        kTrainingBatch, shown.data(), out.data(), rest.data(), 0.5f, loss});
         for (std::size_t slot = 0; slot < kSlots && group.first + slot < moved.count(); ++slot)
             for (std::size_t c = 0; c < kChannels; ++c)
                 moved.channel[c][group.first + slot] = out[c * kSlots + slot];
     }
 
   private:
-    const ShownSurface& surface_;
-    const TaughtLight& light_;
+    const MipErrorSurface& surface_;
+    const TrainingLight& light_;
 };
 
 } // namespace
 
-LobePairs taught_pairs(const Texels& level0, const std::vector<Texels>& ones, const ShownSurface& surface, const Jobs& jobs)
+LobePairs optimised_pairs(const Texels& level0, const std::vector<Texels>& ones, const MipErrorSurface& surface, const Jobs& jobs)
 {
-    const TaughtLight light = taught_light(surface);
+    const TrainingLight light = training_light(surface);
     const PairSearch search(surface, light);
     LobePairs made;
     for (const Texels& one : ones) {
@@ -87,14 +88,14 @@ LobePairs taught_pairs(const Texels& level0, const std::vector<Texels>& ones, co
         Texels first = one, second = one;
         const std::size_t row = static_cast<std::size_t>(one.width);
         jobs.parallel_for((one.count() + kSlots - 1) / kSlots, [&](std::size_t g, int) {
-            TexelGroup group = {g * kSlots, std::vector<float>(kTaughtPairs * kSlots)};
+            TexelGroup group = {g * kSlots, std::vector<float>(kTrainingPairs * kSlots)};
             // Average the truth under each texel
-            std::vector<float> wanted(kTaughtPairs);
+            std::vector<float> wanted(kTrainingPairs);
             for (std::size_t slot = 0; slot < kSlots; ++slot) {
                 const std::size_t at = std::min(group.first + slot, one.count() - 1);
-                gather_light(level0, surface, light, TaughtAxis(static_cast<int>(at % row), level0.width, one.width),
-                             TaughtAxis(static_cast<int>(at / row), level0.height, one.height), wanted.data());
-                for (std::size_t p = 0; p < kTaughtPairs; ++p)
+                gather_light(level0, surface, light, FootprintAxis(static_cast<int>(at % row), level0.width, one.width),
+                             FootprintAxis(static_cast<int>(at / row), level0.height, one.height), wanted.data());
+                for (std::size_t p = 0; p < kTrainingPairs; ++p)
                     group.wanted[p * kSlots + slot] = wanted[p];
             }
             // Try all starts, and keep the best pair per texel

@@ -16,13 +16,13 @@ struct Batch { // a shard, in the layout of StepWork
 // Returns texel (x, y)'s index in a plane of level 0, for tile `tile`.
 std::size_t place_in_shard(int x, int y, int tile);
 
-inline constexpr double kUsualMirrored = 0.6;
+inline constexpr double kDefaultMirrored = 0.6;
 
 // Draws unit directions to a light and to an eye: six numbers, `apart` floats apart. The share `mirrored` of lights mirrors the eye at
 // normals near +z, drawn from lobes cos^10 and cos^80, half each, where highlights are. Other lights are uniform.
-void put_pair(Random& random, float* pair, std::size_t apart, double mirrored = kUsualMirrored);
+void put_pair(Random& random, float* pair, std::size_t apart, double mirrored = kDefaultMirrored);
 
 // Makes a batch. The result depends on the arguments alone. pairs: direction pairs per tile.
-Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored = kUsualMirrored);
+Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored = kDefaultMirrored);
 
 } // namespace burnish::mipnet

@@ -13,7 +13,7 @@
 #include "core/image/image.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/half.h"
-#include "shading/bake/mipnet/training_part.h"
+#include "shading/bake/mipnet/training_checkpoint.h"
 
 namespace burnish::mipnet {
 namespace {
@@ -37,7 +37,7 @@ Status keep_training(const TrainOptions& options, std::uint64_t key, const Train
 {
     if (options.checkpoint.empty())
         return {};
-    const std::vector<std::uint8_t> bytes = training_part_bytes(key, t);
+    const std::vector<std::uint8_t> bytes = training_checkpoint_bytes(key, t);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 
@@ -47,7 +47,7 @@ Status go_on_training(const TrainOptions& options, std::uint64_t key, Trained& t
     if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
         return {};
     const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 30);
-    return read ? parse_training_part(*read, options.checkpoint, key, static_cast<std::uint64_t>(options.steps), t) : read.error();
+    return read ? parse_training_checkpoint(*read, options.checkpoint, key, static_cast<std::uint64_t>(options.steps), t) : read.error();
 }
 
 using Memory = std::vector<std::byte, LineAllocator<std::byte>>;

@@ -24,7 +24,7 @@ struct TrainOptions {
     double rate = 2e-3;
     Loss loss = Loss::l1;
     Tone tone = Tone::display;
-    double mirrored = kUsualMirrored;         // share of direction pairs near highlights
+    double mirrored = kDefaultMirrored;       // share of direction pairs near highlights
     double light = 0.0;                       // weight of |mean radiance of a tile's level over the truth's - 1|, beside the loss
     int levels = kTrainedLevels;              // the loss looks at the first ones: 2 see H_B once, 5 four times
     std::vector<Material> maps;               // trained on, too; squares

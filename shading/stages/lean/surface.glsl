@@ -9,7 +9,7 @@ layout(constant_id = 1) const int kSamples = 1; // as many as the technique take
 layout(constant_id = 2) const int kTextures = 0; // a bit per used slot (core/scene/material.def)
 layout(constant_id = 3) const int kTraits = 0; // the material's traits, see below
 
-const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kBrushedInPart = 32, kAlphaTest = 64,
+const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAnisotropyBlended = 32, kAlphaTest = 64,
           kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048, kPhongTable = 4096;
 const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8;
 
@@ -143,7 +143,7 @@ vec2 lobe_albedo(vec3 o, vec2 sigma, float roughness)
 // Returns directional albedo of the surface's lobe, with the blend to round lobes.
 vec2 directional_albedo(Surface s)
 {
-    if (has(kAnisotropic) && !has(kBrushedInPart))
+    if (has(kAnisotropic) && !has(kAnisotropyBlended))
         return lobe_albedo(s.o, s.sigma, s.roughness);
     vec2 round = textureLod(round_albedo, vec2(s.n_dot_v, s.roughness) * frame.tables.x + frame.tables.y, 0.0).xy;
     return has(kAnisotropic) ? mix(round, lobe_albedo(s.o, s.sigma, s.roughness), material.emissive.w) : round;

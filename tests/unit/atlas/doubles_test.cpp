@@ -17,15 +17,15 @@ AtlasEntry small(const char* id)
     return entry;
 }
 
-Darkroom room_of(Report& report)
+PictureCache room_of(Report& report)
 {
-    return Darkroom({std::make_shared<const Jobs>(1), best_isa(), {false, ""}, nullptr}, report);
+    return PictureCache({std::make_shared<const Jobs>(1), best_isa(), {false, ""}, nullptr}, report);
 }
 
 TEST(atlas_doubles, draw_what_floats_draw_but_for_rounding)
 {
     Report report(true, 0);
-    Darkroom room = room_of(report);
+    PictureCache room = room_of(report);
     for (const char* id : {"bent_normal_bends_too_far", "axis_few_samples", "lamps_below_the_horizon", "tangents_left"}) {
         const auto setting = setting_of(small(id), AtlasRole::test, 0.5, 48, 0);
         ASSERT_TRUE(setting) << setting.error().line();
@@ -49,7 +49,7 @@ TEST(atlas_doubles, draw_what_floats_draw_but_for_rounding)
 TEST(atlas_doubles, what_goes_in_them_is_a_matter_of_precision)
 {
     Report report(true, 0);
-    Darkroom room = room_of(report);
+    PictureCache room = room_of(report);
     const AtlasWalk walk{"short", 3, 48, 16};
     const auto far = walk_entry(small("eye_far_away"), walk, room), fit = walk_entry(small("albedo_by_a_fit"), walk, room);
     if (!far && far.error().code == ExitCode::unavailable)

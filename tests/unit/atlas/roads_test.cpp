@@ -1,7 +1,7 @@
 // Where methods fail, pixels still have equal bits for all thread counts, instruction sets and tile sizes.
 #include <gtest/gtest.h>
 
-#include "apps/lab/atlas/darkroom.h"
+#include "apps/lab/atlas/picture_cache.h"
 
 namespace burnish {
 namespace {
@@ -25,10 +25,10 @@ std::vector<Road> roads()
 void check_roads(const std::vector<double>& places, int side)
 {
     Report report(true, 0);
-    std::vector<Darkroom> rooms;
+    std::vector<PictureCache> rooms;
     const std::vector<Road> all = roads();
     for (const Road& road : all)
-        rooms.emplace_back(Darkroom::Machine{std::make_shared<const Jobs>(road.threads), road.isa, {false, ""}, nullptr}, report);
+        rooms.emplace_back(PictureCache::Machine{std::make_shared<const Jobs>(road.threads), road.isa, {false, ""}, nullptr}, report);
     for (const AtlasEntry& entry : atlas_entries())
         for (const double s : places) {
             Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, s, side, 0);

@@ -1,7 +1,7 @@
 // Blessed figures: written, read and compared.
 #include <gtest/gtest.h>
 
-#include "apps/lab/atlas/kept.h"
+#include "apps/lab/atlas/result_cache.h"
 #include "apps/risks/assets.h"
 
 namespace burnish {
@@ -128,7 +128,7 @@ TEST(atlas_table, a_cure_above_the_threshold_is_no_cure)
 TEST(atlas_table, kept_entries_come_back_as_they_were)
 {
     const MeasuredEntry m = measured(0.0, 1.0 / 3.0);
-    const auto back = parse_kept_entry(kept_entry_json(m, "key"), "key");
+    const auto back = parse_cached_entry(cached_entry_json(m, "key"), "key");
     ASSERT_TRUE(back);
     ASSERT_EQ(back->steps.size(), m.steps.size());
     EXPECT_EQ(back->steps[7].error, m.steps[7].error);
@@ -138,9 +138,9 @@ TEST(atlas_table, kept_entries_come_back_as_they_were)
     EXPECT_EQ(back->flicker, m.flicker);
     EXPECT_EQ(back->kind, m.kind);
     EXPECT_EQ(back->in_double, m.in_double);
-    EXPECT_FALSE(parse_kept_entry(kept_entry_json(m, "key"), "other"));
+    EXPECT_FALSE(parse_cached_entry(cached_entry_json(m, "key"), "other"));
     for (const char* text : {"", "[]", "{}", "{\"key\": \"key\"}", "{\"key\": \"key\", \"id\": \"nothing\", \"steps\": []}"})
-        EXPECT_FALSE(parse_kept_entry(text, "key")) << text;
+        EXPECT_FALSE(parse_cached_entry(text, "key")) << text;
 }
 
 // Each blessed entry fails along its path, and not at its start. No blessed row lacks an entry.

@@ -57,8 +57,8 @@ class environment_cache : public testing::Test {
         EXPECT_EQ(a.energy_cube, b.energy_cube);
         EXPECT_EQ(a.peak_source, b.peak_source);
         EXPECT_EQ(a.content_hash, b.content_hash);
-        ASSERT_EQ(a.key_lights.size(), b.key_lights.size());
-        EXPECT_EQ(std::memcmp(a.key_lights.data(), b.key_lights.data(), a.key_lights.size() * sizeof(KeyLight)), 0);
+        ASSERT_EQ(a.extracted_lights.size(), b.extracted_lights.size());
+        EXPECT_EQ(std::memcmp(a.extracted_lights.data(), b.extracted_lights.data(), a.extracted_lights.size() * sizeof(ExtractedLight)), 0);
     }
 
     fs::path folder_;
@@ -115,21 +115,21 @@ TEST_F(environment_cache, one_entry_is_drawn_turned_and_exposed_in_any_way)
     EXPECT_NEAR(read.irradiance.scale / plain.irradiance.scale, 2.8284271f, 1e-6f);
 }
 
-TEST_F(environment_cache, keeps_key_lights)
+TEST_F(environment_cache, keeps_extracted_lights)
 {
     image_ = smooth_equirect(256);
     float* sun = image_.f32() + 3 * (256 * 40 + 80);
     sun[0] = sun[1] = 5000.0f, sun[2] = 4000.0f;
     const Environment baked = bake();
-    ASSERT_EQ(baked.key_lights.size(), 1u);
+    ASSERT_EQ(baked.extracted_lights.size(), 1u);
     const Environment read = bake();
     EXPECT_TRUE(read.from_cache);
     expect_same(read, baked);
-    options_.key_lights = 0;
+    options_.extracted_lights = 0;
     const Environment off = bake();
     EXPECT_FALSE(off.from_cache);
-    EXPECT_TRUE(off.key_lights.empty());
-    options_.key_lights = 8;
+    EXPECT_TRUE(off.extracted_lights.empty());
+    options_.extracted_lights = 8;
     for (const fs::path& file : files()) // cut at the start of the whole environment, or too long by it
         write_all(file, read_all(file).substr(0, read_all(files().at(0)).size() / 2));
     expect_same(bake(), baked);
@@ -165,7 +165,7 @@ TEST_F(environment_cache, refuses_numbers_out_of_range)
     float* sun = image_.f32() + 3 * (256 * 40 + 80);
     sun[0] = sun[1] = 5000.0f, sun[2] = 4000.0f;
     const Environment good = bake();
-    ASSERT_EQ(good.key_lights.size(), 1u);
+    ASSERT_EQ(good.extracted_lights.size(), 1u);
     const auto is_read = [&](const Environment& e) {
         const std::vector<std::uint8_t> bytes = environment_cache_bytes(e);
         return parse_environment_cache(bytes.data(), bytes.size(), e.content_hash, e.specular.size, e.specular.levels).has_value();
@@ -183,15 +183,16 @@ TEST_F(environment_cache, refuses_numbers_out_of_range)
             EXPECT_FALSE(is_read(bad)) << scale;
         }
     }
-    for (float KeyLight::*number : {&KeyLight::angular_radius, &KeyLight::share})
+    for (float ExtractedLight::*number : {&ExtractedLight::angular_radius, &ExtractedLight::share})
         for (const float value : {-0.1f, 5.0f, std::numeric_limits<float>::quiet_NaN()}) {
             Environment bad = good;
-            bad.key_lights[0].*number = value;
+            bad.extracted_lights[0].*number = value;
             EXPECT_FALSE(is_read(bad)) << value;
         }
-    for (float(KeyLight::*numbers)[3] : {&KeyLight::direction, &KeyLight::axis_u, &KeyLight::axis_v, &KeyLight::irradiance}) {
+    for (float(ExtractedLight::*numbers)[3] :
+         {&ExtractedLight::direction, &ExtractedLight::axis_u, &ExtractedLight::axis_v, &ExtractedLight::irradiance}) {
         Environment bad = good;
-        (bad.key_lights[0].*numbers)[1] = numbers == &KeyLight::irradiance ? -1.0f : 1e20f;
+        (bad.extracted_lights[0].*numbers)[1] = numbers == &ExtractedLight::irradiance ? -1.0f : 1e20f;
         EXPECT_FALSE(is_read(bad));
     }
 }

@@ -11,7 +11,7 @@
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/environment/equirect.h"
-#include "shading/bake/environment/key_lights.h"
+#include "shading/bake/environment/extracted_lights.h"
 #include "shading/bake/environment/turn.h"
 #include "tests/unit/bake/bake_test.h"
 #include "tests/unit/data.h"
@@ -99,9 +99,9 @@ TEST(environment, rotation_turns_counter_clockwise_seen_from_above)
     EXPECT_EQ(at(90.0f, {1, 0, 0}), glm::dvec3(0, 0, 1));  // formerly at +z
     EXPECT_EQ(at(90.0f, {0, 1, 0}), glm::dvec3(0, 1, 0));
     EXPECT_EQ(at(90.0f - 720.0f, {0, 0, -1}), glm::dvec3(1, 0, 0));
-    KeyLight light = {};
+    ExtractedLight light = {};
     light.direction[0] = light.axis_u[1] = light.axis_v[2] = 1.0f;
-    const KeyLight r = turned(light, 90.0f);
+    const ExtractedLight r = turned(light, 90.0f);
     EXPECT_NEAR(r.direction[2], -1.0f, 1e-6f);
     EXPECT_NEAR(r.axis_u[1], 1.0f, 1e-6f);
     EXPECT_NEAR(r.axis_v[0], 1.0f, 1e-6f);
@@ -328,7 +328,7 @@ TEST(environment, bad_options_and_images_are_errors)
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.cube_size = 0; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.levels = 7; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.samples = 0; }), ExitCode::usage);
-    EXPECT_EQ(code([](EnvironmentOptions& o) { o.key_lights = 9; }), ExitCode::usage);
+    EXPECT_EQ(code([](EnvironmentOptions& o) { o.extracted_lights = 9; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.exposure_ev = NAN; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.rotation_deg = INFINITY; }), ExitCode::usage);
     EXPECT_EQ(code([](EnvironmentOptions& o) { o.levels = 6; }), ExitCode::ok);

@@ -27,7 +27,7 @@ std::vector<Texels> pyramid_of(const Texels& level0, MipFilter filter, std::size
     std::vector<Texels> all = {level0};
     for (const MipLevel& level : make_mean_levels(rows_of_texels(level0), filter, 0.7f, Jobs(1)))
         if (all.size() <= levels)
-            all.push_back(shown_texels(level));
+            all.push_back(mip_level_texels(level));
     return all;
 }
 
@@ -47,7 +47,7 @@ TEST(mip_gain, is_one_where_levels_are_as_level_0)
         for (const bool metal : {true, false}) {
             Texels flat = ridges(64, 0.0f, 0.4f);
             flat.channel[2].assign(flat.count(), 0.3f), flat.channel[3].assign(flat.count(), 0.1f);
-            for (const float gain : level_gains(pyramid_of(flat, kMipFilter_kappa, 4), shown_surface(lobe, metal)))
+            for (const float gain : level_gains(pyramid_of(flat, kMipFilter_kappa, 4), mip_error_surface(lobe, metal)))
                 EXPECT_NEAR(gain, 1.0f, 1e-4f);
         }
 }
@@ -62,10 +62,10 @@ TEST(mip_gain, makes_levels_reflect_as_much_as_level_0)
             for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_kappa}) {
                 const std::vector<Texels> levels = pyramid_of(ridges(64, 0.6f, 0.5f), filter, 3);
                 const std::vector<Texels> judged(levels.begin() + 1, levels.end());
-                const ShownSurface surface = shown_surface(lobe, metal);
+                const MipErrorSurface surface = mip_error_surface(lobe, metal);
                 const auto errors =
-                    shown_errors(levels[0], {judged, judged}, surface, Jobs(2), {.first = 7000, .times = 400, .tiles = 8, .lamps = 0}, {},
-                                 {{}, level_gains(levels, surface)});
+                    mip_errors(levels[0], {judged, judged}, surface, Jobs(2), {.first = 7000, .times = 400, .tiles = 8, .lamps = 0}, {},
+                               {{}, level_gains(levels, surface)});
                 for (std::size_t l = 0; l < judged.size(); ++l) {
                     EXPECT_NEAR(errors[1][l].light, 1.0, 0.035)
                         << mipnet::lobe_name(lobe) << (metal ? " metal " : " ") << static_cast<int>(filter) << " level " << l + 1;
@@ -88,9 +88,9 @@ TEST(mip_gain, is_of_light_from_everywhere)
     const mipnet::Material m = mipnet::make_material(mipnet::families().front(), 3, 64);
     for (const mipnet::Lobe lobe : kLobes) {
         const std::vector<Texels> levels = pyramid_of(m.texels, kMipFilter_kappa, 3);
-        const ShownSurface surface = shown_surface(lobe, m.metal);
+        const MipErrorSurface surface = mip_error_surface(lobe, m.metal);
         const std::vector<Texels> judged(levels.begin() + 1, levels.end());
-        const auto errors = shown_errors(levels[0], {judged}, surface, Jobs(2), {.first = 7000, .times = 400, .tiles = 8, .lamps = 0});
+        const auto errors = mip_errors(levels[0], {judged}, surface, Jobs(2), {.first = 7000, .times = 400, .tiles = 8, .lamps = 0});
         const std::vector<float> gains = level_gains(levels, surface);
         for (std::size_t l = 0; l < judged.size(); ++l)
             EXPECT_NEAR(static_cast<double>(gains[l]) * errors[0][l].light, 1.0, 0.04) << mipnet::lobe_name(lobe) << " level " << l + 1;
@@ -110,7 +110,7 @@ TEST(mip_gain, of_frames_does_not_know_the_eye)
                 *planes++ = levels[static_cast<std::size_t>(l)]
                                 .channel[c][static_cast<std::size_t>(y[i] * sizes[static_cast<std::size_t>(l)].width + x[i])];
     };
-    const ShownSurface matt = {mipnet::Lobe::ggx_aniso, 0.0f, 0.5f};
+    const MipErrorSurface matt = {mipnet::Lobe::ggx_aniso, 0.0f, 0.5f};
     double lit = 0.0, level = 0.0; // mean cosines over lights
     for (int i = 0; i < 2000; ++i)
         for (int j = 0; j < 200; ++j) {

@@ -10,9 +10,9 @@
 #include "core/simd/half.h"
 #include "shading/bake/mip/colour_levels.h"
 #include "shading/bake/mip/filter.h"
-#include "shading/bake/mip/shown.h"
+#include "shading/bake/mip/mip_error.h"
+#include "shading/bake/mip/optimised_mip.h"
 #include "shading/bake/mip/standard_textures.h"
-#include "shading/bake/mip/teacher.h"
 #include "shading/bake/mip/texture.h"
 #include "shading/bake/mip/two_lobes.h"
 #include "shading/bake/mipnet/families.h"
@@ -168,7 +168,7 @@ TEST(mip_textures, in_halves_look_as_in_floats)
             relief.channel[0][i] *= 0.3f, relief.channel[1][i] *= 0.3f;
             relief.channel[2][i] = alpha, relief.channel[3][i] = 2.0f * alpha, relief.channel[4][i] = 0.0f;
         }
-        const mipnet::Texels level = shown_texels(make_mean_levels(rows_of_texels(relief), kMipFilter_covariance, 0.0f, Jobs(1))[0]);
+        const mipnet::Texels level = mip_level_texels(make_mean_levels(rows_of_texels(relief), kMipFilter_covariance, 0.0f, Jobs(1))[0]);
         for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
             EXPECT_LT(flip_between(level, in_halves(level, true), lobe), 1e-3) << alpha;
             most_of_one_half = std::max(most_of_one_half, flip_between(level, in_halves(level, false), lobe));
@@ -184,50 +184,50 @@ mipnet::Texels flat_texels(int side, float alpha)
     return t;
 }
 
-TEST(mip_shown, errors_are_those_of_what_differs)
+TEST(mip_error, errors_are_those_of_what_differs)
 {
-    const ShownSurface surface = shown_surface(mipnet::Lobe::ggx_aniso, true);
+    const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::ggx_aniso, true);
     const std::vector<mipnet::Texels> same = {flat_texels(32, 0.3f), flat_texels(16, 0.3f), flat_texels(8, 0.3f)};
     std::vector<mipnet::Texels> wider = {flat_texels(32, 0.31f), flat_texels(16, 0.4f), flat_texels(8, 0.6f)};
-    const auto errors = shown_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1));
+    const auto errors = mip_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1));
     for (std::size_t l = 0; l < 3; ++l) {
         EXPECT_EQ(errors[0][l].l1 + errors[0][l].mse, 0.0);
         EXPECT_LE(errors[0][l].flip, 0.1 * errors[1][l].flip) << "lamps are near, their light is not the same everywhere";
         EXPECT_GT(errors[1][l].l1, l == 0 ? 1e-4 : 4.0 * errors[1][l - 1].l1 * (l == 1 ? 1.0 : 0.4));
         EXPECT_GE(errors[1][l].mse, errors[1][l].l1 * errors[1][l].l1);
         EXPECT_EQ(errors[1][l].flip > 0.0, l < 2) << "squares of 16 texels and more have one";
-        EXPECT_NEAR(shown_difference(same[l], wider[l], surface).l1, errors[1][l].l1, 1e-6) << "of a level that is the truth";
+        EXPECT_NEAR(mip_difference(same[l], wider[l], surface).l1, errors[1][l].l1, 1e-6) << "of a level that is the truth";
     }
-    const auto other = shown_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1), {.first = 48, .times = 24, .lamps = 0});
+    const auto other = mip_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1), {.first = 48, .times = 24, .lamps = 0});
     EXPECT_EQ(other[1][0].flip, 0.0);
     EXPECT_NE(other[1][1].l1, errors[1][1].l1) << "other pairs";
     EXPECT_NEAR(other[1][1].l1 / errors[1][1].l1, 1.0, 0.5);
 }
 
-TEST(mip_shown, tiles_have_pairs_of_their_own)
+TEST(mip_error, tiles_have_pairs_of_their_own)
 {
     // Each tile holds one level texel and uses its own pair of directions. All tiles together give the mean over the pairs.
-    const ShownSurface surface = shown_surface(mipnet::Lobe::beckmann, false);
+    const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::beckmann, false);
     const std::vector<std::vector<mipnet::Texels>> wider = {{flat_texels(4, 0.4f)}};
     const mipnet::Texels level0 = flat_texels(8, 0.3f);
-    const double tiled = shown_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1;
-    const double whole = shown_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 48, .lamps = 0})[0][0].l1;
+    const double tiled = mip_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1;
+    const double whole = mip_errors(level0, wider, surface, Jobs(1), {.first = 5, .times = 48, .lamps = 0})[0][0].l1;
     EXPECT_NEAR(tiled, whole, 1e-6);
-    EXPECT_NE(tiled, shown_errors(level0, wider, surface, Jobs(1), {.first = 6, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1);
+    EXPECT_NE(tiled, mip_errors(level0, wider, surface, Jobs(1), {.first = 6, .times = 3, .tiles = 4, .lamps = 0})[0][0].l1);
 }
 
-TEST(mip_shown, errors_do_not_depend_on_threads)
+TEST(mip_error, errors_do_not_depend_on_threads)
 {
     const mipnet::Material m = mipnet::make_material(mipnet::families().front(), 3, 64);
     std::vector<std::vector<mipnet::Texels>> filters;
     for (const MipFilter filter : {kMipFilter_baseline, kMipFilter_leadr, kMipFilter_ssgt}) {
         filters.emplace_back();
         for (const MipLevel& level : make_mean_levels(rows_of_texels(m.texels), filter, 0.0f, Jobs(1)))
-            filters.back().push_back(shown_texels(level));
+            filters.back().push_back(mip_level_texels(level));
         filters.back().resize(3);
     }
-    const ShownSurface surface = shown_surface(mipnet::Lobe::ggx_aniso, m.metal);
-    const auto one = shown_errors(m.texels, filters, surface, Jobs(1)), three = shown_errors(m.texels, filters, surface, Jobs(3));
+    const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::ggx_aniso, m.metal);
+    const auto one = mip_errors(m.texels, filters, surface, Jobs(1)), three = mip_errors(m.texels, filters, surface, Jobs(3));
     for (std::size_t f = 0; f < filters.size(); ++f)
         for (std::size_t l = 0; l < 3; ++l) {
             EXPECT_EQ(one[f][l].l1, three[f][l].l1);
@@ -242,21 +242,21 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
 {
     const Jobs jobs(2);
     for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
-        const ShownSurface surface = shown_surface(lobe, true);
+        const MipErrorSurface surface = mip_error_surface(lobe, true);
         mipnet::Texels relief = flat_texels(64, 0.15f);
         for (std::size_t i = 0; i < relief.count(); ++i)
             relief.channel[0][i] = (i & 1) != 0 ? 0.12f : -0.06f;
         const std::vector<std::vector<mipnet::Texels>> starts = {{flat_texels(32, 0.15f), flat_texels(16, 0.15f)},
                                                                  {flat_texels(32, 0.8f), flat_texels(16, 0.8f)}};
-        const std::vector<mipnet::Texels> taught = taught_levels(relief, starts, surface, jobs);
-        const auto errors = shown_errors(relief, {starts[0], taught}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0});
+        const std::vector<mipnet::Texels> taught = optimised_levels(relief, starts, surface, jobs);
+        const auto errors = mip_errors(relief, {starts[0], taught}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0});
         for (std::size_t l = 0; l < 2; ++l) {
             EXPECT_LT(errors[1][l].l1, 0.7 * errors[0][l].l1) << static_cast<int>(lobe);
             EXPECT_NEAR(taught[l].channel[0][0], 0.03, 0.015);                   // the mean slope
             EXPECT_GT(taught[l].channel[3][0], taught[l].channel[2][0] + 0.01f); // wider along x, as b is
         }
         const std::vector<mipnet::Texels> kept =
-            taught_levels(flat_texels(8, 0.3f), {{flat_texels(4, 0.9f)}, {flat_texels(4, 0.3f)}}, surface, jobs);
+            optimised_levels(flat_texels(8, 0.3f), {{flat_texels(4, 0.9f)}, {flat_texels(4, 0.3f)}}, surface, jobs);
         EXPECT_EQ(kept[0].channel[2], flat_texels(4, 0.3f).channel[2]);
     }
 }
@@ -265,21 +265,21 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
 TEST(mip_teacher, crossed_grain_wants_two_lobes)
 {
     const Jobs jobs(2);
-    const ShownSurface surface = shown_surface(mipnet::Lobe::ggx_aniso, true);
+    const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::ggx_aniso, true);
     mipnet::Texels grain = flat_texels(32, 0.3f);
     for (std::size_t i = 0; i < grain.count(); ++i) {
         const bool along = (i + i / 32) % 2 == 0;
         grain.channel[2][i] = along ? 0.5f : 0.06f, grain.channel[3][i] = along ? 0.06f : 0.5f;
     }
-    const std::vector<mipnet::Texels> one = taught_levels(grain, {{flat_texels(16, 0.3f)}}, surface, jobs);
-    const LobePairs two = taught_pairs(grain, one, surface, jobs), again = taught_pairs(grain, one, surface, Jobs(1));
+    const std::vector<mipnet::Texels> one = optimised_levels(grain, {{flat_texels(16, 0.3f)}}, surface, jobs);
+    const LobePairs two = optimised_pairs(grain, one, surface, jobs), again = optimised_pairs(grain, one, surface, Jobs(1));
     EXPECT_EQ(two.first[0].channel[2], again.first[0].channel[2]);
-    const auto errors = shown_errors(grain, {one, two.first}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0}, {{}, two.second});
+    const auto errors = mip_errors(grain, {one, two.first}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0}, {{}, two.second});
     EXPECT_LT(errors[1][0].l1, 0.75 * errors[0][0].l1);
     // Where one lobe suffices, two are no worse.
     const std::vector<mipnet::Texels> flat = {flat_texels(16, 0.3f)};
-    const LobePairs same = taught_pairs(flat_texels(32, 0.3f), flat, surface, jobs);
-    EXPECT_LT(shown_errors(flat_texels(32, 0.3f), {same.first}, surface, jobs, {.times = 8, .lamps = 0}, {same.second})[0][0].l1, 2e-3);
+    const LobePairs same = optimised_pairs(flat_texels(32, 0.3f), flat, surface, jobs);
+    EXPECT_LT(mip_errors(flat_texels(32, 0.3f), {same.first}, surface, jobs, {.times = 8, .lamps = 0}, {same.second})[0][0].l1, 2e-3);
 }
 
 // Odd sides: texels below are shared out by area. Levels have equal bits for every thread count and instruction set.

@@ -136,7 +136,7 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
         EnvironmentOptions o = small_bake();
         o.cube_size = 128;
         o.samples = EnvironmentOptions{}.samples;
-        o.key_lights = 0; // keep the sun
+        o.extracted_lights = 0; // keep the sun
         const Result<Environment> e = bake_environment(*image, name, o, Jobs(2));
         ASSERT_TRUE(e);
         const CubeLevel level0 = equirect_to_cube(make_equirect(*image), o.cube_size, Jobs(2));

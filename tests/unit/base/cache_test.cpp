@@ -113,7 +113,7 @@ class Variable { // sets an environment variable for its lifetime
 TEST_F(cache, limit_is_the_variable_s_or_the_usual_one)
 {
     const Variable variable("BURNISH_CACHE_BYTES", nullptr);
-    EXPECT_EQ(cache_limit(), kUsualCacheBytes);
+    EXPECT_EQ(cache_limit(), kDefaultCacheBytes);
     for (const auto& [text, bytes] :
          {std::pair{"0", 0ull}, {"1234", 1234ull}, {"3K", 3072ull}, {"500M", 500ull << 20}, {"4G", 4ull << 30}}) {
         variable.set(text);
@@ -121,7 +121,7 @@ TEST_F(cache, limit_is_the_variable_s_or_the_usual_one)
     }
     for (const char* text : {"", "-1", "4T", "x", "4GB", "99999999999999999999", "99999999999G", "1 "}) {
         variable.set(text);
-        EXPECT_EQ(cache_limit(), kUsualCacheBytes) << text;
+        EXPECT_EQ(cache_limit(), kDefaultCacheBytes) << text;
     }
 }
 

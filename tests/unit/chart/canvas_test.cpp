@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/report/canvas.h"
-#include "apps/report/looks.h"
+#include "apps/report/chart_style.h"
 #include "apps/report/png.h"
 
 namespace burnish {

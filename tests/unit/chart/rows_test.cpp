@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "apps/chart/load.h"
+#include "apps/chart/cpu_load.h"
 #include "tests/unit/chart/sample.h"
 
 namespace burnish {
@@ -61,7 +61,7 @@ TEST(chart_rows, rows_are_compared_with_those_of_their_place_only)
 
 TEST(chart_rows, kept_rows_come_back_as_they_were)
 {
-    Kept kept;
+    ChartResults kept;
     std::map<std::string, Measured>& rows = kept.rows;
     rows["half"].ms = {1.25, 1.0 / 3.0};
     rows["half"].cpu_ms = {2.0, 3.0};
@@ -70,7 +70,7 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
     rows["bad"].errors = {kNan, kNan, kNan, kNan, 12};
     kept.references["place"] = {4096, 1.0 / 3.0, 0.001};
     kept.references["once"] = {64, INFINITY, kNan};
-    const Result<Kept> back = parse_kept(kept_json(kept), "rows.json");
+    const Result<ChartResults> back = parse_chart_results(chart_results_json(kept), "rows.json");
     ASSERT_TRUE(back);
     ASSERT_EQ(back->rows.size(), 3u);
     EXPECT_EQ(back->rows.at("half").ms, rows["half"].ms);
@@ -94,8 +94,8 @@ TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
                              "{\"kept_version\": 2, \"references\": {\"a\": {\"samples\": \"x\"}}, \"rows\": {}}",
                              "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
                              "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
-        EXPECT_FALSE(parse_kept(text, "rows.json")) << text;
-    const Result<Kept> newer = parse_kept("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
+        EXPECT_FALSE(parse_chart_results(text, "rows.json")) << text;
+    const Result<ChartResults> newer = parse_chart_results("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
     ASSERT_TRUE(newer); // rows of another version are dropped
     EXPECT_TRUE(newer->rows.empty());
 }

@@ -46,11 +46,12 @@ float stored(float angle)
     return std::atan2(byte(std::sin(angle)), byte(std::cos(angle)));
 }
 
-// Keeps the sun in the prefiltered levels, since a key light grows with a high power of a thin lobe's width (key_lights_test.cpp).
+// Keeps the sun in the prefiltered levels, since an extracted light grows with a high power of a thin lobe's width
+// (extracted_lights_test.cpp).
 Environment sky()
 {
     EnvironmentOptions options;
-    options.key_lights = 0;
+    options.extracted_lights = 0;
     options.cube_size = 64, options.samples = 64, options.use_cache = false;
     Jobs jobs{1};
     return *load_environment("builtin:sky", options, Limits{}, jobs);

@@ -108,7 +108,7 @@ double mean_light(const ShadingFrame& f, const float* to_eye, float footprint, i
         u = part_of(u + 0.7548776662466927), v = part_of(v + 0.5698402909980532);
         p.uv0 = {static_cast<float>(u), static_cast<float>(v)};
         const material_inputs at = fetch_lanes(f, m, p);
-        const line_record r =
+        const shared_sample_record r =
             light_of_fragment(f, m, technique_tag<Technique::mc>{}, at, lobe_shape_of(f, m, at), p, int_lit(i % 8), int_lit(i / 8), false);
         sum += static_cast<double>(r.rest.x + r.rest.y + r.rest.z) / 3.0 / points;
     }

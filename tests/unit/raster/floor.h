@@ -33,16 +33,16 @@ struct Floor {
         stage.tables.lights = {l};
         draw_again();
     }
-    // Replaces the key lights by a disc of irradiance 1 with this angular radius (radians).
+    // Replaces the extracted lights by a disc of irradiance 1 with this angular radius (radians).
     void put_sun(const glm::dvec3& from, double radius)
     {
         const glm::dvec3 u = glm::normalize(glm::cross(from, glm::dvec3(0.3, 1.0, 0.2))) * radius, v = glm::cross(from, u);
-        KeyLight k = {};
+        ExtractedLight k = {};
         for (int i = 0; i < 3; ++i) {
             k.direction[i] = static_cast<float>(from[i]), k.irradiance[i] = 1.0f;
             k.axis_u[i] = static_cast<float>(u[i]), k.axis_v[i] = static_cast<float>(v[i]);
         }
-        stage.environment.key_lights = {k};
+        stage.environment.extracted_lights = {k};
         stage.environment.whole = stage.environment.specular;
         draw_again();
     }

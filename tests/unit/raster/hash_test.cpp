@@ -159,7 +159,7 @@ TEST(golden, picture_of_the_sun_is_as_it_was)
     const Case c = {"spheres", 96, 64, 4};
     const std::unique_ptr<Stage> stage = stage_of(c, 2);
     stage->environment = small_bake("sky");
-    ASSERT_EQ(stage->environment.key_lights.size(), 1u);
+    ASSERT_EQ(stage->environment.extracted_lights.size(), 1u);
     for (Isa isa : available_isas()) {
         FrameDesc d = desc_of(c, *stage);
         d.roughness = 0.4f, d.anisotropy = 0.8f, d.override_anisotropy = true;

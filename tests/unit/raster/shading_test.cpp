@@ -184,7 +184,7 @@ TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
             for (float roughness : {0.0f, 0.02f, 0.5f, 1.0f})
                 for (float anisotropy : {-1.0f, 0.0f, 0.3f, 1.0f})
                     for (float tilt : {0.0f, 1.2f}) {
-                        d.technique = t.name, d.samples = samples_taken(t, samples);
+                        d.technique = t.name, d.samples = effective_samples(t, samples);
                         d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, -tilt};
                         const Frame f = stage.render(d, best_isa());
                         ASSERT_EQ(count_not_finite(f.color), 0u) << t.name << ", " << samples << " samples, alpha_lin " << roughness

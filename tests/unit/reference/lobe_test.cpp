@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raster/reference/samples.h"
-#include "shading/surface/placed_lobe.t.h"
+#include "shading/surface/bsdf_lobe.t.h"
 #include "tests/unit/reference/chi_square.h"
 #include "tests/unit/reference/scenes.h"
 
@@ -23,13 +23,13 @@ constexpr LobeLine kLobes[] = {
 };
 
 // Places a lobe on a surface whose axes are not aligned with coordinates. tilt: sines of the lobe normal's tilt, if it can tilt.
-placed_lobe lobe_on_surface(const LobeLine& line, float alpha_u, float alpha_v, real3 eye, real2 tilt = {0.0f, 0.0f})
+bsdf_lobe lobe_on_surface(const LobeLine& line, float alpha_u, float alpha_v, real3 eye, real2 tilt = {0.0f, 0.0f})
 {
     const surface_frame axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
     const surface_frame f =
         tilted_frame(axes, vec2_of(std::sqrt(1.0f - tilt.x * tilt.x), std::sqrt(1.0f - tilt.y * tilt.y)), vec2_of(tilt.x, tilt.y));
     const aniso_lobe lobe = {f.t, f.b, alpha_u * 0.70710678f, alpha_v * 0.70710678f};
-    return placed_lobe_of(line.place, lobe, f.n, k_normalize3(eye), axes);
+    return make_bsdf_lobe(line.place, lobe, f.n, k_normalize3(eye), axes);
 }
 
 real3 direction_at(double z, double phi)
@@ -45,15 +45,15 @@ struct Integral {
     std::vector<double> share = std::vector<double>(kZ * kPhi + 1); // part of samples in each bin; the last bin holds rejected samples
 };
 
-Integral integral_of(const placed_lobe& lobe)
+Integral integral_of(const bsdf_lobe& lobe)
 {
     Integral sum;
     const double solid = 6.283185307179586 / (kZ * kFine) / (kPhi * kFine);
     for (int a = 0; a < kZ * kFine; ++a)
         for (int b = 0; b < kPhi * kFine; ++b) {
             const real3 wi = direction_at((a + 0.5) / (kZ * kFine), (b + 0.5) / (kPhi * kFine) * 6.283185307179586);
-            const double pdf = static_cast<double>(placed_lobe_pdf(lobe, wi)) * solid;
-            sum.albedo += static_cast<double>(placed_lobe_value(lobe, wi)) * solid;
+            const double pdf = static_cast<double>(bsdf_lobe_pdf(lobe, wi)) * solid;
+            sum.albedo += static_cast<double>(bsdf_lobe_eval_cos(lobe, wi)) * solid;
             sum.share[static_cast<std::size_t>(a / kFine * kPhi + b / kFine)] += pdf;
             sum.inside += pdf;
         }
@@ -78,12 +78,12 @@ template <class Check> void for_each_lobe(Check check)
 
 TEST(lobe, has_the_albedo_that_its_values_add_up_to)
 {
-    for_each_lobe([](const placed_lobe& lobe) {
+    for_each_lobe([](const bsdf_lobe& lobe) {
         if (lobe_has(lobe.model, kPunctualOnly))
             return;
         const Integral whole = integral_of(lobe);
-        const double off = lobe_has(lobe.model, kLobeOfPhong) ? 0.02 : 0.07;
-        EXPECT_NEAR(static_cast<double>(placed_lobe_own_energy(lobe).albedo), whole.albedo, off * std::max(1.0, whole.albedo));
+        const double off = lobe_has(lobe.model, kPhongLobe) ? 0.02 : 0.07;
+        EXPECT_NEAR(static_cast<double>(bsdf_lobe_own_energy(lobe).albedo), whole.albedo, off * std::max(1.0, whole.albedo));
         EXPECT_GT(whole.albedo, 0.05);
     });
 }
@@ -91,7 +91,7 @@ TEST(lobe, has_the_albedo_that_its_values_add_up_to)
 TEST(lobe, samples_follow_their_density_and_weigh_value_over_it)
 {
     constexpr int kSamples = 1 << 15;
-    for_each_lobe([](const placed_lobe& lobe) {
+    for_each_lobe([](const bsdf_lobe& lobe) {
         const Integral whole = integral_of(lobe);
         EXPECT_LT(whole.inside, 1.002);
         std::vector<double> seen(whole.share.size()), expected = whole.share;
@@ -101,7 +101,7 @@ TEST(lobe, samples_follow_their_density_and_weigh_value_over_it)
         double sum = 0.0, square = 0.0;
         for (int i = 0; i < kSamples; ++i) {
             const float x = random.unit(), y = random.unit();
-            const bsdf_sample s = placed_lobe_sample(lobe, vec2_of(x, y));
+            const bsdf_sample s = bsdf_lobe_sample(lobe, vec2_of(x, y));
             const double w = static_cast<double>(s.weight);
             sum += w, square += w * w;
             if (!s.valid) {
@@ -110,7 +110,7 @@ TEST(lobe, samples_follow_their_density_and_weigh_value_over_it)
                 continue;
             }
             if (i % 16 == 0) {
-                const float pdf = placed_lobe_pdf(lobe, s.wi), value = placed_lobe_value(lobe, s.wi);
+                const float pdf = bsdf_lobe_pdf(lobe, s.wi), value = bsdf_lobe_eval_cos(lobe, s.wi);
                 EXPECT_NEAR(pdf, s.pdf, 1e-2f * s.pdf + 1e-4f);
                 EXPECT_NEAR(value, s.weight * s.pdf, 2e-2f * value + 1e-4f);
             }
@@ -135,15 +135,14 @@ TEST(lobe, leaves_less_the_farther_it_is_tilted_away)
         const real3 eye = {0.0f, std::sin(0.6f), std::cos(0.6f)};
         for (const float tilt : {0.0f, 0.2f, 0.48f, 0.78f, 0.963f}) {
             const auto away = [&](float alpha_u, float alpha_v) {
-                placed_lobe lobe = lobe_on_surface(line, alpha_u, alpha_v, eye, {-tilt, 0.0f});
+                bsdf_lobe lobe = lobe_on_surface(line, alpha_u, alpha_v, eye, {-tilt, 0.0f});
                 const surface_frame axes = lobe.axes; // the eye lies in the plane of the tilt
                 lobe.o = k_normalize3(vec3_of(0.0f, eye.y, eye.z));
                 lobe.axes = axes;
                 return lobe;
             };
-            EXPECT_NEAR(placed_lobe_own_energy(away(0.004f, 0.002f)).albedo, placed_lobe_mirror_albedo(away(0.004f, 0.002f)), 0.02f)
-                << tilt;
-            const double now = static_cast<double>(placed_lobe_own_energy(away(0.1f, 0.1f)).albedo);
+            EXPECT_NEAR(bsdf_lobe_own_energy(away(0.004f, 0.002f)).albedo, bsdf_lobe_mirror_albedo(away(0.004f, 0.002f)), 0.02f) << tilt;
+            const double now = static_cast<double>(bsdf_lobe_own_energy(away(0.1f, 0.1f)).albedo);
             EXPECT_LT(now, last + 0.01) << tilt;
             last = now;
         }

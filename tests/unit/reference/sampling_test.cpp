@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "raster/reference/light_sampling.h"
-#include "raster/reference/reflector.h"
 #include "raster/reference/samples.h"
+#include "raster/reference/surface_bsdf.h"
 #include "tests/unit/reference/chi_square.h"
 #include "tests/unit/reference/scenes.h"
 
@@ -176,29 +176,29 @@ TEST(environment_sampler, black_is_sampled_evenly)
     EXPECT_EQ(s.mean_luminance, 0.0);
 }
 
-Reflector reflector_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v, bool tilted = false)
+SurfaceBsdf surface_bsdf_of(float f0, float diffuse, float sigma_u, float sigma_v, real3 v, bool tilted = false)
 {
     ShadingFrame f = {};
-    f.lobe = lobe_with(tilted ? kLobeOfTilted : kLobeOfAll), f.lobe_traits = lobe_traits_of(f.lobe);
+    f.lobe = lobe_with(tilted ? kTiltedLobe : kDefaultLobe), f.lobe_traits = lobe_traits_of(f.lobe);
     shaded_point x = {};
-    x.surface_axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
-    const surface_frame frame = tilted ? tilted_frame(x.surface_axes, {0.94f, 0.96f}, {0.341174f, -0.28f}) : x.surface_axes;
+    x.geometric_axes = {{0, 0, 1}, {0.6f, 0.8f, 0.0f}, {-0.8f, 0.6f, 0.0f}};
+    const surface_frame frame = tilted ? tilted_frame(x.geometric_axes, {0.94f, 0.96f}, {0.341174f, -0.28f}) : x.geometric_axes;
     x.s = metallic_roughness_surface({0, 0, 1}, k_normalize3(v), vec3_all(diffuse), 0.0f, 0.5f, vec3_all(f0), 1.0f, 1.0f);
     x.s.n = frame.n;
     x.lobe = {frame.t, frame.b, sigma_u, sigma_v};
-    x.turned = tilted, x.diffuse = true;
+    x.has_surface_horizon = tilted, x.diffuse = true;
     x.dfg = {0.8f, 0.02f}, x.gain = vec3_all(1.0f);
     x.dielectric_f0 = vec3_all(f0), x.dielectric_f90 = 1.0f;
-    return make_reflector(f, x, false, coat_layer{});
+    return make_surface_bsdf(f, x, false, coat_layer{});
 }
 
-TEST(reflector, samples_follow_their_density_and_weigh_value_over_it)
+TEST(surface_bsdf, samples_follow_their_density_and_weigh_value_over_it)
 {
     constexpr int kZ = 16, kPhi = 24, kFine = 24, kSamples = 1 << 18;
-    const Reflector cases[] = {
-        reflector_of(0.04f, 0.5f, 0.3f, 0.05f, {0.5f, 0.1f, 0.8f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.7f, 0.6f, 0.3f}),
-        reflector_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f}), reflector_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.5f, 0.6f, 0.5f}, true)};
-    for (const Reflector& r : cases) {
+    const SurfaceBsdf cases[] = {
+        surface_bsdf_of(0.04f, 0.5f, 0.3f, 0.05f, {0.5f, 0.1f, 0.8f}), surface_bsdf_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.7f, 0.6f, 0.3f}),
+        surface_bsdf_of(0.5f, 0.5f, 0.15f, 0.15f, {0.0f, 0.0f, 1.0f}), surface_bsdf_of(0.9f, 0.0f, 0.4f, 0.1f, {-0.5f, 0.6f, 0.5f}, true)};
+    for (const SurfaceBsdf& r : cases) {
         std::vector<double> seen(kZ * kPhi + 1), expected(kZ * kPhi + 1);
         double albedo = 0.0, inside = 0.0;
         for (int a = 0; a < kZ * kFine; ++a)
@@ -218,7 +218,7 @@ TEST(reflector, samples_follow_their_density_and_weigh_value_over_it)
         double sum = 0.0, square = 0.0;
         for (int i = 0; i < kSamples; ++i) {
             const float x = random.unit(), y = random.unit(), choice = random.unit();
-            const ReflectorSample s = sample_reflector(r, vec2_of(x, y), choice);
+            const SurfaceBsdfSample s = sample_surface_bsdf(r, vec2_of(x, y), choice);
             const double w = static_cast<double>(s.weight.x);
             sum += w, square += w * w;
             if (!(s.wi.z > 0.0f)) {

@@ -69,8 +69,8 @@ TEST(builtin, unknown_names_are_errors_that_list_the_known)
 
 TEST(builtin, trials_are_made_by_an_amount)
 {
-    EXPECT_GE(builtin_trials().size(), 18u);
-    for (const BuiltinInfo& info : builtin_trials()) {
+    EXPECT_GE(builtin_failure_scenes().size(), 18u);
+    for (const BuiltinInfo& info : builtin_failure_scenes()) {
         const Result<Scene> usual = make_builtin_scene(info.name);
         ASSERT_TRUE(usual) << info.name;
         EXPECT_EQ(usual->name, info.name);

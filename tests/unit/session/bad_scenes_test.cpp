@@ -315,7 +315,7 @@ const BadParts kParts[] = {
     {"/specular/scale", [](SceneData&, Environment& e, DfgTable&) { e.specular.scale = kNan; }},
     {"/irradiance/size", [](SceneData&, Environment& e, DfgTable&) { e.irradiance.size = 31; }},
     {"/rotation_deg", [](SceneData&, Environment& e, DfgTable&) { e.rotation_deg = kNan; }},
-    {"/key_lights", [](SceneData&, Environment& e, DfgTable&) { e.whole = e.specular, e.key_lights.resize(99); }},
+    {"/extracted_lights", [](SceneData&, Environment& e, DfgTable&) { e.whole = e.specular, e.extracted_lights.resize(99); }},
     {"/dfg/size", [](SceneData&, Environment&, DfgTable& t) { t.size = -1; }},
     {"/dfg/pairs", [](SceneData&, Environment&, DfgTable& t) { t.pairs.resize(2); }},
 };

@@ -56,7 +56,7 @@ TEST(prune, leaves_the_techniques_and_lobes_that_are_used)
 TEST(prune, leaves_everything_where_all_may_be_met)
 {
     const Words all = stage("shade"), same = pruned(all, {-1, -1, 1, 1});
-    for (const char* name : {"major_axis_specular", "as_mc_specular", "ward_eval", "store_line"})
+    for (const char* name : {"major_axis_specular", "as_mc_specular", "ward_eval", "store_shared_sample"})
         EXPECT_TRUE(has_function(same, name)) << name;
 }
 

@@ -1,0 +1,249 @@
+// Picture sequences: options that change from one picture to the next, or a turntable.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <utility>
+
+#include "apps/cli/numbered.h"
+#include "apps/cli/open.h"
+#include "apps/cli/outputs.h"
+#include "apps/options/animate.h"
+#include "apps/options/scene_view.h"
+#include "apps/render/picture.h"
+#include "core/image/io/apng.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_one_of(const std::string& text, const std::vector<std::string>& of)
+{
+    return std::find(of.begin(), of.end(), text) != of.end();
+}
+
+// Options for one picture in a sequence.
+struct Step {
+    RenderOptions options;
+    std::string values; // the changing values, such as "roughness 0.1, tilt 0,0"
+    Json json;          // the same values, by option
+};
+
+// A picture sequence: --animate or --turntable.
+class Animation {
+  public:
+    static Result<Animation> make(RenderArguments& arguments, OptionTable& given)
+    {
+        Animation row(arguments, given);
+        const std::string asked = arguments.plain.turntable ? "--turntable" : "--animate";
+        for (const char* other : {"--frames", "--checkpoint", "--variance", "--trace", "--risks"})
+            if (given.given(other))
+                return usage_error(other, "cannot be combined with " + asked);
+        if (arguments.plain.turntable)
+            for (const char* other : {"--animate", "--eye", "--target", "--camera"})
+                if (given.given(other))
+                    return usage_error(other, "cannot be combined with --turntable");
+        for (const std::string& pattern : arguments.plain.outputs)
+            if (const std::string extension = fs::path(pattern).extension();
+                is_one_of(extension, {".gif", ".webp", ".mp4", ".avi", ".webm", ".mov"}))
+                return usage_error("-o", fmt::format("'{}': a moving picture is an .apng, others are not written", pattern));
+            else if (extension == ".apng")
+                row.movies_.push_back(pattern);
+            else if (!has_number(pattern))
+                return usage_error("-o", fmt::format("'{}' needs a number such as %04d with {}", pattern, asked));
+        if (row.movies_.empty() && given.given("--fps"))
+            return usage_error("--fps", "needs -o FILE.apng");
+        row.count_ = arguments.plain.turntable ? arguments.plain.turntable : arguments.steps;
+        if (!arguments.animate.empty()) {
+            Result<std::vector<OptionPath>> paths = parse_option_paths("--animate", arguments.animate, given);
+            BN_TRY(paths);
+            row.paths_ = std::move(*paths);
+        }
+        for (const OptionPath& path : row.paths_) {
+            const Option& option = *given.find(path.option);
+            row.lights_change_ = row.lights_change_ || option.group == "Environment";
+            row.scene_changes_ = row.scene_changes_ || changes_scene(option);
+        }
+        for (int i = 0; i < row.count_; ++i) // checks every step first: a bad value in the middle ends the run at once
+            if (const Result<Step> step = row.step(i); !step)
+                return step.error();
+        return row;
+    }
+
+    int count() const { return count_; }
+    const std::vector<std::string>& movies() const { return movies_; } // files that hold all pictures
+    bool lights_change() const { return lights_change_; }
+    bool scene_changes() const { return scene_changes_; }
+
+    Result<Step> step(int i)
+    {
+        Step out;
+        out.json["step"] = i;
+        for (const OptionPath& path : paths_) {
+            const std::string value = value_at(path, static_cast<double>(i) / (count_ - 1));
+            BN_TRY(given_.set(path.option, value));
+            out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
+            out.json[path.option.substr(2)] = value;
+        }
+        Result<RenderOptions> options = check_render_options(arguments_, given_);
+        BN_TRY(options);
+        out.options = std::move(*options);
+        std::vector<std::string> pictures;
+        for (const std::string& output : out.options.outputs)
+            if (!is_one_of(output, movies_))
+                pictures.push_back(numbered(output, i));
+        out.options.outputs = std::move(pictures);
+        return out;
+    }
+
+  private:
+    Animation(RenderArguments& arguments, OptionTable& given) : arguments_(arguments), given_(given) {}
+    RenderArguments& arguments_;
+    OptionTable& given_;
+    std::vector<OptionPath> paths_;
+    std::vector<std::string> movies_;
+    int count_ = 0;
+    bool lights_change_ = false, scene_changes_ = false;
+};
+
+// Refuses a picture path that is also an input or another output.
+Status check_animation_paths(Animation& row, const std::vector<std::string>& inputs)
+{
+    for (int i = 0; i < row.count(); ++i)
+        if (const Status paths = check_paths(row.step(i)->options, inputs); !paths)
+            return paths;
+    for (std::size_t i = 0; i < row.movies().size(); ++i) {
+        if (const Status path = check_text_path("-o", row.movies()[i], inputs); !path)
+            return path;
+        for (std::size_t k = 0; k < i; ++k)
+            if (same_file(row.movies()[i], row.movies()[k]))
+                return usage_error("-o", fmt::format("'{}' is given twice", row.movies()[i]));
+    }
+    return {};
+}
+
+Result<View> view_of_step(const Step& step, int i, const Session& session, const std::vector<View>& turntable)
+{
+    if (!turntable.empty()) {
+        View view = turntable[static_cast<std::size_t>(i)];
+        view.tan_half_x /= step.options.zoom, view.tan_half_y /= step.options.zoom;
+        return view;
+    }
+    const Result<ChosenView> view = choose_view(step.options, session.scene(), session.tables());
+    BN_TRY(view);
+    return view->view;
+}
+
+// Returns the previous step's parts with the changed parts made anew.
+Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
+{
+    if (lights) {
+        const auto environment = open_light(options, *parts.scene, *parts.jobs);
+        BN_TRY(environment);
+        parts.environment = *environment;
+    }
+    if (scene) {
+        const auto data = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
+        BN_TRY(data);
+        parts.scene = *data;
+    }
+    return parts;
+}
+
+} // namespace
+
+int run_animation(RenderArguments& arguments, OptionTable& given)
+{
+    // Check every step, then load the first
+    Result<Animation> row = Animation::make(arguments, given);
+    if (!row)
+        return fail(row.error());
+    const RenderOptions first = row->step(0)->options;
+    if (Status paths = check_animation_paths(*row, {first.scene, first.env}); !paths)
+        return fail(paths.error());
+    Report report(first.quiet, first.verbosity);
+    for (const std::string& warning : first.warnings)
+        report.warning(warning);
+    RenderFigures figures;
+    std::optional<Error> lost_checkpoint;
+    Result<Session> session = prepare(first, figures, lost_checkpoint, report);
+    if (!session)
+        return fail(session.error());
+    for (const std::vector<std::string>& read : {session->scene().files, session->parts().environment->files})
+        if (Status paths = check_animation_paths(*row, read); !paths)
+            return fail(paths.error());
+    // Choose the turntable's views, which keep one distance
+    std::vector<View> turntable;
+    if (first.turntable)
+        turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kDefaultOrbitDeg),
+                                    first.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree, row->count());
+    report.release();
+    Json steps = Json::array();
+    RenderFigures last = figures;
+    std::vector<double> times;
+    MovingPicture movie(first.fps);
+    // Render each step
+    for (int i = 0; i < row->count(); ++i) {
+        const Step step = std::move(*row->step(i));
+        // Make the session's changed parts anew
+        if (i > 0 && (row->lights_change() || row->scene_changes())) {
+            Result<SessionParts> parts = parts_of_step(step.options, session->parts(), row->lights_change(), row->scene_changes());
+            if (!parts)
+                return fail(parts.error());
+            Result<Session> next = Session::make(std::move(*parts), session_options(step.options, lost_checkpoint));
+            if (!next)
+                return fail(next.error());
+            *session = std::move(*next);
+        }
+        const Result<View> view = view_of_step(step, i, *session, turntable);
+        if (!view)
+            return fail(view.error());
+        FrameDesc desc = step.options.frame;
+        desc.view = *view;
+        const Result<Rendered> rendered = render_frames(step.options, desc, *session, figures);
+        if (!rendered)
+            return fail(rendered.error());
+        last = rendered->figures;
+        // Record the step and write its files
+        times.push_back(last.frame.ms);
+        Json json = step.json;
+        json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
+        steps.push_back(json);
+        for (const std::string& path : step.options.outputs)
+            if (const Status written = write_rendered(path, *rendered, step.options); !written)
+                return fail(written.error());
+        if (!row->movies().empty())
+            if (const Status added =
+                    movie.add(row->movies()[0], display_picture(rendered->color, step.options.tonemap, step.options.exposure_ev,
+                                                                rendered->parts, step.options.resolve));
+                !added)
+                return fail(added.error());
+        report.event(fmt::format("{} of {}", i + 1, row->count()),
+                     fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
+                                 hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
+        if (last.nan_pixels)
+            return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
+                              fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
+    }
+    // Write the files that hold all pictures
+    for (const std::string& path : row->movies()) {
+        const std::vector<std::uint8_t> bytes = movie.bytes();
+        if (const Status written = write_file(path, std::string(bytes.begin(), bytes.end())); !written)
+            return fail(written.error());
+        report.wrote(path);
+    }
+    // Write the statistics with one entry a step
+    if (first.stats_file.empty())
+        return 0;
+    last.frame_ms = std::move(times);
+    last.warnings = report.warnings();
+    Json json = stats_json(row->step(row->count() - 1)->options, last);
+    json["steps"] = std::move(steps);
+    const Status written = write_text(first.stats_file, json.dump(2) + "\n");
+    if (written)
+        report.wrote(first.stats_file);
+    return written ? 0 : fail(written.error());
+}
+
+} // namespace burnish

@@ -1,0 +1,134 @@
+#include "raster/frame/mip_cache.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/base/cache.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/jobs/activity.h"
+#include "raster/frame/colours.h"
+#include "raster/frame/pyramids.h"
+#include "shading/bake/mip/filter.h"
+#include "shading/bake/mip/pyramid_file.h"
+#include "shading/bake/mip/source.h"
+#include "shading/bake/mipnet/weights.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::uint32_t kCacheVersion = 4; // version of the makers: raise it when the same maps give other levels
+constexpr std::uint64_t kMostCacheBytes = 4ull << 30;
+
+std::string cache_path(const std::string& folder, const void* of, std::size_t size)
+{
+    char name[64];
+    std::snprintf(name, sizeof name, "/levels-%016" PRIx64 ".mip", hash_bytes(of, size));
+    return folder + name;
+}
+
+std::string cache_path(const std::string& folder, std::uint64_t source, const Scene& scene, const Material& m, const MaterialMips& mips)
+{
+    const struct {
+        std::uint64_t source, net;
+        std::uint32_t version, filter;
+        float kappa;
+        std::uint32_t gained;
+    } of = {source,        levels_hash(*mips.net, mips.filter, is_metal(scene, m)),
+            kCacheVersion, static_cast<std::uint32_t>(mips.filter),
+            mips.kappa,    mips.gains ? gained_of(mips.net->shape.lobe, is_metal(scene, m)) : 0u};
+    return cache_path(folder, &of, sizeof of);
+}
+
+std::string cache_path(const std::string& folder, const MapId& id)
+{
+    const struct {
+        MapId id;
+        std::uint64_t version;
+    } of = {id, kCacheVersion};
+    return cache_path(folder, &of, sizeof of);
+}
+
+MipFile read_cached(const std::string& path)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostCacheBytes, Links::refuse);
+    if (!bytes)
+        return {};
+    Result<MipFile> read = parse_mip_file(*bytes, path);
+    return read ? std::move(*read) : MipFile();
+}
+
+Status write_kept(const std::string& path, const MipParts& levels)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed); // write_mip_file() reports errors
+    const Status written = write_mip_file(path, levels, Links::refuse);
+    prune_cache(folder, cache_limit(), path);
+    return written;
+}
+
+void keep_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const std::string& folder, const Jobs& jobs,
+                std::vector<MipLevels>& kept)
+{
+    const MipSource source = mip_source(scene, m);
+    const std::uint64_t hash = source.hash(jobs);
+    const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, mips); };
+    if (std::any_of(kept.begin(), kept.end(), fit))
+        return;
+    const std::string path = cache_path(folder, hash, scene, m, mips);
+    if (MipFile file = read_cached(path); file.materials.size() == 1 && file.maps.empty() && fit(file.materials[0])) {
+        note_cache_use(path);
+        kept.push_back(std::move(file.materials[0]));
+        return;
+    }
+    const Activity activity("levels of " + levels_name(m, mips));
+    kept.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
+    if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
+        scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
+}
+
+void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::string& folder, const Jobs& jobs,
+              std::vector<MapLevels>& kept)
+{
+    const MapId id = map_id(scene, m, map, jobs);
+    const Image& image = map_image(scene, *map.ref);
+    if (find_map(kept, id, image))
+        return;
+    const std::string path = cache_path(folder, id);
+    if (MipFile file = read_cached(path); file.materials.empty() && file.maps.size() == 1 && find_map(file.maps, id, image)) {
+        note_cache_use(path);
+        kept.push_back(std::move(file.maps[0]));
+        return;
+    }
+    const Activity activity(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name + "'");
+    kept.push_back(map_levels(scene, m, map, id, jobs));
+    if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)
+        scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +
+                                 "' are not cached: " + written.error().line());
+}
+
+} // namespace
+
+void cache_mips(Scene& scene, SceneMips& mips, const Jobs& jobs)
+{
+    const std::string folder = cache_folder();
+    if (folder.empty())
+        return;
+    MipFile kept;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const MaterialMips& of = mips.of(i);
+        if (takes_net(of.filter) && of.net && is_filtered(scene, m, of))
+            keep_lobes(scene, m, of, folder, jobs, kept.materials);
+        for (const UsedMap& map : used_maps(scene, m, of))
+            if (map.coupled || map.kernel != ColourKernel::box)
+                keep_map(scene, m, map, folder, jobs, kept.maps);
+    }
+    if (!kept.materials.empty() || !kept.maps.empty())
+        mips.cached = std::make_shared<const MipFile>(std::move(kept));
+}
+
+} // namespace burnish
