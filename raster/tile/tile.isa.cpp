@@ -208,14 +208,12 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
         return;
     }
     // Use plain code if frame and material need nothing more
-    const int more = t.f.light_count | t.f.area_light_count | t.f.extracted_light_count | t.f.energy_compensation | t.f.dfg_fit |
-                     t.f.fresnel | t.f.diffuse_model | t.f.specular_aa;
+    constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
+    constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
+    using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;
     constexpr std::uint32_t kWorthACopy = 8 * kLanes; // below this, copies and hoisted values do not pay
-    if (plan.uniform && end - begin >= kWorthACopy && !more && !m.refracts && !m.coated && t.f.lobe == PlainFrame::lobe) {
-        constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
-        constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
-        using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;
-        if (kAlsoRound && !m.anisotropic)
+    if (plan.uniform && end - begin >= kWorthACopy && PlainFrame::fits(t.f) && Material::fits(m)) {
+        if (kAlsoRound && RoundMaterial::fits(m))
             shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, Material>>(t, view, m, plan, begin, end);
         else
             shade_plain_slot<kTechnique, Material>(t, view, m, plan, begin, end);

@@ -148,22 +148,51 @@ BN_INLINE constexpr bool coats_used()
     return true;
 }
 
-// A frame and materials where only geometry varies. They have no textures, vertex colours, punctual or area lights, energy
-// compensation, exact Fresnel, transmission or coats, and the default lobe only.
-struct PlainFrame : ShadingFrame {
-    static constexpr int light_count = 0, area_light_count = 0, extracted_light_count = 0, energy_compensation = 0, dfg_fit = 0,
-                         fresnel = 0, diffuse_model = 0, specular_aa = 0;
-    static constexpr int lobe = lobe_with(kDefaultLobe), lobe_traits = lobe_traits_of(lobe);
-};
-struct PlainMaterial : MaterialRecord {
-    static constexpr int textured = 0, uses_color = 0, unlit = 0, refracts = 0, coated = 0, relief = 0;
-};
-struct UntabledMaterial : PlainMaterial { // for techniques that do not sample an Ashikhmin-Shirley lobe
-    static constexpr int phong_slice = -1, phong_set = -1;
-};
-struct RoundMaterial : UntabledMaterial {
-    static constexpr int anisotropic = 0;
-};
+// Constants of records: lists of a member and its value. Only geometry varies with such records. They have no textures, vertex
+// colours, punctual or area lights, energy compensation, exact Fresnel, transmission or coats, and the default lobe only.
+#define BN_PLAIN_FRAME(constant)                                                                                                           \
+    constant(light_count, 0);                                                                                                              \
+    constant(area_light_count, 0);                                                                                                         \
+    constant(extracted_light_count, 0);                                                                                                    \
+    constant(energy_compensation, 0);                                                                                                      \
+    constant(dfg_fit, 0);                                                                                                                  \
+    constant(fresnel, 0);                                                                                                                  \
+    constant(diffuse_model, 0);                                                                                                            \
+    constant(specular_aa, 0);                                                                                                              \
+    constant(lobe, lobe_with(kDefaultLobe));                                                                                               \
+    constant(lobe_traits, lobe_traits_of(lobe));
+#define BN_PLAIN_MATERIAL(constant)                                                                                                        \
+    constant(textured, 0);                                                                                                                 \
+    constant(uses_color, 0);                                                                                                               \
+    constant(unlit, 0);                                                                                                                    \
+    constant(refracts, 0);                                                                                                                 \
+    constant(coated, 0);                                                                                                                   \
+    constant(relief, 0);
+#define BN_UNTABLED_MATERIAL(constant) /* for techniques that do not sample an Ashikhmin-Shirley lobe */                                   \
+    BN_PLAIN_MATERIAL(constant)                                                                                                            \
+    constant(phong_slice, -1);                                                                                                             \
+    constant(phong_set, -1);
+#define BN_ROUND_MATERIAL(constant)                                                                                                        \
+    BN_UNTABLED_MATERIAL(constant)                                                                                                         \
+    constant(anisotropic, 0);
+
+#define BN_CONSTANT(member, value) static constexpr int member = value
+#define BN_CONDITION(member, value)                                                                                                        \
+    if (record.member != member)                                                                                                           \
+    return false
+// Defines a copy of a record with a list's members as constants. fits() returns true for records with these values. Both come
+// from one list, so that no constant lacks its condition.
+#define BN_RECORD_WITH(constants, Name, Base, Record)                                                                                      \
+    struct Name : Base {                                                                                                                   \
+        constants(BN_CONSTANT) static bool fits(const Record& record) { constants(BN_CONDITION) return true; }                             \
+    }
+BN_RECORD_WITH(BN_PLAIN_FRAME, PlainFrame, ShadingFrame, ShadingFrame);
+BN_RECORD_WITH(BN_PLAIN_MATERIAL, PlainMaterial, MaterialRecord, MaterialRecord);
+BN_RECORD_WITH(BN_UNTABLED_MATERIAL, UntabledMaterial, PlainMaterial, MaterialRecord);
+BN_RECORD_WITH(BN_ROUND_MATERIAL, RoundMaterial, UntabledMaterial, MaterialRecord);
+#undef BN_RECORD_WITH
+#undef BN_CONDITION
+#undef BN_CONSTANT
 
 BN_INLINE bool texture_used(const MaterialRecord& m, int slot)
 {
