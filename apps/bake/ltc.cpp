@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "apps/bake/preview.h"
 #include "apps/bake/report.h"
@@ -14,7 +15,6 @@
 #include "apps/cli/values.h"
 #include "apps/plot/plot.h"
 #include "apps/report/chart_style.h"
-#include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/base/file.h"
 #include "core/jobs/jobs.h"
@@ -80,13 +80,9 @@ Status write_report_files(const std::string& folder, const Json& figures, const 
                           Report& report)
 {
     BN_TRY(make_output_folder(folder));
-    std::vector<std::pair<std::string, std::string>> files = {{"quality.json", figures.dump(2) + "\n"}};
-    for (const auto& [name, drawing] : drawings) {
-        Result<std::string> png = png_of(drawing);
-        BN_TRY(png);
+    std::vector<std::pair<std::string, std::string>> files = {{"quality.json", json_text(figures, 2) + "\n"}};
+    for (const auto& [name, drawing] : drawings)
         files.emplace_back(name + ".svg", svg_of(drawing, chart_style()));
-        files.emplace_back(name + ".png", std::move(*png));
-    }
     for (const auto& [name, bytes] : files) {
         const std::string path = (fs::path(folder) / name).string();
         if (Status written = write_file_atomic(path, bytes.data(), bytes.size()); !written)
@@ -138,20 +134,19 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
 
 std::vector<Option> ltc_options(LtcArguments& to)
 {
-    return {
-        {"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
-        {"--isotropic", "", "Round lobes alone: nodes along theta and alpha, as engines have them", flag(to.isotropic)},
-        {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
-        {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
-        {"--fit", "NAME", "What makes a node's matrix the nearest: {}", choice(to.norm, {"l1", "l3", "sw"})},
-        {"--interpolate", "NAME", "What is held of matrices: {}", choice(to.interpolate, {"mirror", "matrix", "inverse"})},
-        {"--no-align", "", "Leave matrices turned as they are, whatever their neighbours are", flag(to.unaligned)},
-        {"--no-symmetry", "", "Fit every node by itself, whatever symmetry says of it", flag(to.unsymmetric)},
-        {"--lobes", "N", "Of --report: also the nearest sum of two cosines where one is .3 off or more",
-         choice(to.cosines, std::vector<int>{1, 2})},
-        {"--half", "", "Entries as halves, not floats", flag(to.half)},
-        {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
-        {"--report", "FOLDER", "Also measure the table: quality.json; quality, lobes and resolutions as .svg and .png", folder(to.report)}};
+    return {{"--resolution", "N", "Nodes along each axis, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
+            {"--isotropic", "", "Round lobes alone: nodes along theta and alpha, as engines have them", flag(to.isotropic)},
+            {"--steps", "N", "Of the fit of all entries at once, {}; 0: each node alone", integer(to.steps, 0, 100)},
+            {"--samples", "N", "Lobes in each cell that this fit looks at, {}", integer(to.samples, 1, 64)},
+            {"--fit", "NAME", "What makes a node's matrix the nearest: {}", choice(to.norm, {"l1", "l3", "sw"})},
+            {"--interpolate", "NAME", "What is held of matrices: {}", choice(to.interpolate, {"mirror", "matrix", "inverse"})},
+            {"--no-align", "", "Leave matrices turned as they are, whatever their neighbours are", flag(to.unaligned)},
+            {"--no-symmetry", "", "Fit every node by itself, whatever symmetry says of it", flag(to.unsymmetric)},
+            {"--lobes", "N", "Of --report: also the nearest sum of two cosines where one is .3 off or more",
+             choice(to.cosines, std::vector<int>{1, 2})},
+            {"--half", "", "Entries as halves, not floats", flag(to.half)},
+            {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
+            {"--report", "FOLDER", "Also measure the table: quality.json; quality, lobes and resolutions as .svg", folder(to.report)}};
 }
 
 int run_ltc(const LtcBake& b, const OptionTable& given)

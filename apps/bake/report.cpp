@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/image/magma.h"
 #include "core/math/scalar_math.h"

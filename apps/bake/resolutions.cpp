@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/math/scalar_math.h"
 #include "shading/bake/ltc/bake_ltc.h"

@@ -16,12 +16,11 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxResultsBytes = 256ull << 20;
 constexpr std::chrono::milliseconds kSaveEvery{300};
 
-// True for file names of charts: NAME-NUMBER.svg or .png.
+// Whether a file has the name of a chart: NAME-NUMBER.svg.
 bool is_chart(const std::string& file)
 {
     const std::size_t dot = file.rfind('.'), dash = file.rfind('-');
-    if (dot == std::string::npos || dash == std::string::npos || dash + 1 >= dot ||
-        (file.substr(dot) != ".svg" && file.substr(dot) != ".png"))
+    if (dot == std::string::npos || dash == std::string::npos || dash + 1 >= dot || file.substr(dot) != ".svg")
         return false;
     const std::string name = file.substr(0, dash), number = file.substr(dash + 1, dot - dash - 1);
     return number.find_first_not_of("0123456789") == std::string::npos &&

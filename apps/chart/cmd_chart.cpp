@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/chart/measure.h"
@@ -20,7 +21,7 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, report.csv, the charts as .svg and .png, the pictures, and rows.json: what has
+    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, report.csv, the charts as .svg, the pictures, and rows.json: what has
 been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
 environment takes minutes on two cores.
 
@@ -45,15 +46,14 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
 
 Status write_report(const ChartReport& chart, const ChartCheckpoint& checkpoint, Report& report)
 {
-    Result<std::vector<ReportFile>> files = chart_files(chart);
-    BN_TRY(files);
-    files->push_back({"report.json", report_json(chart)});
-    files->push_back({"report.csv", report_csv(chart)});
+    std::vector<ReportFile> files = chart_files(chart);
+    files.push_back({"report.json", report_json(chart)});
+    files.push_back({"report.csv", report_csv(chart)});
     Result<std::string> page = chart_page(chart);
     BN_TRY(page);
-    files->push_back({"report.html", std::move(*page)});
+    files.push_back({"report.html", std::move(*page)});
     std::set<std::string> used;
-    for (const ReportFile& file : *files) {
+    for (const ReportFile& file : files) {
         used.insert(checkpoint.file(file.name));
         if (const Status written = write_file(checkpoint.file(file.name), file.bytes); !written)
             return written;
@@ -113,7 +113,7 @@ int run_mip_chart(const ChartArguments& arguments, const OptionTable& given)
     report.release();
     const std::string summary = mip_summary(rows);
     const std::pair<const char*, std::string> files[] = {
-        {"mip.json", mip_rows_json(rows).dump(1) + "\n"}, {"mip.csv", mip_rows_csv(rows)}, {"mip.txt", summary}};
+        {"mip.json", json_text(mip_rows_json(rows), 1) + "\n"}, {"mip.csv", mip_rows_csv(rows)}, {"mip.txt", summary}};
     for (const auto& [name, text] : files) {
         const std::string path = o.folder + "/" + name;
         if (const Status written = write_text(path, text); !written)

@@ -112,7 +112,7 @@ Status Chart::load_all()
     out_.machine = {version(), cpu_name(), isa_name(options_.base.isa), jobs_->threads(), {}};
     out_.width = frame.width, out_.height = frame.height, out_.msaa = frame.msaa;
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
-    out_.parameters = parameters_json(frame);
+    out_.frame = frame;
     out_.display_flip = options_.display_flip;
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/base/check.h"
 #include "core/base/clock.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/chart/plots.h"
 #include "apps/render/stats.h"
@@ -12,7 +13,6 @@
 #include "apps/report/html.h"
 #include "apps/report/json.h"
 #include "apps/report/pictures.h"
-#include "apps/report/png.h"
 #include "apps/report/svg.h"
 
 namespace burnish {
@@ -238,7 +238,7 @@ std::string heading(const ChartReport& report)
 
 } // namespace
 
-Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
+std::vector<ReportFile> chart_files(const ChartReport& report)
 {
     std::vector<std::pair<std::string, Drawing>> charts; // by name
     std::size_t number_of_place = 0, number_of_pair = 0;
@@ -259,12 +259,8 @@ Result<std::vector<ReportFile>> chart_files(const ChartReport& report)
                                         std::move(map));
     }
     std::vector<ReportFile> files;
-    for (const auto& [name, chart] : charts) {
-        Result<std::string> png = png_of(chart);
-        BN_TRY(png);
+    for (const auto& [name, chart] : charts)
         files.push_back({name + ".svg", svg_of(chart, chart_style())});
-        files.push_back({name + ".png", std::move(*png)});
-    }
     return files;
 }
 

@@ -1,4 +1,4 @@
-// The report for people: charts as SVG and PNG files, and one self-contained page without network access.
+// The report for people: charts as SVG files, and one page that needs nothing else and no network.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ struct ReportFile {
     std::string name, bytes;
 };
 
-Result<std::vector<ReportFile>> chart_files(const ChartReport& report); // each chart as SVG and as PNG
+std::vector<ReportFile> chart_files(const ChartReport& report); // each chart as SVG
 Result<std::string> chart_page(const ChartReport& report);
 
 } // namespace burnish

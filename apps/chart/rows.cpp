@@ -3,12 +3,25 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "apps/options/parameters.h"
 #include "apps/render/stats.h"
 #include "apps/report/json.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
+
+Json override_json(const std::optional<float>& value)
+{
+    return value ? Json(shortest_decimal(*value)) : Json();
+}
+
+Json load_json(const std::optional<double>& share)
+{
+    return share ? Json(*share) : Json();
+}
 
 Json errors_json(const RowErrors& e)
 {
@@ -19,14 +32,14 @@ Json errors_json(const RowErrors& e)
 Json settings_json(const ChartReport& report, const ChartRow& row)
 {
     Json json = {{"samples", row.setting.sampled ? Json(row.setting.samples) : Json()},
-                 {"roughness", row.cell.roughness},
-                 {"anisotropy", row.cell.anisotropy},
+                 {"roughness", override_json(row.cell.roughness)},
+                 {"anisotropy", override_json(row.cell.anisotropy)},
                  {"msaa", report.msaa},
                  {"width", report.width},
                  {"height", report.height},
                  {"error_width", report.error_width},
                  {"error_height", report.error_height}};
-    json.update(report.parameters);
+    json.update(parameters_json(report.frame));
     for (const auto& [option, value] : row.cell.others) {
         const std::optional<double> number = number_in(value);
         std::string key = option;
@@ -115,8 +128,10 @@ void mark_pareto(std::vector<ChartRow>& rows)
 
 std::string chart_results_json(const ChartResults& kept)
 {
-    Json json = {
-        {"kept_version", kChartResultsVersion}, {"rows", Json::object()}, {"references", Json::object()}, {"other_load", kept.others}};
+    Json json = {{"kept_version", kChartResultsVersion},
+                 {"rows", Json::object()},
+                 {"references", Json::object()},
+                 {"other_load", load_json(kept.others)}};
     for (const auto& [key, noise] : kept.references)
         json["references"][key] = noise_json(noise);
     for (const auto& [key, m] : kept.rows) {
@@ -125,7 +140,7 @@ std::string chart_results_json(const ChartResults& kept)
         row["cpu_ms"] = m.cpu_ms;
         json["rows"][key] = row;
     }
-    return json.dump(1) + "\n";
+    return json_text(json, 1) + "\n";
 }
 
 std::string report_json(const ChartReport& report)
@@ -135,7 +150,7 @@ std::string report_json(const ChartReport& report)
                        {"processor", report.machine.processor},
                        {"isa", report.machine.isa},
                        {"threads", report.machine.threads},
-                       {"other_load", report.machine.others}};
+                       {"other_load", load_json(report.machine.others)}};
     json["runs"] = report.runs;
     json["reference_samples"] = report.reference_samples;
     json["metric"] = report.display_flip ? "flip" : "flip-hdr";
@@ -153,7 +168,7 @@ std::string report_json(const ChartReport& report)
     json["rows"] = Json::array();
     for (const ChartRow& row : report.rows)
         json["rows"].push_back(row_json(report, row));
-    return json.dump(1) + "\n";
+    return json_text(json, 1) + "\n";
 }
 
 std::string report_csv(const ChartReport& report)
@@ -161,7 +176,7 @@ std::string report_csv(const ChartReport& report)
     Json rows = Json::array();
     for (const ChartRow& row : report.rows)
         rows.push_back(row_json(report, row));
-    return rows.csv();
+    return csv_text(rows);
 }
 
 } // namespace burnish

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/chart/plan.h"
-#include "apps/report/json.h"
+#include "raster/frame/frame.h"
 
 namespace burnish {
 
@@ -61,9 +61,9 @@ struct ChartReport {
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
     int error_width = 0, error_height = 0;         // pictures compared with the reference
     std::uint64_t reference_samples = 0;
-    bool display_flip = false;                        // LDR-FLIP on tonemapped pictures; otherwise HDR-FLIP on linear ones
-    Json parameters = Json::object();                 // technique parameters, common to all rows
-    std::vector<ChartRow> rows;                       // ordered by scene, environment, cell, technique, samples
+    bool display_flip = false;                        // errors are LDR-FLIP of pictures as they are shown; else HDR-FLIP
+    FrameDesc frame;                                  // its parameters of techniques are those of all rows
+    std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };
 

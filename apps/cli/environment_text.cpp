@@ -1,8 +1,10 @@
 #include "apps/cli/environment_text.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/base/text.h"
 #include "shading/bake/environment/extracted_lights.h"
 
 namespace burnish {
@@ -21,28 +23,37 @@ std::string extracted_light_text(const ExtractedLight& k)
                        kDegrees * static_cast<double>(k.angular_radius), k.irradiance[0], k.irradiance[1], k.irradiance[2]);
 }
 
-void report_extracted_lights(const Environment& environment, Report& report)
+std::vector<ExtractedLight> turned_extracted_lights(const Environment& environment)
 {
-    for (const ExtractedLight& light : environment.extracted_lights)
-        report.detail("key light", extracted_light_text(turned(light, environment.rotation_deg)));
+    std::vector<ExtractedLight> lights = environment.extracted_lights;
+    for (ExtractedLight& light : lights)
+        light = turned(light, environment.rotation_deg);
+    return lights;
 }
 
-Json extracted_lights_json(const Environment& environment)
+void report_extracted_lights(const Environment& environment, Report& report)
 {
-    const auto vector = [](const float* v) { return Json::array({v[0], v[1], v[2]}); };
-    Json lights = Json::array();
-    for (const ExtractedLight& baked : environment.extracted_lights) {
-        const ExtractedLight k = turned(baked, environment.rotation_deg);
+    for (const ExtractedLight& light : turned_extracted_lights(environment))
+        report.detail("key light", extracted_light_text(light));
+}
+
+Json extracted_lights_json(const std::vector<ExtractedLight>& lights)
+{
+    const auto vector = [](const float* v) {
+        return Json::array({shortest_decimal(v[0]), shortest_decimal(v[1]), shortest_decimal(v[2])});
+    };
+    Json all = Json::array();
+    for (const ExtractedLight& k : lights) {
         Json light;
         light["direction"] = vector(k.direction);
         light["irradiance"] = vector(k.irradiance);
-        light["angular_radius_rad"] = k.angular_radius;
+        light["angular_radius_rad"] = shortest_decimal(k.angular_radius);
         light["axis_u"] = vector(k.axis_u);
         light["axis_v"] = vector(k.axis_v);
-        light["share"] = k.share;
-        lights.push_back(std::move(light));
+        light["share"] = shortest_decimal(k.share);
+        all.push_back(std::move(light));
     }
-    return lights;
+    return all;
 }
 
 } // namespace burnish

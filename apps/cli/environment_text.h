@@ -1,6 +1,7 @@
 // Describes a baked environment: its light, and the extracted lights taken out of it.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "apps/cli/report.h"
 #include "apps/report/json.h"
@@ -10,9 +11,10 @@ namespace burnish {
 
 std::string light_text(const Environment& environment); // mean and peak radiance
 std::string extracted_light_text(const ExtractedLight& light);
-void report_extracted_lights(const Environment& environment, Report& report); // with -v
+std::vector<ExtractedLight> turned_extracted_lights(const Environment& environment); // as it is turned, the strongest first
+void report_extracted_lights(const Environment& environment, Report& report);        // with -v
 
-// Returns {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} for each extracted light, the strongest first.
-Json extracted_lights_json(const Environment& environment);
+// {direction, irradiance, angular_radius_rad, axis_u, axis_v, share} each.
+Json extracted_lights_json(const std::vector<ExtractedLight>& lights);
 
 } // namespace burnish

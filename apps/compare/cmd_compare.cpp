@@ -1,6 +1,7 @@
 // `burnish compare`: compares a picture with its reference. Reports metrics, an error map, a page and an exit code.
 #include <fmt/core.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/cli/command.h"
@@ -145,8 +146,8 @@ Status write_outputs(const CompareOptions& options, const CompareFigures& figure
     for (const auto& [option, path] : outputs_of(options)) {
         if (figures.nan_pixels && option != "--json" && option != "--csv")
             continue;
-        const Status status = option == "--json"   ? write_text(path, compare_json(options, figures).dump(2) + "\n")
-                              : option == "--csv"  ? write_text(path, Json::array({compare_json(options, figures)}).csv())
+        const Status status = option == "--json"   ? write_text(path, json_text(compare_json(options, figures), 2) + "\n")
+                              : option == "--csv"  ? write_text(path, csv_text(Json::array({compare_json(options, figures)})))
                               : option == "--html" ? write_page(options, figures, pictures)
                                                    : write_error_map(path, figures.flip.error);
         if (status)

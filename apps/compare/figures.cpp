@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/report/json.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
@@ -71,7 +73,7 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures)
     const bool flip = asked.flip || asked.flip_hdr, errors = figures.errors.has_value(), pixels = figures.pixels.has_value();
     if (flip) {
         json["flip_kind"] = flip_name(asked);
-        json["ppd"] = options.flip.ppd;
+        json["ppd"] = shortest_decimal(options.flip.ppd);
     }
     const ErrorSummary e = figures.errors.value_or(ErrorSummary{});
     put("flip_mean", flip, errors, e.mean);

@@ -1,5 +1,6 @@
 // The page of `burnish compare --html`: one file with embedded pictures, for phones and dark mode too.
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/compare/figures.h"
 #include "apps/compare/histogram.h"

@@ -2,6 +2,7 @@
 // pictures minus the same for the reference: moving things may change, but no more.
 #include <algorithm>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -151,7 +152,7 @@ int compare_sequences(const CompareOptions& options)
     json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
     json["change"] = test_changes, json["reference_change"] = reference_changes, json["flicker"] = flicker;
     json["by_frame"] = rows;
-    for (const auto& [path, text] : {std::pair{options.json, json.dump(2) + "\n"}, {options.csv, rows.csv()}}) {
+    for (const auto& [path, text] : {std::pair{options.json, json_text(json, 2) + "\n"}, {options.csv, csv_text(rows)}}) {
         if (path.empty())
             continue;
         const Status status = write_text(path, text);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,6 @@
 #include "raster/session/session.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
-#include "shading/bake/environment/extracted_lights.h"
 #include "shading/bake/mipnet/weights.h"
 
 namespace burnish {
@@ -83,10 +83,10 @@ int print_json(const Info& info, const Environment* environment)
     if (environment)
         json["environment"] = {{"name", environment->name},
                                {"mean_radiance", environment->energy_source},
-                               {"peak_radiance", environment->peak_source},
-                               {"key_lights", extracted_lights_json(*environment)},
+                               {"peak_radiance", shortest_decimal(environment->peak_source)},
+                               {"key_lights", extracted_lights_json(turned_extracted_lights(*environment))},
                                {"warnings", environment->warnings}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
     return 0;
 }
 
@@ -110,8 +110,8 @@ int print_text(const Info& info, const Environment* environment)
         fmt::print("environment  {}: {}\n", printable(environment->name), light_text(*environment));
         for (const std::string& warning : environment->warnings)
             fmt::print("warning      {}\n", warning);
-        for (const ExtractedLight& light : environment->extracted_lights)
-            fmt::print("key light    {}\n", extracted_light_text(turned(light, environment->rotation_deg)));
+        for (const ExtractedLight& light : turned_extracted_lights(*environment))
+            fmt::print("key light    {}\n", extracted_light_text(light));
     }
     return 0;
 }
@@ -134,7 +134,7 @@ int print_weights(const std::string& path, bool json)
                        {"training_set", fmt::format("{:016x}", w.data)},
                        {"command", w.command}};
     if (json) {
-        fmt::print("{}\n", said.dump(2));
+        fmt::print("{}\n", json_text(said, 2));
         return 0;
     }
     fmt::print("weights      {}, {} {}{}, {} steps from seed {}\n", mipnet::lobe_name(w.shape.lobe), mipnet::layout_name(w.shape.layout),

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/field_options.h"
 #include "apps/cli/values.h"
+#include "core/base/text.h"
 
 namespace burnish {
 
@@ -29,13 +31,13 @@ Value parameter_value(const ParameterInfo& p, FrameDesc& to)
 Json parameter_json(const ParameterInfo& p, const FrameDesc& desc)
 {
     if (p.number)
-        return desc.*p.number;
+        return shortest_decimal(desc.*p.number);
     if (p.whole)
         return desc.*p.whole;
     if (p.flag)
         return desc.*p.flag;
     if (p.angles)
-        return Json::array({(desc.*p.angles).x, (desc.*p.angles).y});
+        return Json::array({shortest_decimal((desc.*p.angles).x), shortest_decimal((desc.*p.angles).y)});
     return choices_of(p)[static_cast<std::size_t>(desc.*p.choice)];
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/report/json.h"
 #include "core/image/metrics/flip.h"
@@ -125,12 +126,12 @@ Json race_document(const RaceReport& report)
 
 std::string race_json(const RaceReport& report)
 {
-    return race_document(report).dump(2) + "\n";
+    return json_text(race_document(report), 2) + "\n";
 }
 
 std::string race_csv(const RaceReport& report)
 {
-    return race_document(report)["rows"].csv();
+    return csv_text(race_document(report)["rows"]);
 }
 
 } // namespace burnish

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/field_options.h"
 #include "apps/report/html.h"
@@ -212,12 +213,12 @@ Json parity_document(const ParityReport& report)
 
 std::string parity_json(const ParityReport& report)
 {
-    return parity_document(report).dump(2) + "\n";
+    return json_text(parity_document(report), 2) + "\n";
 }
 
 std::string parity_csv(const ParityReport& report)
 {
-    return parity_document(report)["rows"].csv();
+    return csv_text(parity_document(report)["rows"]);
 }
 
 std::string parity_junit(const ParityReport& report)

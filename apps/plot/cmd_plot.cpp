@@ -12,7 +12,6 @@
 #include "apps/plot/ellipsoid.h"
 #include "apps/plot/plot.h"
 #include "apps/report/chart_style.h"
-#include "apps/report/png.h"
 #include "apps/report/svg.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/activity.h"
@@ -34,13 +33,13 @@ measured: mean normals, visible areas, samplers, a skewed lobe against a normal 
 
 Examples:
   burnish plot axis -o axis.svg
-  burnish plot axis --roughness 0.7 --anisotropy 0.9 --eye 75,20 --samples 8 -o grazing.png
+  burnish plot axis --roughness 0.7 --anisotropy 0.9 --eye 75,20 --samples 8 -o grazing.svg
   burnish plot lobe --brdf ward --eye 60,0 -o ward.svg
   burnish plot lobe --tilt 20,0 --roughness 0.4 -o tilted.svg
   burnish plot side --roughness 0.4 --anisotropy 0.8 -o side.svg
-  burnish plot half-vectors --roughness 0.3 --anisotropy 0.6 -o half_vectors.png
-  burnish plot energy -o energy.png
-  burnish plot ltc --roughness 0.6 --anisotropy 0.8 --eye 70,40 -o cosines.png
+  burnish plot half-vectors --roughness 0.3 --anisotropy 0.6 -o half_vectors.svg
+  burnish plot energy -o energy.svg
+  burnish plot ltc --roughness 0.6 --anisotropy 0.8 --eye 70,40 -o cosines.svg
   burnish plot ellipsoid -o ellipsoid.html)";
 
 struct PlotArguments {
@@ -72,7 +71,7 @@ OptionTable plot_option_table(PlotArguments& to)
         if (option.name == "--brdf" || option.name == "--tilt")
             models.push_back(option);
     table.add_needing("WHAT", "lobe", models);
-    table.add("Output", {Option("-o,--output", "FILE", "A .svg or a .png; of ellipsoid a .html", file(to.output)).must_be_given(),
+    table.add("Output", {Option("-o,--output", "FILE", "A .svg; of ellipsoid a .html", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
     return table;
 }
@@ -105,8 +104,9 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
     if (!(lobe.theta_deg >= 0.0 && lobe.theta_deg < 90.0))
         return fail(usage_error("--eye", fmt::format("the first angle must be from 0 to below 90 degrees, got {:g}", lobe.theta_deg)));
     const std::string extension = std::filesystem::path(arguments.output).extension().string();
-    if (page ? extension != ".html" : extension != ".svg" && extension != ".png")
-        return fail(usage_error("-o", fmt::format("'{}' must end in {}", arguments.output, page ? ".html" : ".svg or .png")));
+    if (extension != (page ? ".html" : ".svg"))
+        return fail(usage_error("-o", fmt::format("'{}' must end in {}", arguments.output,
+                                                  page ? ".html; all others are .svg" : ".svg; only ellipsoid is a .html")));
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
     if (Status checked = check_lobe(arguments.frame, *find_technique("mc")); !checked)
@@ -123,16 +123,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
                             : arguments.what == "energy" ? plot_energy()
                             : arguments.what == "ltc"    ? plot_ltc(lobe, ltc::shipped_table())
                                                          : plot_half_vectors(lobe);
-    std::string bytes;
-    if (extension == ".svg") {
-        bytes = svg_of(drawing, chart_style());
-    } else {
-        Result<std::string> png = png_of(drawing);
-        if (!png)
-            return fail(png.error());
-        bytes = std::move(*png);
-    }
-    return write(arguments, bytes);
+    return write(arguments, svg_of(drawing, chart_style()));
 }
 
 } // namespace

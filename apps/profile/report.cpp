@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "apps/render/stats.h"
@@ -163,7 +164,7 @@ std::string profile_json(const RenderOptions& options, const ProfileFigures& f)
     json["threads_busy_ms"] = Json::array();
     for (const std::uint64_t ns : f.sum.busy_ns)
         json["threads_busy_ms"].push_back(per_frame(ns, f));
-    return json.dump(2) + "\n";
+    return json_text(json, 2) + "\n";
 }
 
 namespace {

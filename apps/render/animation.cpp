@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/cli/numbered.h"
@@ -240,7 +241,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
     last.warnings = report.warnings();
     Json json = stats_json(row->step(row->count() - 1)->options, last);
     json["steps"] = std::move(steps);
-    const Status written = write_text(first.stats_file, json.dump(2) + "\n");
+    const Status written = write_text(first.stats_file, json_text(json, 2) + "\n");
     if (written)
         report.wrote(first.stats_file);
     return written ? 0 : fail(written.error());

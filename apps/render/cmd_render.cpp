@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -84,7 +85,7 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     if (rendered.risks && options.risks != "-")
         note(options.risks, write_image(options.risks, risk_picture(*rendered.risks, options.frame.width, options.frame.height)));
     if (!options.stats_file.empty())
-        note(options.stats_file, write_text(options.stats_file, stats_json(options, rendered.figures).dump(2) + "\n"));
+        note(options.stats_file, write_text(options.stats_file, json_text(stats_json(options, rendered.figures), 2) + "\n"));
     if (!options.trace_file.empty())
         note(options.trace_file, write_text(options.trace_file, Trace::json()));
     return first;

@@ -164,7 +164,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     BN_TRY(check_paths(options, parts.environment->files));
     figures.env = parts.environment->name;
     figures.environment_from_cache = parts.environment->from_cache;
-    figures.extracted_lights = extracted_lights_json(*parts.environment);
+    figures.extracted_lights = turned_extracted_lights(*parts.environment);
     report_environment(*parts.environment, figures.bake_ms, report);
     for (const std::string& warning : parts.environment->warnings)
         report.warning(warning);

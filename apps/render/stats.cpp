@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "apps/cli/environment_text.h"
 #include "apps/options/parameters.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/scene/gltf/extensions.h"
 
@@ -60,8 +63,8 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["env"] = figures.env;
     json["technique"] = frame.technique;
     json["samples"] = frame.samples;
-    json["roughness"] = frame.roughness >= 0.0f ? Json(frame.roughness) : Json();
-    json["anisotropy"] = frame.override_anisotropy ? Json(frame.anisotropy) : Json();
+    json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
+    json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
     json.update(parameters_json(frame));
     json["backend"] = options.backend;
     json["device"] = figures.device;
@@ -95,7 +98,7 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["bake_ms"] = figures.bake_ms;
     json["prepare_ms"] = figures.prepare_ms;
     json["environment_from_cache"] = figures.environment_from_cache;
-    json["key_lights"] = figures.extracted_lights;
+    json["key_lights"] = extracted_lights_json(figures.extracted_lights);
     json["triangles"] = figures.frame.triangles;
     json["triangles_drawn"] = figures.frame.triangles_drawn;
     json["visible_fragments"] = figures.frame.visible_fragments;

@@ -6,6 +6,7 @@
 
 #include "apps/options/options.h"
 #include "apps/report/json.h"
+#include "shading/bake/environment/environment.h"
 
 namespace burnish {
 
@@ -21,8 +22,8 @@ struct RenderFigures {
     double prepare_ms = 0.0;      // renderer made from the tables, texture pyramids included
     std::string env;              // environment name
     bool environment_from_cache = false;
-    Json extracted_lights;             // see extracted_lights_json()
-    std::vector<std::string> warnings; // as printed, or as --quiet kept back
+    std::vector<ExtractedLight> extracted_lights; // as the turned environment has them
+    std::vector<std::string> warnings;            // as they were said, or would have been without --quiet
 };
 
 double median(std::vector<double> values);

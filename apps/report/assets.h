@@ -6,6 +6,5 @@ namespace burnish {
 
 extern const EmbeddedFile kChartPageStyle;  // page.css
 extern const EmbeddedFile kChartPageScript; // page.js
-extern const EmbeddedFile kStrokeFont;      // stroke_font.jhf
 
 } // namespace burnish

@@ -1,9 +1,6 @@
 #include "apps/report/chart_style.h"
 
 #include <fmt/core.h>
-#include <iterator>
-
-#include "core/base/check.h"
 
 namespace burnish {
 namespace {
@@ -21,6 +18,11 @@ constexpr Tint kTints[] = {
     {"c5", 0x7d6200, 0xe3c24e},    {"c6", 0x8a4a3a, 0xdc9d88},  {"c7", 0x3d4db7, 0xa3b1ff},
 };
 
+struct ChartLineStyle {
+    const char *css_class, *tint; // tint: null: the family's
+    double width, opacity;        // px, [0,1]
+    double on, off;               // px of dashes and gaps, 0: none
+};
 constexpr ChartLineStyle kLines[] = {
     {"grid", "grid", 1.0, 1.0, 0.0, 0.0},    {"front", "soft", 5.0, 0.35, 0.0, 0.0},  {"whisker", nullptr, 1.0, 0.6, 0.0, 0.0},
     {"level", nullptr, 1.3, 0.75, 5.0, 4.0}, {"curve", nullptr, 1.3, 0.75, 0.0, 0.0},
@@ -29,11 +31,14 @@ constexpr ChartLineStyle kLines[] = {
 // Changes of text by class; several classes may apply.
 struct TextChange {
     const char* css_class;
-    const char* tint;  // null: unchanged
-    double size, halo; // 0: unchanged
+    const char* tint; // null: left as it is
+    double size;      // px of the em; 0: left as it is
+    double halo;      // px of paper around the letters, so that what they cross does not run through them; 0: left as it is
     bool bold, slanted;
 };
-constexpr const char* kFamily = "c"; // tint of the group's family, else the ink
+constexpr double kTextSize = 13.0;   // px of the em
+constexpr double kMarkWidth = 1.6;   // px of a mark's outline
+constexpr const char* kFamily = "c"; // of the group, else ink
 constexpr TextChange kTexts[] = {
     {"tick", "soft", 12.0, 0.0, false, false},
     {"note", "soft", 0.0, 0.0, false, true},
@@ -48,11 +53,6 @@ struct CellInk {
 };
 constexpr CellInk kCellInks[] = {{"on-dark", 0xffffff}, {"on-pale", 0x111111}};
 
-Paint paint_of(unsigned rgb)
-{
-    return {static_cast<double>(rgb >> 16 & 255u), static_cast<double>(rgb >> 8 & 255u), static_cast<double>(rgb & 255u)};
-}
-
 std::string tints_css(unsigned Tint::*of)
 {
     std::string css;
@@ -63,56 +63,11 @@ std::string tints_css(unsigned Tint::*of)
 
 } // namespace
 
-Paint tint(const std::string& name)
-{
-    for (const Tint& t : kTints)
-        if (t.name == name)
-            return paint_of(t.light);
-    BN_CHECK(false); // every name is in the table
-    return {};
-}
-
-Paint family(const std::string& classes)
-{
-    Paint paint = tint("ink");
-    for (const Tint& t : kTints) // the last match wins, as in style sheets
-        if (t.name[0] == 'c' && has_class(classes, t.name))
-            paint = paint_of(t.light);
-    return paint;
-}
-
-const ChartLineStyle* chart_line_style(const std::string& classes)
-{
-    for (const ChartLineStyle& look : kLines)
-        if (has_class(classes, look.css_class))
-            return &look;
-    return nullptr;
-}
-
-ChartTextStyle chart_text_style(const std::string& classes)
-{
-    ChartTextStyle look;
-    look.paint = tint("ink");
-    for (const TextChange& t : kTexts) {
-        if (!has_class(classes, t.css_class))
-            continue;
-        look.size = t.size > 0.0 ? t.size : look.size;
-        look.halo = t.halo > 0.0 ? t.halo : look.halo;
-        look.bold = look.bold || t.bold, look.slanted = look.slanted || t.slanted;
-        if (t.tint)
-            look.paint = t.tint == kFamily ? family(classes) : tint(t.tint);
-    }
-    for (const CellInk& ink : kCellInks)
-        if (has_class(classes, ink.css_class))
-            look.paint = paint_of(ink.rgb);
-    return look;
-}
-
 std::string chart_style()
 {
     std::string css = fmt::format("svg.chart {{{}\n  background: var(--paper); color: var(--ink); font: {:g}px system-ui, \"DejaVu Sans\", "
                                   "sans-serif; }}\n@media (prefers-color-scheme: dark) {{ svg.chart {{{} }} }}\n",
-                                  tints_css(&Tint::light), ChartTextStyle().size, tints_css(&Tint::dark));
+                                  tints_css(&Tint::light), kTextSize, tints_css(&Tint::dark));
     const auto rule = [&css](const std::string& selector, const std::string& body) {
         css += fmt::format("svg.chart {} {{{} }}\n", selector, body);
     };

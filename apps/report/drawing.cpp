@@ -1,7 +1,6 @@
 #include "apps/report/drawing.h"
 
 #include <cmath>
-#include <fmt/core.h>
 
 #include "core/math/scalar_math.h"
 
@@ -83,11 +82,6 @@ Points shape_outline(int shape, double x, double y, double radius)
         outline.emplace_back(x + r * std::sin(angle), y - r * std::cos(angle));
     }
     return outline;
-}
-
-bool has_class(const std::string& classes, const std::string& wanted)
-{
-    return fmt::format(" {} ", classes).find(fmt::format(" {} ", wanted)) != std::string::npos;
 }
 
 } // namespace burnish

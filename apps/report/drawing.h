@@ -1,6 +1,5 @@
-// A chart as a display list, from back to front; SVG (svg.h) and pixels (png.h) are made from the same list. Positions are px from the
-// top left corner, y down. Classes select looks, with colours and widths in apps/report/chart_style.h. A group's classes hold for all items
-// inside.
+// A chart as a list of what is drawn, from back to front, of which SVG text (svg.h) is made. Places are px from the top left corner, y
+// down. Looks go by classes, which apps/report/chart_style.h gives colours and widths; a group's classes hold for all in it.
 #pragma once
 #include <array>
 #include <optional>
@@ -51,7 +50,5 @@ class Drawing {
 
 inline constexpr int kShapes = 12;
 Points shape_outline(int shape, double x, double y, double radius); // closed: the first point is not repeated
-
-bool has_class(const std::string& classes, const std::string& wanted);
 
 } // namespace burnish

@@ -32,7 +32,7 @@ std::string escaped(const std::string& text)
 
 std::string script_json(const Json& json)
 {
-    std::string text = json.dump(-1);
+    std::string text = json_text(json, -1);
     for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
         text.replace(at, 2, "<\\/");
     return text;

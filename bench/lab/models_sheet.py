@@ -20,8 +20,8 @@ import sys
 import tempfile
 import zlib
 
-FONT = pathlib.Path(__file__).resolve().parents[2] / "apps/report/stroke_font.jhf"
-GAP, LINE = 12, 22  # px: gap around images, line height
+FONT = pathlib.Path(__file__).resolve().parent / "stroke_font.jhf"
+GAP, LINE = 12, 22  # px: around pictures, of a line of text
 DIFFUSE = {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0},
            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
 GLASS = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3},

@@ -1,6 +1,5 @@
 """The page of burnish chart in a real browser."""
 
-import base64
 import json
 
 from browser import Browser
@@ -193,53 +192,3 @@ def narrow(bench):
             browser.screenshot(bench.folder / f"{width}-{scheme}.png")
         check(shades[1200, "light"] != shades[1200, "dark"] and shades[400, "light"] != shades[400, "dark"], f"dark is as light as light: {shades}")
         healthy(browser)
-
-
-# Counts pixels where a chart's PNG differs from the browser's SVG painting, except in text, whose letters differ. A pixel counts if no
-# neighbouring pixel in the other image has a similar colour, since edges are smoothed differently.
-UNLIKE = """(async (svg, png, scale) => {
-  const load = src => new Promise((done, failed) => { const i = new Image(); i.onload = () => done(i); i.onerror = () => failed(src.slice(0, 60)); i.src = src; });
-  const box = document.createElement('div');
-  box.innerHTML = svg;
-  document.body.append(box);
-  const node = box.querySelector('svg'), from = node.getBoundingClientRect();
-  const texts = [...node.querySelectorAll('text')].map(t => t.getBoundingClientRect()).map(r => [r.left - from.left, r.top - from.top, r.width, r.height]);
-  const pictures = [await load('data:image/svg+xml;charset=utf-8,' + encodeURIComponent(svg)), await load(png)];
-  const w = pictures[1].width, h = pictures[1].height;
-  const pixels = pictures.map(picture => {
-    const c = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
-    c.canvas.width = w, c.canvas.height = h;
-    c.drawImage(picture, 0, 0, w, h);
-    c.fillStyle = '#fff';
-    for (const [x, y, tw, th] of texts) c.fillRect(scale * (x - 4 - .15 * tw), scale * (y - 2), scale * (1.3 * tw + 8), scale * (th + 4));
-    return c.getImageData(0, 0, w, h).data;
-  });
-  box.remove();
-  const far = (a, i, b, k) => Math.max(Math.abs(a[i] - b[k]), Math.abs(a[i + 1] - b[k + 1]), Math.abs(a[i + 2] - b[k + 2])) > 60;
-  let unlike = 0, drawn = 0;
-  for (let y = 2; y < h - 2; ++y) for (let x = 2; x < w - 2; ++x) {
-    const at = 4 * (y * w + x);
-    if (Math.min(...pixels[0].slice(at, at + 3)) < 250) ++drawn;
-    if (!far(pixels[0], at, pixels[1], at)) continue;
-    for (const [a, b] of [pixels, [pixels[1], pixels[0]]]) {
-      let near = false;
-      for (let dy = -2; dy <= 2 && !near; ++dy) for (let dx = -2; dx <= 2 && !near; ++dx) near = !far(a, at, b, at + 4 * (dy * w + dx));
-      if (!near) { ++unlike; break; }
-    }
-  }
-  return [w, h, drawn, unlike, texts.length];
-})"""
-
-
-@case("chart.png_is_the_svg", tier="nightly")
-def png_is_the_svg(bench):
-    with make_page(bench) as browser:
-        browser.open(bench.folder / "r/report.html")
-        browser.size(1200, 900)
-        browser.scheme("light")
-        for name in ("time-flip-1", "samples-flip-1", "samples-time-4", "heat-major_axis-1", "heat-major_axis-difference-1"):
-            svg = (bench.folder / f"r/{name}.svg").read_text()
-            png = "data:image/png;base64," + base64.b64encode((bench.folder / f"r/{name}.png").read_bytes()).decode()
-            width, height, drawn, unlike, texts = browser.value(f"{UNLIKE}({json.dumps(svg)}, {json.dumps(png)}, 2)")
-            check(width > 500 and height > 300 and drawn > 5000 and texts > 8, f"{name}: {width} x {height}, {drawn} pixels drawn, {texts} texts")
-            check(unlike <= 0.002 * drawn, f"{name}: {unlike} of {drawn} pixels are not as the browser paints them")

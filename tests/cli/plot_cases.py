@@ -144,10 +144,9 @@ def sides_of_techniques(bench):
 @case("plot.files_are_the_same_every_time")
 def same(bench):
     for what in ("axis", "lobe"):
-        for name in ("a.svg", "b.svg", "a.png", "b.png"):
+        for name in ("a.svg", "b.svg"):
             bench.run("plot", what, "-o", name, "-q").expect(0)
-        for kind in ("svg", "png"):
-            check((bench.folder / f"a.{kind}").read_bytes() == (bench.folder / f"b.{kind}").read_bytes(), f"two runs make different {kind} files")
+        check((bench.folder / "a.svg").read_bytes() == (bench.folder / "b.svg").read_bytes(), f"{what}: two runs make different files")
 
 
 def distances(bench, *words):
@@ -175,7 +174,7 @@ def cosines(bench):
 @case("plot.wrong_options_say_one_line")
 def wrong(bench):
     for words, code, needle in (
-            (("axes", "-o", "a.svg"), 2, "axis"), (("axis",), 2, "--output"), (("axis", "-o", "a.pdf"), 2, ".svg"),
+            (("axes", "-o", "a.svg"), 2, "axis"), (("axis",), 2, "--output"), (("axis", "-o", "a.png"), 2, ".svg; only ellipsoid is a .html"),
             (("axis", "-o", "no/a.svg"), 7, "no/a.svg"), (("axis", "--eye", "95,0", "-o", "a.svg"), 2, "--eye"),
             (("axis", "--eye", "nan,0", "-o", "a.svg"), 2, "--eye"), (("axis", "--samples", "0", "-o", "a.svg"), 2, "--samples"),
             (("axis", "--roughness", "0", "-o", "a.svg"), 2, "--roughness"), (("axis", "--tilt", "5,0", "-o", "a.svg"), 2, "--tilt"),

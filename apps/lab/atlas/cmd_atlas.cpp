@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
@@ -155,7 +156,7 @@ Status Atlas::bless()
 
 Status Atlas::write()
 {
-    const std::string json = atlas_json(results_, options_.walk()).dump(1) + "\n";
+    const std::string json = json_text(atlas_json(results_, options_.walk()), 1) + "\n";
     std::vector<std::pair<std::string, std::string>> files;
     if (!options_.json.empty())
         files.emplace_back(options_.json, json);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/lab/atlas/assets.h"
 #include "apps/report/assets.h"

@@ -56,7 +56,7 @@ std::string cached_entry_json(const MeasuredEntry& m, const std::string& key)
 {
     Json json = {{"key", key}, {"id", m.id}};
     json.update(measured_json(m, true));
-    return json.dump(1) + "\n";
+    return json_text(json, 1) + "\n";
 }
 
 std::optional<MeasuredEntry> parse_cached_entry(const std::string& text, const std::string& key)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "apps/chart/real_maps.h"
@@ -281,7 +282,7 @@ int run_evaluation(const TrainArguments& a, Report& report)
                                     {"mean", figures_json(row.level[0])},
                                     {"levels", levels}});
         }
-        if (const Status written = write_text(a.json, json.dump(1) + "\n"); !written)
+        if (const Status written = write_text(a.json, json_text(json, 1) + "\n"); !written)
             return fail(written.error());
         report.wrote(a.json);
     }

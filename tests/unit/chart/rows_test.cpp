@@ -7,6 +7,7 @@
 #include <random>
 
 #include "apps/chart/cpu_load.h"
+#include "apps/report/json.h"
 #include "tests/unit/chart/sample.h"
 
 namespace burnish {
@@ -129,8 +130,8 @@ TEST(chart_rows, lines_by_commas_hold_plain_members_under_all_names)
     Json rows = Json::array();
     rows.push_back({{"name", "a \"b\", c"}, {"sub", Json({{"x", 1.5}, {"none", Json()}})}, {"list", Json::array({1, 2})}});
     rows.push_back({{"name", "plain"}, {"late", true}, {"nan", kNan}});
-    EXPECT_EQ(rows.csv(), "name,sub.x,sub.none,late,nan\n\"a \"\"b\"\", c\",1.5,,,\nplain,,,true,\n");
-    EXPECT_EQ(Json::array().csv(), "\n");
+    EXPECT_EQ(csv_text(rows), "name,sub.x,sub.none,late,nan\n\"a \"\"b\"\", c\",1.5,,,\nplain,,,true,\n");
+    EXPECT_EQ(csv_text(Json::array()), "\n");
 }
 
 TEST(chart_rows, ticks_of_the_machine_are_busy_ones_and_all)

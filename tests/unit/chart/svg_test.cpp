@@ -132,11 +132,16 @@ TEST(chart_svg, heat_maps_need_cells_and_a_baseline)
 TEST(chart_svg, techniques_differ_in_shape_and_shade_and_relatives_share_a_family)
 {
     std::set<Points> shapes;
-    std::set<Paint> shades;
+    std::set<std::string> shades;
+    const std::string style = chart_style();
     for (const TechniqueInfo& technique : techniques()) {
         const Mark mark = mark_of(technique.name);
         shapes.insert(shape_outline(mark.shape, 0.0, 0.0, 5.0));
-        shades.insert(family(mark_class(technique.name)));
+        const std::string classes = mark_class(technique.name), last = classes.substr(classes.rfind(' ') + 1); // as in style sheets
+        EXPECT_EQ(count(style, "svg.chart ." + last + " { --c: var(--" + last + "); }"), 1) << technique.name;
+        const std::size_t tint = style.find("--" + last + ": #");
+        ASSERT_NE(tint, std::string::npos) << technique.name;
+        shades.insert(style.substr(style.find('#', tint), 7)); // on light paper
     }
     EXPECT_EQ(shapes.size(), techniques().size());
     EXPECT_EQ(shades.size(), techniques().size());
