@@ -13,7 +13,6 @@
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
-#include "apps/plot/plot.h"
 #include "apps/report/chart_style.h"
 #include "apps/report/svg.h"
 #include "core/base/file.h"
@@ -146,7 +145,7 @@ std::vector<Option> ltc_options(LtcArguments& to)
              choice(to.cosines, std::vector<int>{1, 2})},
             {"--half", "", "Entries as halves, not floats", flag(to.half)},
             {"--table", "FILE", "Measure this table instead of making one", file(to.table)},
-            {"--report", "FOLDER", "Also measure the table: quality.json; quality, lobes and resolutions as .svg", folder(to.report)}};
+            {"--report", "FOLDER", "Also measure the table: quality.json; quality and resolutions as .svg", folder(to.report)}};
 }
 
 int run_ltc(const LtcBake& b, const OptionTable& given)
@@ -178,7 +177,6 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
     std::vector<std::pair<std::string, Drawing>> drawings = {{"quality", plot_ltc_quality(quality)}};
     std::string lines = ltc_lines(quality);
     if ((*table)->model() == ltc::Model::ggx && !(*table)->grid.round) { // published figures are for these lobes
-        drawings.emplace_back("lobes", plot_ltc(LobePlot(), **table));
         const LtcResolutions resolutions = measure_resolutions(**table, jobs);
         figures["resolutions"] = resolution_json(resolutions);
         drawings.emplace_back("resolutions", plot_resolutions(resolutions));

@@ -20,8 +20,8 @@ ROOMS = {
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip"),
     "raster": ("frame", "tile", "vulkan", "reference", "session"), # renderers do not include each other, see RENDERERS
-    "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "plot", "bake", "chart", "parity", "profile",
-             "lab/train", "lab/atlas", "lab"),
+    "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "bake", "chart", "parity", "profile",
+             "lab/train", "lab/atlas", "lab/plot", "lab"),
 }
 # Known exceptions: a file, the room that it includes out of order, and why.
 GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"

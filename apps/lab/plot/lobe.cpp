@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 #include <vector>
 
-#include "apps/plot/panel.h"
-#include "apps/plot/plot.h"
-#include "apps/plot/shapes.h"
+#include "apps/lab/plot/panel.h"
+#include "apps/lab/plot/plot.h"
+#include "apps/lab/plot/shapes.h"
 #include "raster/frame/frame.h"
 #include "shading/lang/tables.h"
 

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "apps/plot/panel.h"
-#include "apps/plot/plot.h"
+#include "apps/lab/plot/panel.h"
+#include "apps/lab/plot/plot.h"
 #include "core/math/scalar_math.h"
 #include "shading/bake/tables/phong.h"
 

@@ -1,6 +1,6 @@
 // Converts plot vectors to kernel vectors, in files compiled in double precision (bn_oracle_objects).
 #pragma once
-#include "apps/plot/shapes.h"
+#include "apps/lab/plot/shapes.h"
 #include "shading/lang/lang.h"
 
 namespace burnish {

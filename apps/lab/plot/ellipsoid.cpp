@@ -1,11 +1,11 @@
-#include "apps/plot/ellipsoid.h"
+#include "apps/lab/plot/ellipsoid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "apps/plot/panel.h"
+#include "apps/lab/plot/panel.h"
 
 namespace burnish {
 namespace {

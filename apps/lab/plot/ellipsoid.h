@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/plot/ellipsoid_fns.h"
+#include "apps/lab/plot/ellipsoid_fns.h"
 
 namespace burnish {
 

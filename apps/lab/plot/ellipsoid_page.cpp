@@ -2,9 +2,9 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "apps/plot/ellipsoid.h"
-#include "apps/plot/panel.h"
-#include "apps/plot/plot.h"
+#include "apps/lab/plot/ellipsoid.h"
+#include "apps/lab/plot/panel.h"
+#include "apps/lab/plot/plot.h"
 #include "apps/report/axes.h"
 #include "apps/report/chart_style.h"
 #include "apps/report/html.h"

@@ -1,4 +1,4 @@
-#include "apps/plot/panel.h"
+#include "apps/lab/plot/panel.h"
 
 #include <algorithm>
 #include <cmath>

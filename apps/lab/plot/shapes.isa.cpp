@@ -1,6 +1,6 @@
-#include "apps/plot/shapes.h"
+#include "apps/lab/plot/shapes.h"
 
-#include "apps/plot/plot_vec.h"
+#include "apps/lab/plot/plot_vec.h"
 #include "shading/lang/tables.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/techniques/bent_normal.k.h"

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 #include <functional>
 
-#include "apps/plot/panel.h"
-#include "apps/plot/plot.h"
+#include "apps/lab/plot/panel.h"
+#include "apps/lab/plot/plot.h"
 #include "shading/bake/ltc/pair_fit.h"
 #include "shading/bake/ltc/quality.h"
 #include "shading/bake/ltc/table.h"

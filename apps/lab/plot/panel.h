@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "apps/plot/shapes.h"
+#include "apps/lab/plot/shapes.h"
 #include "apps/report/drawing.h"
 #include "core/math/scalar_math.h"
 

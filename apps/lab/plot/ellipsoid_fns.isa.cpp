@@ -1,6 +1,6 @@
-#include "apps/plot/ellipsoid_fns.h"
+#include "apps/lab/plot/ellipsoid_fns.h"
 
-#include "apps/plot/plot_vec.h"
+#include "apps/lab/plot/plot_vec.h"
 #include "shading/models/ellipsoid.k.h"
 #include "shading/models/ggx_aniso.k.h"
 

@@ -1,6 +1,6 @@
 // The ellipsoid normal distribution and its references, evaluated by the kernels in double precision.
 #pragma once
-#include "apps/plot/shapes.h"
+#include "apps/lab/plot/shapes.h"
 
 namespace burnish {
 
