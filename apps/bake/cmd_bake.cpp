@@ -32,22 +32,22 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFooter =
-    R"~(ltc: linearly transformed cosines for anisotropic GGX lobes under area lights, and their albedo, by the eye's angles, the greater width
-and the ratio of both. What is done so far is kept in TABLE.part: the same command goes on from there, to the same bytes.
-direction: a map of the grain's direction from a picture's hues or luminance, which are angles from 0 to 180 degrees; see render
---direction-map.
-quaternion: the shortest rotations to a normal map's normals; see render --quaternion-map.
-tpr: rotations of the grain in the tangent plane, by two expressions of u and v along tangent and bitangent, or such that the grain of
-a mesh lies along one direction; see render --rotation-map.
-half-vectors: those that a lobe of Ashikhmin and Shirley samples, over both random numbers, and in .exr their density.
-brdf-lut: that lobe's directional albedo, f0 red + green, over the eye's azimuth and the root of its cosine. Both are read back by render
---as-table; exponents count to five digits.
-environment: an environment as it is baked before it is drawn; render --env FOLDER reads it.
-mip: levels of normals, lobes, base colours, metalness and heights of a scene's materials, or of a folder of pictures as render --material
-takes it; render --mip-pyramid reads them, where the maps are the same. --format exr-mip and png-levels: a folder of glTF textures with all levels, for other programs, half
-floats with mip levels or a picture a level; printed is how far what they show lies from their levels, at texels and where four meet.
-displaced: a mesh whose heights are triangles, as render --height-map shows them without any; materials are not kept.
-The parts of quaternion and tpr lie from -1 to 1: code 128 of 8 bits is 0, 255 is 1; .exr and .pfm hold the numbers themselves.
+    R"~(ltc: a table of linearly transformed cosines and albedos for anisotropic GGX lobes under area lights. Its axes are the eye's two angles,
+the greater width and the ratio of the widths. A stopped bake leaves TABLE.part, and the same command continues from it to the same bytes.
+direction: a map of the stretched highlight's direction, an angle from 0 to 180 degrees, from a picture's hue or luminance. Scratches
+run across it. See render --direction-map.
+quaternion: the shortest rotations to a normal map's normals. See render --quaternion-map.
+tpr: a map of the stretched highlight's direction in the tangent plane. Two expressions of u and v give its parts along tangent and
+bitangent, or --straighten lays it along one direction in space. See render --rotation-map.
+half-vectors: half vectors that an Ashikhmin-Shirley lobe samples, over both random numbers; an .exr also holds their density.
+brdf-lut: directional albedo of that lobe, f0 red + green, over the eye's azimuth and the square root of its cosine. render --as-table reads
+both tables; exponents count to five digits.
+environment: a baked environment in a folder. render --env FOLDER reads it.
+mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
+render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
+half floats with mip levels, or one picture a level. The program prints their error against the levels, at texels and between four texels.
+displaced: a mesh whose triangles follow the heights, as render --height-map shows them by parallax. It has no materials.
+Components of quaternion and tpr lie from -1 to 1. In 8 bits, code 128 is 0 and 255 is 1; .exr and .pfm hold the numbers themselves.
 
 Examples:
   burnish bake ltc -o ggx.ltc
@@ -101,49 +101,56 @@ OptionTable bake_option_table(BakeArguments& to)
         "",
         {{"WHAT", "", "{}",
           choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut", "environment", "mip"})},
-         {"PICTURE", "", "That directions or quaternions are made of; of tpr the second expression, of displaced the mesh, of mip a scene",
+         {"PICTURE", "", "Source picture; for displaced the mesh, for mip a scene or a folder of pictures, for tpr the second expression",
           file(to.picture), ""},
-         {"HEIGHTS", "", "Of displaced: the height map", file(to.heights), ""}});
-    table.add_needing("WHAT", "displaced",
-                      {{"--height-scale", "S", "Depth of height 0, in lengths of texture coordinates", number(to.depth, 0.0, 1000.0)},
-                       {"--triangles", "N", "At least so many", integer(to.triangles, 1, 1 << 26)}});
+         {"HEIGHTS", "", "Height map for displaced", file(to.heights), ""}});
+    table.add_needing(
+        "WHAT", "displaced",
+        {{"--height-scale", "S", "Depth of the height map's darkest value, in texture lengths", number(to.depth, 0.0, 1000.0)},
+         {"--triangles", "N", "Least number of triangles", integer(to.triangles, 1, 1 << 26)}});
     table.add_needing("WHAT", "mip", mip_options(to.mip));
     table.add_needing("WHAT", "direction",
-                      {{"--from", "NAME", "{}", choice(to.from, {"hue", "luminance"})},
-                       {"--strength", "S", "Of the anisotropy that the map gives, {}", number(to.strength, 0.0, 1.0)}});
+                      {{"--from", "NAME", "Quantity that gives the direction, as an angle from 0 to 180 degrees: {}",
+                        choice(to.from, {"hue", "luminance"})},
+                       {"--strength", "S", "Anisotropy strength in the map, {}", number(to.strength, 0.0, 1.0)}});
     table.add_needing("WHAT", "tpr",
-                      {{"--expr", "EXPR", "Of u and v: the grain along the tangent, and given again or as PICTURE, along the bitangent",
+                      {{"--expr", "EXPR",
+                        "Direction of the stretched highlight by u and v: its part along the tangent, then, given again or as PICTURE, "
+                        "along the bitangent",
                         texts(to.expressions)},
-                       {"--straighten", "SCENE", "In place of expressions: a mesh with texture coordinates, whose grain --direction gives",
-                        scene(to.mesh)},
-                       {"--direction", "X,Y,Z", "Of the grain in space", point(to.along), ""},
-                       {"--encoding", "NAME", "{}", choice(to.encoding, {"vector", "double-angle", "direction"})}});
+                       {"--straighten", "SCENE",
+                        "Mesh with texture coordinates whose highlights stretch along --direction, in place of --expr", scene(to.mesh)},
+                       {"--direction", "X,Y,Z", "Direction of the stretched highlight in space, for --straighten", point(to.along), ""},
+                       {"--encoding", "NAME", "Encoding in red and green: {}; see render --rotation-encoding",
+                        choice(to.encoding, {"vector", "double-angle", "direction"})}});
     table.add_needing("WHAT", "ltc", ltc_options(to.ltc));
     table.add(
         "Maps and tables of texels",
-        {{"--size", "WxH", "Texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
-          "256x256; of brdf-lut 10x20, which is what pictures are made with"},
-         {"--nu", "N", "Of half-vectors and brdf-lut: exponent along the tangent, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
-         {"--nv", "N", "And along the bitangent", number(to.nv, 0.0, kMostPhongExponent), ""},
-         {"--azimuth", "NAME", "How columns of brdf-lut go through the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})},
+        {{"--size", "WxH", "Width and height in texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
+          "256x256; brdf-lut 10x20, as the renderer uses"},
+         {"--nu", "N", "Exponent along the tangent for half-vectors and brdf-lut, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
+         {"--nv", "N", "Exponent along the bitangent for half-vectors and brdf-lut, 1 / alpha^2", number(to.nv, 0.0, kMostPhongExponent),
+          ""},
+         {"--azimuth", "NAME", "Spacing of brdf-lut's columns over the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})},
          {"--brdf", "NAME",
-          "Of ltc and mip: whose lobes; ltc fits ggx_aniso, beckmann, ashikhmin_shirley and ward, mip takes their net and measures "
-          "with them",
+          "Reflection model for ltc (ggx_aniso, beckmann, ashikhmin_shirley or ward) and for mip, which takes its net and measures "
+          "with it",
           lobe_value(to.mip.brdf)}});
     table.add_needing("WHAT", "environment",
-                      {{"--env-size", "N", "Texels along a cube edge, a power of two",
+                      {{"--env-size", "N", "Texels along an edge of the cube map: {}",
                         choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
-                       {"--key-lights", "N", "Small strong lights that leave it: {}", extracted_lights(to.environment.extracted_lights)},
+                       {"--key-lights", "N", "Small strong lights to extract from the environment, at most: {}",
+                        extracted_lights(to.environment.extracted_lights)},
                        {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)}});
     table.add("Output",
               {{"-o,--output", "FILE",
-                "The table, or the map: .png or .tif; of quaternion, tpr and half-vectors .exr, too; of displaced .glb", file(to.output)},
-               {"--preview", "FOLDER", "Also pictures to look at: .png in a folder, none of which anything reads back", folder(to.preview)},
+                "Table or map to write: .png or .tif, for quaternion, tpr and half-vectors also .exr, for displaced .glb", file(to.output)},
+               {"--preview", "FOLDER", "Folder for .png pictures of the result, to look at", folder(to.preview)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity),
                threads_option(to.threads)});
     table.take(limits, "Limits on input",
-               {{"--limit-image-side", "Width and height of the picture"}, {"--limit-file-bytes", "Size of its file"}});
+               {{"--limit-image-side", "Width and height of the input picture"}, {"--limit-file-bytes", "Size of one input file"}});
     return table;
 }
 
@@ -402,7 +409,7 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
 Command bake_command()
 {
     auto arguments = std::make_shared<BakeArguments>();
-    return {"bake", "Make tables and maps that shading reads", bake_option_table(*arguments), kFooter,
+    return {"bake", "Make tables and maps for shading", bake_option_table(*arguments), kFooter,
             [arguments](OptionTable& given) { return run_bake(*arguments, given); }};
 }
 

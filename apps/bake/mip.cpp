@@ -124,22 +124,24 @@ std::vector<Option> mip_options(MipArguments& to)
     std::vector<std::string> names;
     for (const MipFilterInfo& filter : mip_filters())
         names.emplace_back(filter.name);
-    return {
-        {"--mip-filter", "NAME", "{}", choice(to.filter, names)},
-        {"--mip-kappa", "K", "Of filter kappa, and of taps under mipnet and teacher", number(to.kappa, 0.0, kMostKappa),
-         fmt::format("{}", kDefaultMipKappa).c_str()},
-        {"--mip-net", "FILE", "Of filters mipnet and teacher: weights of burnish train mip", file(to.net), "the program's own for --brdf"},
-        {"--fallback", "NAME", "Of filter mipnet: {}; auto leaves materials to kappa or baseline where the net is worse than they are",
-         choice(to.fallback, {"auto", "off"})},
-        {"--mip-gain", "NAME",
-         "Of ssgt, kappa, mipnet and teacher: {}; on: a gain a level of colours, so that it reflects as much as the finest does under "
-         "lamps",
-         choice(to.gains, {"off", "on"})},
-        {"--format", "NAME", "{}: a file for render --mip-pyramid, or a folder of textures for other programs",
-         choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
-        {"--couple", "NAME", "{}; albedo: base colours and metalness weigh as their texels face light and eye",
-         choice(to.couple_albedo, {"none", "albedo"})},
-        {"--color-kernel", "NAME", "What base colours and metalness are averaged by: {}", choice(to.color_kernel, {"box", "kaiser"})}};
+    return {{"--mip-filter", "NAME", "Filter that makes the levels: {}", choice(to.filter, names)},
+            {"--mip-kappa", "K",
+             "For the kappa filter, and for taps under mipnet and teacher: share of the normals' covariance that widens lobes, {}",
+             number(to.kappa, 0.0, kMostKappa), fmt::format("{}", kDefaultMipKappa).c_str()},
+            {"--mip-net", "FILE", "For the mipnet and teacher filters: weights from burnish train mip", file(to.net),
+             "the program's own for --brdf"},
+            {"--fallback", "NAME", "For the mipnet filter: {}; auto takes kappa or baseline for materials where the net is worse",
+             choice(to.fallback, {"auto", "off"})},
+            {"--mip-gain", "NAME",
+             "For the ssgt, kappa, mipnet and teacher filters: {}; on scales each level's colours to reflect as much lamp light as "
+             "the finest level",
+             choice(to.gains, {"off", "on"})},
+            {"--format", "NAME",
+             "Output: pyramid (a file for render --mip-pyramid), or exr-mip or png-levels (a folder of textures for other programs)",
+             choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
+            {"--couple", "NAME", "Weights of base colours and metalness: none, or albedo (texels that face light and eye weigh more)",
+             choice(to.couple_albedo, {"none", "albedo"})},
+            {"--color-kernel", "NAME", "Averaging kernel for base colours and metalness: {}", choice(to.color_kernel, {"box", "kaiser"})}};
 }
 
 int run_mip(const MipBake& bake)

@@ -21,13 +21,13 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(REPORT_DIR gets report.html (one page, needs nothing else), report.json, report.csv, the charts as .svg, the pictures, and rows.json: what has
-been measured, from which a stopped chart goes on. References are kept beside the cache of environments. With the defaults a scene under one
-environment takes minutes on two cores.
+    R"(REPORT_DIR gets report.html (one page that needs no other file), report.json, report.csv, the charts as .svg, and the pictures.
+rows.json holds the finished rows, and a stopped chart continues from it. References are kept beside the cache of environments. With the
+defaults, one scene under one environment takes minutes on two cores.
 
---mip measures filters of normals and lobes in place of frames: FLIP, L1 and MSE of what is shown beside level 0 lit at one to one, averaged, on
-families of materials made in code and the pictured ones of --maps; REPORT_DIR gets mip.json, mip.csv (a row a material, model, filter and
-level) and mip.txt, the means.
+--mip measures mip filters of normals and lobes instead of frames: FLIP, L1 and MSE of each shaded level against level 0, shaded at full
+detail and averaged. It uses families of materials made in code, and those of --maps. REPORT_DIR gets mip.json, mip.csv (one row for each
+material, model, filter and level) and mip.txt, the means.
 
 Examples:
   burnish chart -o report

@@ -137,34 +137,33 @@ OptionTable chart_option_table(ChartArguments& to)
     OptionTable table;
     table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME; may be several", scenes(o.scenes)}});
     table.add(
-        "What is measured",
+        "Measurements",
         {{"--env", "FILE", "Equirectangular picture or builtin:NAME; may be given several times", environments(o.envs)},
          {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(o.techniques)},
          {"--sweep", "NAME=VALUES",
-          "samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,... and anisotropy=A,A,... of every material, or any option of "
-          "pictures; may be several",
+          "Values to chart: samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,..., anisotropy=A,A,... or any option of pictures; may be "
+          "several",
           sweeps(o.sweeps), "as the scene has it"},
-         {"--metric", "NAME", "Of errors: {}; flip sees the pictures as --exposure and the tone curve show them",
+         {"--metric", "NAME", "Measure of errors: {}; flip judges 8-bit pictures after --exposure and the tone curve",
           choice(o.display_flip, {"flip-hdr", "flip"})},
-         {"--reference-textures", "NAME", "Of references: full, read where each ray meets them, or footprint, filtered as techniques do",
+         {"--reference-textures", "NAME", "Texture reads of references: full (at each ray's hit) or footprint (filtered as in techniques)",
           choice(to.render.plain.reference.full_textures, {"footprint", "full"})},
-         {"--runs", "N", "Timed frames of every setting, interleaved", integer(o.runs, 1, 10000)},
+         {"--runs", "N", "Timed frames for every setting, interleaved", integer(o.runs, 1, 10000)},
          {"--reference-samples", "N", "Samples a pixel of the references",
           integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
-    table.add(
-        "Mip filters",
-        {{"--mip", "", "Measure every mip filter, level by level, on materials made in code, in place of frames", flag(o.mip)},
-         {"--maps", "FOLDER", "With --mip: also on these, a folder each with normal, roughness, metallic maps", folder(o.maps), ""},
-         {"--per-set", "N", "With --mip: at most so many materials of each set", integer(o.per_set, 1, 1000), "all"},
-         {"--two-lobes", "",
-          "With --mip: on metals of crossed grain in place of the other sets made in code, and on them also two lobes a texel by search",
-          flag(o.two_lobes)}});
-    table.add("Output",
-              {Option("-o,--output", "REPORT_DIR", "Folder of the report; made where it is not there", folder(o.folder)).must_be_given(),
-               quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});
+    table.add("Mip filters",
+              {{"--mip", "", "Measure mip filters instead of frames: each filter, level by level, on materials made in code", flag(o.mip)},
+               {"--maps", "FOLDER", "With --mip: folder of more materials, each a folder with normal, roughness and metallic maps",
+                folder(o.maps), ""},
+               {"--per-set", "N", "With --mip: materials from each set at most", integer(o.per_set, 1, 1000), "all"},
+               {"--two-lobes", "",
+                "With --mip: measure only metals with two crossed brushing directions, and also two lobes a texel, found by search",
+                flag(o.two_lobes)}});
+    table.add("Output", {Option("-o,--output", "REPORT_DIR", "Folder for the report, created if missing", folder(o.folder)).must_be_given(),
+                         quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});
     table.take(of_render, "Picture",
-               {{"--size", "Width and height in pixels of the frames that are timed"},
-                {"--msaa", "Samples a pixel of the techniques: {}"},
+               {{"--size", "Width and height of timed frames in pixels"},
+                {"--msaa", "Samples a pixel for techniques: {}"},
                 "--camera",
                 "--eye",
                 "--target",
@@ -174,20 +173,20 @@ OptionTable chart_option_table(ChartArguments& to)
                 "--time",
                 "--animation",
                 "--light",
-                {"--exposure", "Of the pictures to look at: multiply by 2^EV"},
+                {"--exposure", "Exposure of displayed pictures in stops: multiplies radiance by 2^EV"},
                 "--no-background"});
-    table.add("Picture", {{"--error-size", "WxH",
-                           "Width and height in pixels of the pictures that are compared with the reference, of the shape of --size",
-                           picture_size(to.error_size), "at most 480 wide"}});
+    table.add("Picture",
+              {{"--error-size", "WxH", "Width and height in pixels of pictures compared with the reference, in the proportions of --size",
+                picture_size(to.error_size), "at most 480 wide"}});
     table.take_all(of_render, "Materials");
     table.take_all(of_render, "Parameters of techniques");
     table.take(of_render, "Environment",
-               {{"--env-rotation", "Turn environments about +Y, counter-clockwise from above"},
+               {{"--env-rotation", "Rotation of environments about +Y in degrees, counter-clockwise seen from above"},
                 "--env-size",
                 "--key-lights",
                 "--env-samples",
-                {"--no-cache", "No cache of environments; references are kept in REPORT_DIR"}});
-    table.take(of_render, "Machine", {"--threads", {"--isa", "{}"}});
+                {"--no-cache", "Use no cache of environments; references stay in REPORT_DIR"}});
+    table.take(of_render, "Machine", {"--threads", {"--isa", "Instruction set: {}"}});
     return table;
 }
 

@@ -102,7 +102,7 @@ Command list_command()
     table.add("", {Option("WHAT", "", "{}",
                           choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions"}))
                        .must_be_given()});
-    return {"list", "List the names that options accept, the reflection models, what is read of glTF", table,
+    return {"list", "List names that options accept, reflection models, and supported glTF features", table,
             "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
                 if (*what == "scenes")
                     return print(builtins(builtin_scenes()));

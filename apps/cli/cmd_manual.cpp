@@ -85,8 +85,8 @@ Command manual_command()
     auto arguments = std::make_shared<ManualArguments>();
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(arguments->what, {"man", "bash", "zsh", "fish", "markdown"})},
-                   {"SUBCOMMAND", "", "Of markdown: whose page of the reference", text(arguments->subcommand), "all of them"}});
-    return {"manual", "Print the manual page, a page of the reference, or the completions of a shell", table,
+                   {"SUBCOMMAND", "", "Subcommand for a markdown page of the reference", text(arguments->subcommand), "all of them"}});
+    return {"manual", "Print the manual page, a page of the reference, or completions for a shell", table,
             "Examples:\n  burnish manual | man -l -\n  source <(burnish manual bash)\n  burnish manual fish > "
             "~/.config/fish/completions/burnish.fish\n  burnish manual markdown render > render.md",
             [arguments](OptionTable&) { return run_manual(*arguments); }};

@@ -34,8 +34,8 @@ constexpr const char* kFooter = R"(Examples:
   burnish info --json
 
 Exit codes: 0 done, 1 results differ, 2 wrong option, 3 sizes do not match, 4 bad input, 5 a reference is missing,
-6 NaN or Inf in a picture, 7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with everything
-kept in a checkpoint.)";
+6 NaN or Inf in a picture, 7 output not written, 70 a fault of the program, 77 not available on this machine, 130 or 143 stopped, with all
+work kept in a checkpoint.)";
 
 int print_help(const Command* command, const std::vector<Command>& commands)
 {

@@ -46,17 +46,17 @@ std::vector<Option> limit_options(Limits& to)
     constexpr std::int64_t kMaxInt = 1 << 30, kMaxDepth = 10000;
     return {
         {"--limit-image-side", "PIXELS", "Width and height of an input picture", integer(to.image_side, 1, kMaxInt)},
-        {"--limit-texture-bytes", "BYTES", "Decoded textures of the scene", bytes(to.texture_bytes)},
-        {"--limit-json-depth", "N", "Nesting of JSON", integer(to.json_depth, 1, kMaxDepth)},
+        {"--limit-texture-bytes", "BYTES", "Size of the scene's decoded textures", bytes(to.texture_bytes)},
+        {"--limit-json-depth", "N", "Nesting depth of JSON", integer(to.json_depth, 1, kMaxDepth)},
         {"--limit-node-depth", "N", "Depth of the scene graph", integer(to.node_depth, 1, kMaxDepth)},
         {"--limit-file-bytes", "BYTES", "Size of one input file", bytes(to.file_bytes)},
-        {"--limit-accessor-bytes", "BYTES", "Decoded accessors of the scene", bytes(to.accessor_bytes)},
-        {"--limit-data-uri-bytes", "BYTES", "One data URI", bytes(to.data_uri_bytes)},
-        {"--limit-draw-bytes", "BYTES", "Vertices and triangles with every instance expanded", bytes(to.draw_bytes)},
+        {"--limit-accessor-bytes", "BYTES", "Size of the scene's decoded accessors", bytes(to.accessor_bytes)},
+        {"--limit-data-uri-bytes", "BYTES", "Size of one data URI", bytes(to.data_uri_bytes)},
+        {"--limit-draw-bytes", "BYTES", "Size of vertices and triangles with every instance expanded", bytes(to.draw_bytes)},
         {"--limit-input-bytes", "BYTES", "Size of all files of the scene", bytes(to.input_bytes)},
-        {"--limit-env-pixels", "N", "Pixels of the environment", integer(to.env_pixels, 1, std::int64_t{1} << 30)},
-        {"--limit-lights", "N", "Area lights of the scene", integer(to.area_lights, 0, std::int64_t{1} << 16)},
-        {"--strict", "", "Refuse glTF files that break the specification in any way or use extensions that are ignored", flag(to.strict)},
+        {"--limit-env-pixels", "N", "Pixels in the environment", integer(to.env_pixels, 1, std::int64_t{1} << 30)},
+        {"--limit-lights", "N", "Area lights in the scene", integer(to.area_lights, 0, std::int64_t{1} << 16)},
+        {"--strict", "", "Refuse glTF files that break the specification or use ignored extensions", flag(to.strict)},
         {"--allow-outside-uris", "", "Read files outside the scene's folder", flag(to.uris_outside)},
     };
 }

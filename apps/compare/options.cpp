@@ -28,42 +28,42 @@ std::vector<Option> figure_rows(CompareArguments& to)
 {
     CompareOptions& o = to.plain;
     return {
-        {"--metric", "NAMES", "Any of flip or flip-hdr, mse, rel-mse, psnr, ssim, max, by commas", choices(to.metrics, metric_names()),
-         "all that suit the pictures"},
+        {"--metric", "NAMES", "Measures, separated by commas: flip or flip-hdr, mse, rel-mse, psnr, ssim, max",
+         choices(to.metrics, metric_names()), "all that suit the pictures"},
         {"--ppd", "N", "FLIP: pixels per degree of the observer's visual field",
          number(o.flip.ppd, static_cast<double>(kMinPpd), static_cast<double>(kMaxPpd)), "67.02"},
-        {"--tonemapper", "NAME", "HDR-FLIP: {}", choice(o.flip.tonemap, {"aces", "reinhard", "hable"})},
+        {"--tonemapper", "NAME", "HDR-FLIP: tone curve, {}", choice(o.flip.tonemap, {"aces", "reinhard", "hable"})},
         {"--start-exposure", "EV", "HDR-FLIP: lowest exposure", number(o.flip.start_ev, -kMaxExposure, kMaxExposure),
          "found in the reference"},
         {"--stop-exposure", "EV", "HDR-FLIP: highest exposure", number(o.flip.stop_ev, -kMaxExposure, kMaxExposure),
          "found in the reference"},
         {"--exposures", "N", "HDR-FLIP: number of exposures", integer(o.flip.exposures, 1, kMaxFlipExposures), "one a stop"},
-        {"--variance", "FILE", "Variance of the reference's pixel means, given again of the test's: a z-test of every pixel",
+        {"--variance", "FILE", "Variance of the reference's pixel means, for a z-test of every pixel; a second one is the test's",
          files(o.variances)},
-        {"--sequence", "", "REFERENCE and TEST are rows of files such as out_%04d.exr: flicker too", flag(o.sequence)},
-        {"--significance", "P", "z-test: probability that equal pictures are told apart", number(o.significance, 1e-9, 0.5)},
+        {"--sequence", "", "Compare numbered files such as out_%04d.exr, and measure flicker", flag(o.sequence)},
+        {"--significance", "P", "z-test: probability of rejecting equal pictures", number(o.significance, 1e-9, 0.5)},
     };
 }
 
 std::vector<Option> failure_rows(CompareOptions& to)
 {
     return {
-        {"--fail-flip", "MEAN", "Fail where FLIP's mean is more", number(to.fail_flip, 0.0, 1.0)},
-        {"--fail-flicker", "F", "With --sequence: fail where the test's neighbours differ by more than the reference's by F",
+        {"--fail-flip", "MEAN", "Fail if FLIP's mean exceeds MEAN", number(to.fail_flip, 0.0, 1.0)},
+        {"--fail-flicker", "F", "With --sequence: fail if the test's flicker exceeds the reference's by more than F",
          number(to.fail_flicker, 0.0, 1.0)},
-        {"--fail-max", "V", "Fail where the largest difference of a channel is more", number(to.fail_max, 0.0, 1e38)},
-        {"--fail-fraction", "F", "Fail where more of the pixels differ", number(to.fail_fraction, 0.0, 1.0)},
-        {"--fail-z", "F", "Fail where the z-test rejects more of the pixels", number(to.fail_z, 0.0, 1.0)},
+        {"--fail-max", "V", "Fail if a channel differs by more than V", number(to.fail_max, 0.0, 1e38)},
+        {"--fail-fraction", "F", "Fail if more than the fraction F of pixels differs", number(to.fail_fraction, 0.0, 1.0)},
+        {"--fail-z", "F", "Fail if the z-test rejects more than the fraction F of pixels", number(to.fail_z, 0.0, 1.0)},
     };
 }
 
 std::vector<Option> output_rows(CompareOptions& to)
 {
     return {
-        {"--json", "FILE", "Write the figures; - is standard output", file(to.json)},
-        {"--csv", "FILE", "Write them as a line of names and one of values", file(to.csv)},
+        {"--json", "FILE", "Write the figures as JSON; - for standard output", file(to.json)},
+        {"--csv", "FILE", "Write the figures as one line of names and one line of values", file(to.csv)},
         {"--html", "FILE", "Write a page with both pictures, the error map and the figures", file(to.html)},
-        {"--error-map", "FILE", "Write FLIP's errors: colours of magma, or floats (exr, hdr, pfm)", file(to.error_map)},
+        {"--error-map", "FILE", "Write FLIP's errors: in the magma colour map, or as floats (exr, hdr, pfm)", file(to.error_map)},
         quiet_option(to.quiet),
         verbose_option(to.verbosity),
     };
@@ -87,16 +87,16 @@ OptionTable compare_option_table(CompareArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.plain.limits));
-    table.add("", {Option("REFERENCE", "", "What the picture should be", file(to.plain.reference)).must_be_given(),
-                   Option("TEST", "", "What it is", file(to.plain.test)).must_be_given()});
+    table.add("", {Option("REFERENCE", "", "Picture to compare with", file(to.plain.reference)).must_be_given(),
+                   Option("TEST", "", "Picture to judge", file(to.plain.test)).must_be_given()});
     table.add("Figures", figure_rows(to));
     table.add("Failing (exit code 1)", failure_rows(to.plain));
     table.add("Output", output_rows(to.plain));
     table.add("Machine", {threads_option(to.plain.threads, "Worker threads; never changes a figure"),
-                          isa_option(to.isa, "{}; never changes a figure")});
+                          isa_option(to.isa, "Instruction set: {}; never changes a figure")});
     table.take(limits, "Limits on input",
                {{"--limit-image-side", "Width and height of a picture"},
-                {"--limit-texture-bytes", "Decoded pixels of one picture"},
+                {"--limit-texture-bytes", "Size of one picture's decoded pixels"},
                 {"--limit-file-bytes", "Size of one file"}});
     return table;
 }

@@ -19,8 +19,8 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(glsl: one file for an engine, that includes nothing: the technique as burnish has it, with the same words where fetches are the same.
-The file says what it takes and what the engine has to provide.
+    R"(glsl: one file for an engine, without includes. Given equal fetches, it computes the same bits as burnish. The file documents its arguments
+and the functions that the engine provides.
 
 Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl
@@ -28,13 +28,13 @@ Examples:
 
 // Opening comment of the exported file.
 constexpr const char* kHeading = R"(// {0}: {1}
-// The light of an environment that an anisotropic specular lobe reflects, from burnish {2} (Apache License 2.0).
+// Environment light reflected by an anisotropic specular lobe, from burnish {2} (Apache License 2.0).
 //
 //     vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)
 //
-// returns linear radiance. f: burnish_usual_settings(size, levels, samples) and what you change of it; x: burnish_point_of(...).
-// You provide burnish_radiance(), below: fetches from your environment. GLSL 4.20, ESSL 3.20 or later; `precise` is what makes the words
-// those of burnish, and can be left out for speed (#define precise). --samples was {3}.
+// returns linear radiance. f: burnish_usual_settings(size, levels, samples) with your changes; x: burnish_point_of(...).
+// You provide burnish_radiance(), below: fetches from your environment. Needs GLSL 4.20, ESSL 3.20 or later. `precise` keeps the bits equal
+// to those of burnish; #define precise leaves it out for speed. --samples was {3}.
 )";
 
 struct ExportArguments {
@@ -56,10 +56,10 @@ OptionTable export_option_table(ExportArguments& to)
 {
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"glsl"})}});
-    table.add("The technique", {Option("--technique", "NAME", "{}", choice(to.technique, technique_names())).must_be_given(),
-                                {"--samples", "N", "That the file's own settings have, {}", integer(to.samples, 1, 65536),
-                                 "as many as the technique's own"}});
-    table.add("Output", {Option("-o,--output", "FILE", "The file; - for standard output", file(to.output)).must_be_given(),
+    table.add("The technique",
+              {Option("--technique", "NAME", "Technique to export: {}", choice(to.technique, technique_names())).must_be_given(),
+               {"--samples", "N", "Samples in the file's default settings, {}", integer(to.samples, 1, 65536), "the technique's default"}});
+    table.add("Output", {Option("-o,--output", "FILE", "File to write; - for standard output", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
     return table;
 }

@@ -162,16 +162,16 @@ Command info_command()
     auto arguments = std::make_shared<RenderArguments>();
     OptionTable table;
     auto weights = std::make_shared<std::string>();
-    table.add("", {{"--json", "", "Machine-readable", flag(*json)},
-                   {"--weights", "FILE", "Instead: what these weights of burnish train are of, and the command that makes them",
-                    file(*weights)}});
+    table.add("",
+              {{"--json", "", "Print JSON", flag(*json)},
+               {"--weights", "FILE", "Weights file of burnish train: describes it and its command, instead of the build", file(*weights)}});
     table.take(render_option_table(*arguments), "Environment",
-               {{"--env", "Also what is in this environment: an equirectangular picture or builtin:NAME", ""},
+               {{"--env", "Environment to describe too: an equirectangular picture or builtin:NAME", ""},
                 "--env-rotation",
                 "--env-exposure",
                 "--key-lights",
                 "--no-cache"});
-    return {"info", "Say what this build is and what it runs on", table,
+    return {"info", "Describe this build and this machine", table,
             "Examples:\n  burnish info\n  burnish info --json\n  burnish info --env builtin:sky\n\nBN_FORCE_ISA=NAME in the environment "
             "caps the instruction set;"
             " BURNISH_CACHE_BYTES=500M limits the cache (2G).",

@@ -23,10 +23,10 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(Renders with the tile renderer and with Vulkan, and compares words: clip positions, visibility (the triangle of each sample), depth,
-interpolants, material inputs, shaded colour, resolved colour, layers; what follows visibility where visibility agrees. With the exact sampler no
-word may differ but visibility, of which one sample in a million may; pictures of --pipeline forward must look the same (mean FLIP below 0.002),
-and every pixel that differs is put down to the first stage that differs by more than a thousandth, or to rounding.
+    R"(Renders with the tile renderer and with Vulkan, and compares 32-bit words of each stage: clip positions, visibility (the triangle of each
+sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
+With the exact sampler all words must be equal, except visibility for one sample in a million. Pictures of --pipeline forward must look the
+same (mean FLIP below 0.002). Each pixel that differs is assigned to the first stage that differs by more than 0.001, or to rounding.
 
 Examples:
   burnish parity
@@ -34,7 +34,7 @@ Examples:
   burnish parity --suite default --models models --junit parity.xml --json parity.json --html parity.html
   burnish parity --pipeline forward --sampler native --msaa 4
 
-Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan; a row that fails otherwise: its code, at the end.)";
+Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan. Another failure of a row ends with its own code.)";
 
 // State shared by all places.
 struct Bench {

@@ -23,11 +23,11 @@ namespace burnish {
 namespace {
 
 constexpr const char* kRaceFooter =
-    R"(The tile renderer and each device draw the same frame in turn, warm; the device by the classical pipeline with its own samplers, timed
-from submission to the fence, by the project's own shader, which has the kernels' text, and by a lean one, as an engine would write it. The
-ratio is of the process' CPU time, device over tile: above 1 the tile renderer needs less. A frame that differs (mean FLIP above 0.01, where
-no silhouette crosses the pixel) is marked and counts for nothing. A row that fails, or that the lean shader does not draw, is reported, and
-its exit code given at the end.
+    R"(The tile renderer and each device draw the same frame in turn, after warming up. The device uses the classical pipeline and its own samplers,
+and is timed from submission to the fence. It runs the project's shader, made from the kernels' text, and a lean shader, as an engine would
+write it. The ratio compares the process' CPU times, device over tile: above 1, the tile renderer needs less. A frame that differs (mean FLIP
+above 0.01 over pixels without silhouettes) is marked and does not count. A row that fails, or that the lean shader cannot draw, is reported,
+and the program ends with its exit code.
 
 Examples:
   burnish race
@@ -260,23 +260,23 @@ OptionTable option_table(RaceArguments& to)
     OptionTable table;
     table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes)},
                    {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
-                   {"--devices", "NAMES", "By commas; those that are absent are named and left out", choices(to.devices, {})},
-                   {"--shaders", "NAMES", "own (the kernels' text) and lean (as an engine would write it), by commas",
+                   {"--devices", "NAMES", "Devices, separated by commas; absent ones are named and left out", choices(to.devices, {})},
+                   {"--shaders", "NAMES", "Shaders, separated by commas: own (the kernels' text) and lean (as an engine would write it)",
                     choices(to.shaders, {std::begin(kRaceShaders), std::end(kRaceShaders)})},
-                   {"--msaa", "N,N", "Samples a pixel, by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
-                   {"--runs", "N", "Timed frames of every row and renderer, in turn", integer(to.runs, 1, 10000)},
+                   {"--msaa", "N,N", "Samples a pixel, separated by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
+                   {"--runs", "N", "Timed frames for every row and renderer, in turn", integer(to.runs, 1, 10000)},
                    {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
-                   {"--csv", "FILE", "Rows by commas; - for standard output", file(to.csv)}});
+                   {"--csv", "FILE", "Rows as CSV; - for standard output", file(to.csv)}});
     table.take(of_render, "",
                {"--size",
-                {"--samples", "Samples of the techniques, where they take any", ""},
+                {"--samples", "Samples of the techniques, if they take any", ""},
                 "--env",
                 "--env-size",
                 "--key-lights",
                 "--env-samples"});
     table.add("", {threads_option(r.threads, "Worker threads of the tile renderer"),
                    isa_option(r.isa),
-                   {"--shader-folder", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
+                   {"--shader-folder", "DIR", "Folder with NAME.spv to replace the program's shaders, for tests of this command",
                     folder(r.vulkan.shader_folder)},
                    quiet_option(r.quiet),
                    verbose_option(r.verbosity, "Print rows as they come")});

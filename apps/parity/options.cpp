@@ -126,27 +126,29 @@ OptionTable parity_option_table(ParityArguments& to)
     OptionTable table;
     table.add("", {{"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME; may be several", scenes(to.scenes), "the suite 'default'"}});
     table.add(
-        "What is compared",
-        {{"--suite", "NAME", "{}: the built-in scenes, from afar and from close by", choice(to.suite, {"default"})},
-         {"--models", "DIR", "Also every .glb and .gltf below this folder", folder(to.models)},
+        "Comparisons",
+        {{"--suite", "NAME", "Set of scenes: {} (the built-in ones, from afar and from near)", choice(to.suite, {"default"})},
+         {"--models", "DIR", "Folder whose .glb and .gltf files are compared too", folder(to.models)},
          {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
-         {"--msaa", "N,N", "Samples a pixel, by commas, of 1, 2, 4, 8 and 16", choices(to.msaa, {1, 2, 4, 8, 16})},
+         {"--msaa", "N,N", "Samples a pixel, separated by commas: 1, 2, 4, 8 or 16", choices(to.msaa, {1, 2, 4, 8, 16})},
          {"--also", "OPTIONS",
-          "All of it once more with options of materials and techniques, such as '--tilt 20,-10 --horizon off'; may be given several times",
+          "Options of materials and techniques for a further round, such as '--tilt 20,-10 --horizon off'; may be given several times",
           texts(to.also)}});
     table.take(of_render, "Machine",
-               {{"--device", nullptr, "the first CPU device"}, {"--sampler", "exact, or native with --pipeline forward"}, "--validate"});
-    table.add("Machine",
-              {{"--pipeline", "NAME", "ids (visibility first, each visible triangle of a pixel shaded once) or forward (classical)",
-                choice(r.vulkan.pipeline, {"ids", "forward"})},
-               {"--shaders", "DIR", "Folder of NAME.spv in place of the program's shaders: for tests of this command",
-                folder(r.vulkan.shader_folder)},
-               threads_option(r.threads, "Worker threads of the tile renderer"),
-               isa_option(r.isa)});
+               {{"--device", nullptr, "the first CPU device"},
+                {"--sampler", "Texture sampler: exact, or native with --pipeline forward"},
+                "--validate"});
+    table.add("Machine", {{"--pipeline", "NAME",
+                           "Pipeline: ids (visibility first, one shading for each visible triangle and pixel) or forward (classical)",
+                           choice(r.vulkan.pipeline, {"ids", "forward"})},
+                          {"--shaders", "DIR", "Folder with NAME.spv to replace the program's shaders, for tests of this command",
+                           folder(r.vulkan.shader_folder)},
+                          threads_option(r.threads, "Worker threads of the tile renderer"),
+                          isa_option(r.isa)});
     table.add("Output", {{"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
-                         {"--csv", "FILE", "Rows by commas, without their stages; - for standard output", file(to.csv)},
+                         {"--csv", "FILE", "Rows as CSV, without their stages; - for standard output", file(to.csv)},
                          {"--junit", "FILE", "Rows as JUnit XML", file(to.junit)},
-                         {"--html", "FILE", "Rows as one page", file(to.html)},
+                         {"--html", "FILE", "Rows as one HTML page", file(to.html)},
                          quiet_option(r.quiet),
                          verbose_option(r.verbosity, "Print every row")});
     table.take(of_render, "Picture",
@@ -157,14 +159,14 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--env-size",
                 "--key-lights",
                 "--env-samples",
-                {"--samples", "Samples of the techniques, where they take any", ""},
-                {"--roughness", "Override alpha_lin of every material, {}"},
-                {"--anisotropy", "Override eta of every material, {}"},
+                {"--samples", "Samples of the techniques, if they take any", ""},
+                {"--roughness", "Override the roughness alpha_lin of every material, {}"},
+                {"--anisotropy", "Override the anisotropy eta of every material, {}"},
                 "--light",
                 "--ltc-table",
                 "--as-table",
                 "--texture-anisotropy",
-                {"--no-cache", "Neither environments nor pipelines from disk"}});
+                {"--no-cache", "Take neither environments nor pipelines from disk"}});
     table.take_all(of_render, "Materials");
     table.take_all(of_render, "Parameters of techniques");
     return table;

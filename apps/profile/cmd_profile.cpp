@@ -22,8 +22,8 @@ namespace {
 constexpr int kFrames = 10; // profiled frames without --frames
 
 constexpr const char* kFooter =
-    R"(The frame is drawn 2 x --frames times (10), with and without the clocks in turn, after two frames that warm up. Times of a stage
-are summed over the threads. --trace shows every stage of every tile on its thread.
+    R"(After two warm-up frames, the frame is drawn 2 x --frames times (10), with and without clocks in turn. A stage's times are summed over
+the threads. --trace shows every stage of every tile on its thread.
 
 Examples:
   burnish profile
@@ -189,9 +189,9 @@ Command profile_command()
 {
     auto arguments = std::make_shared<ProfileArguments>();
     OptionTable table = render_option_table(arguments->render);
-    table.add("Output", {{"--json", "FILE", "The figures as JSON; - for standard output", file(arguments->json_file)},
-                         {"--svg", "FILE", "A flame-style picture; - for standard output", file(arguments->svg_file)}});
-    return {"profile", "Show where the time of a frame goes", table, kFooter,
+    table.add("Output", {{"--json", "FILE", "Figures as JSON; - for standard output", file(arguments->json_file)},
+                         {"--svg", "FILE", "Flame graph as SVG; - for standard output", file(arguments->svg_file)}});
+    return {"profile", "Show how a frame spends its time", table, kFooter,
             [arguments](OptionTable& given) { return run_profile(*arguments, given); }};
 }
 

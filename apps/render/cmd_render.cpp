@@ -18,9 +18,9 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(Pictures: .exr .hdr .pfm hold linear Rec.709 radiance as it was rendered; .png .jpg .tif are exposed, tonemapped
-and encoded as sRGB. A file appears under its name only when it is complete. Without -o the frame is rendered and
-its figures are printed.
+    R"(Pictures: .exr .hdr .pfm hold linear Rec.709 radiance as rendered; .png .jpg .tif are exposed, tonemapped and
+encoded as sRGB. A file appears under its name only when it is complete. Without -o, the program renders the
+frame and prints its figures.
 
 Examples:
   burnish render -o teapot.png

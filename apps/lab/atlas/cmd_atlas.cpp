@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxTableBytes = 16ull << 20;
 constexpr const char* kFooter =
-    R"(Each entry is a path of pictures from where a method holds to where it breaks, measured against the reference or another truth. DIR gets
-index.html with the pictures, atlas.json, and what is finished, from which a stopped atlas goes on.
+    R"(Each entry is a path of pictures from settings where a method holds to settings where it fails, measured against the reference or another
+truth. DIR gets index.html with the pictures, atlas.json, and finished entries; a stopped atlas continues from those.
 
-Exit codes: 0 all are held, 1 an entry is worse than its blessed figures or its cure fails, 2 wrong option, 7 output not written, 77 without
-Embree, whose reference is the truth.
+Exit codes: 0 all entries hold, 1 an entry is worse than its blessed figures or its cure fails, 2 wrong option, 7 output not written, 77 no
+Embree, which the reference needs.
 
 Examples:
   burnish atlas --list
@@ -241,7 +241,7 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
 Command atlas_command()
 {
     auto options = std::make_shared<AtlasOptions>();
-    return {"atlas", "Show, measure and hold where each method breaks", atlas_option_table(*options), kFooter,
+    return {"atlas", "Show and measure how each method fails, and compare with blessed figures", atlas_option_table(*options), kFooter,
             [options](OptionTable& given) { return run_atlas(*options, given); }};
 }
 

@@ -33,21 +33,21 @@ OptionTable atlas_option_table(AtlasOptions& to)
 {
     OptionTable table;
     table.add(
-        "", {{"ID", "", "Entries; may be several; all without one", entry_names(to.ids)},
-             {"--list", "", "Print the entries and what each breaks", flag(to.list)},
-             {"--quick", "", "7 steps of small pictures in place of 33 of larger ones, with blessed figures of their own", flag(to.quick)},
-             {"--with", "WORDS", "Words of burnish render that what breaks and its cure have besides, to see what a change breaks",
-              text(to.with), ""}});
-    table.add("Output",
-              {{"-o,--output", "DIR", "Folder of the page, index.html, and of atlas.json; made where it is not there", folder(to.folder)},
-               {"--json", "FILE", "The figures; - for standard output", file(to.json)},
-               {"--table", "FILE", "Blessed figures to hold to", file(to.table), "the program's own"},
-               {"--bless", "", "Write what was measured into --table; entries that were not measured stay as they are", flag(to.bless)},
-               quiet_option(to.quiet),
-               verbose_option(to.verbosity)});
+        "", {{"ID", "", "Entries to measure; may be several; all if none is given", entry_names(to.ids)},
+             {"--list", "", "Print the entries with the failure that each shows", flag(to.list)},
+             {"--quick", "", "Take 7 steps with small pictures instead of 33 with larger ones, and compare with their own blessed figures",
+              flag(to.quick)},
+             {"--with", "WORDS", "Further options of burnish render for the failing picture and its cure, to try a change", text(to.with),
+              ""}});
+    table.add("Output", {{"-o,--output", "DIR", "Folder for index.html and atlas.json, created if missing", folder(to.folder)},
+                         {"--json", "FILE", "Figures as JSON; - for standard output", file(to.json)},
+                         {"--table", "FILE", "Blessed figures to compare with", file(to.table), "the program's own"},
+                         {"--bless", "", "Write the measured figures into --table; other entries stay as they are", flag(to.bless)},
+                         quiet_option(to.quiet),
+                         verbose_option(to.verbosity)});
     table.add("Machine", {threads_option(to.threads),
-                          isa_option(to.isa, "{}; never changes the figures"),
-                          {"--no-cache", "", "No cache of environments and references", flag(to.use_cache, false)}});
+                          isa_option(to.isa, "Instruction set: {}; never changes the figures"),
+                          {"--no-cache", "", "Use no cache of environments and references", flag(to.use_cache, false)}});
     return table;
 }
 

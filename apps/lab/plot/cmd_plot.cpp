@@ -22,14 +22,15 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(axis: densities of slopes, of microfacet normals and of reflected directions of a GGX lobe, with the ellipse of k
-deviations, the points closest to the mirror direction and farthest from it, clamped at the horizon and moved with it, the major axis and
-its samples. lobe: any model's lobe, tilted ones too: the half vectors that the eye sees, the reflected directions and polar cuts, of BRDF
-times cosine without Fresnel. side: a sphere from which bent_normal and major_axis look up or down,
-and where that is not the way of the lobe's mean, by anisotropy. half-vectors: what a lobe of Ashikhmin and Shirley samples, and its albedo, as
-tables. energy: what such a surface loses with its own diffuse part, by exponents. ltc: transformed cosines beside a GGX lobe, how fits come to
-them, and what lies between two. ellipsoid: a page of what the ellipsoid distribution of normals promises,
-measured: mean normals, visible areas, samplers, a skewed lobe against a normal map.
+    R"(axis: a GGX lobe's densities of slopes, microfacet normals and reflected directions, with the ellipse of k deviations. It shows the points
+nearest to the mirror direction and farthest from it, before and after clamping at the horizon, and the major axis with its samples.
+lobe: any model's lobe, also tilted: visible half vectors, reflected directions and polar cuts, as BRDF times cosine without Fresnel.
+side: a sphere where bent_normal and major_axis look up or down, with the places where they disagree with the lobe's mean, by anisotropy.
+half-vectors: tables of an Ashikhmin-Shirley lobe's sampled half vectors and its albedo.
+energy: light that an Ashikhmin-Shirley surface loses with its own diffuse part, by exponents.
+ltc: transformed cosines beside a GGX lobe, the steps of their fit, and the lobes between two nodes.
+ellipsoid: a page that measures the ellipsoid distribution of normals: mean normals, visible areas, samplers, and a skewed lobe against a
+normal map.
 
 Examples:
   burnish plot axis -o axis.svg
@@ -56,22 +57,25 @@ OptionTable plot_option_table(PlotArguments& to)
     LobePlot& l = to.lobe;
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors", "energy", "ltc"})}});
-    table.add("The lobe", {{"--roughness", "R", "alpha_lin, {}", number(l.roughness, 0.03, 1.0)},
-                           {"--anisotropy", "A", "eta, {}: alpha_lin^2 (1 +- eta) along and across", number(l.anisotropy, -1.0, 1.0)},
-                           {"--eye", "DEG,DEG", "Where it is seen from: off the normal, and about it from the grain",
-                            angles(to.eye_deg, -360.0, 360.0)}});
+    table.add("The lobe",
+              {{"--roughness", "R", "Roughness alpha_lin of the lobe, {}", number(l.roughness, 0.03, 1.0)},
+               {"--anisotropy", "A", "Anisotropy eta of the lobe, {}: GGX widths alpha_lin^2 (1 +- eta) along and across the tangent",
+                number(l.anisotropy, -1.0, 1.0)},
+               {"--eye", "DEG,DEG", "Direction to the eye: angle from the normal, and angle about it from the tangent",
+                angles(to.eye_deg, -360.0, 360.0)}});
     table.add_needing("WHAT", "axis",
-                      {{"--axis-k", "K", "Deviations of slope that the axis covers, {}", number(l.k, 0.01, 10.0)},
-                       {"--axis-beta", "B", "Overlap of samples, {}", number(l.beta, 0.0, 100.0)},
-                       {"--samples", "N", "On the axis, {}", integer(l.samples, 1, 64)}});
+                      {{"--axis-k", "K", "Deviations of slope that the major axis covers, {}", number(l.k, 0.01, 10.0)},
+                       {"--axis-beta", "B", "Overlap of samples on the major axis, {}", number(l.beta, 0.0, 100.0)},
+                       {"--samples", "N", "Samples on the major axis, {}", integer(l.samples, 1, 64)}});
     table.add_needing("WHAT", "side",
-                      {{"--rotation", "DEG", "Of the grain, from the sphere's parallels", number(l.rotation_deg, -180.0, 180.0)}});
+                      {{"--rotation", "DEG", "Angle between the stretched highlight's direction and the sphere's parallels, {} degrees",
+                        number(l.rotation_deg, -180.0, 180.0)}});
     std::vector<Option> models;
     for (Option& option : parameter_options(to.frame))
         if (option.name == "--brdf" || option.name == "--tilt")
             models.push_back(option);
     table.add_needing("WHAT", "lobe", models);
-    table.add("Output", {Option("-o,--output", "FILE", "A .svg; of ellipsoid a .html", file(to.output)).must_be_given(),
+    table.add("Output", {Option("-o,--output", "FILE", "Figure to write: .svg, for ellipsoid .html", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
     return table;
 }
@@ -131,7 +135,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
 Command plot_command()
 {
     auto arguments = std::make_shared<PlotArguments>();
-    return {"plot", "Draw lobes, and where a technique samples them", plot_option_table(*arguments), kFooter,
+    return {"plot", "Draw lobes, and the places where a technique samples them", plot_option_table(*arguments), kFooter,
             [arguments](OptionTable& given) { return run_plot(*arguments, given); }};
 }
 

@@ -60,8 +60,8 @@ Drawing plot_energy()
     out.text(kGap, kTop + kSide + 44.0, "note", note);
     out.text(kGap, kTop + kSide + 68.0, "note",
              fmt::format(
-                 "to the right and up: exponents nu and nv from 1 to 100000, by their logarithms; f0 {:g}, white; seen from 45 degrees off "
-                 "the grain; white: nothing is lost, red: {:g}, blue: more than there is",
+                 "to the right and up: exponents nu and nv from 1 to 100000, on logarithmic axes; f0 {:g}, white; seen from 45 degrees off "
+                 "the tangent; white: no loss, red: {:g}, blue: a gain",
                  kF0, kMost));
     return out;
 }

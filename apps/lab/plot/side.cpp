@@ -149,12 +149,12 @@ Drawing plot_side(const LobePlot& plot)
         draw_sphere(out, plot, looker);
     draw_shares(out, plot, kGap + 3.0 * (kSide + kGap));
     const Shares shares = shares_of(plot, plot.anisotropy);
-    out.text(kGap, kTop + kSide + 44.0, "note",
-             fmt::format("alpha_lin {:g}, eta {:g}, grain {:g} degrees off the parallels, {} samples; light: looks up, dark: looks down, "
-                         "red: not as the lobe's "
-                         "mean does, bent_normal {:.2f} %, major_axis {:.2f} % of the points",
-                         plot.roughness, plot.anisotropy, plot.rotation_deg, plot.samples, 100.0 * shares.of[bent_normal],
-                         100.0 * shares.of[major_axis]));
+    out.text(
+        kGap, kTop + kSide + 44.0, "note",
+        fmt::format("alpha_lin {:g}, eta {:g}, highlight {:g} degrees off the parallels, {} samples; light: looks up, dark: looks down, "
+                    "red: against the lobe's mean, bent_normal {:.2f} %, major_axis {:.2f} % of the points",
+                    plot.roughness, plot.anisotropy, plot.rotation_deg, plot.samples, 100.0 * shares.of[bent_normal],
+                    100.0 * shares.of[major_axis]));
     draw_key(out, kTop + kSide + 74.0, {{"c1", "bent_normal"}, {"c2", "major_axis"}});
     return out;
 }

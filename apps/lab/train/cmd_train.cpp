@@ -24,14 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFooter =
-    R"(mip: a cascade of two nets that makes mipmaps of normals and anisotropic widths whose levels look as level 0 does from afar
-(MIPNet, Gauthier et al. 2022). It is trained on materials made in code: tiles of 32 x 32 texels, lit in random directions at one to one,
-averaged, and compared on every level as a display shows them. Layout cov begins at a closed form (covariances of normals added to widths)
-and learns what is left; paper adds to plain means, as published. What is done so far is kept in WEIGHTS.part, or where --checkpoint says:
-the same command goes on from there, to the same bytes, whatever the threads and the instruction set.
---evaluate measures weights against closed forms on families that are never trained on, on new materials of those that are, and with
---maps on pictures: FLIP, L1 and MSE of what is shown, times 1000, means over levels 1 to 5. --validation: only what may be looked at while
-something is chosen, new materials of trained families.
+    R"(mip: a cascade of two nets that makes mipmaps of normals and anisotropic widths. Each level looks like level 0 from afar (MIPNet, Gauthier
+et al. 2022). Training uses materials made in code: tiles of 32 x 32 texels, lit from random directions at full detail and averaged. Every
+level is compared with them as a display shows it. Layout cov starts from a closed form (covariances of normals added to widths) and learns
+the rest; paper adds to plain means, as published. A stopped training leaves WEIGHTS.part, or the file of --checkpoint. The same command
+continues from it to the same bytes, for every number of threads and every instruction set.
+--evaluate measures weights against closed forms: on families outside the training, on new materials of trained families, and on pictures
+with --maps. It prints FLIP, L1 and MSE of shaded levels, times 1000, as means over levels 1 to 5. --validation measures only new materials
+of trained families, which serve for choosing weights.
 
 Examples:
   burnish train mip --brdf ggx_aniso -o ggx_aniso.mipnet
@@ -61,38 +61,42 @@ OptionTable train_option_table(TrainArguments& to)
     limits.add("", limit_options(to.limits));
     mipnet::TrainOptions& t = to.train;
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"mip"})}});
-    table.add(
-        "The nets",
-        {{"--brdf", "NAME", "The lobe that shows the mipmaps: {}", choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
-         {"--layout", "NAME", "{}", choice(t.shape.layout, {"paper", "cov"})},
-         {"--size", "SIZE", "Hidden layers x units of both nets, {}; 2x512/3x1024 is as published, 2x32 has no second net", text(to.size)},
-         {"--footprint", "TEXELS", "Along a side, of the finest level that the second net sees: {}", choice(t.shape.far, {"4", "8"})}});
-    table.add(
-        "Training",
-        {{"--steps", "N", "Of 32 tiles each", integer(t.steps, 1, 100000000)},
-         {"--seed", "N", "Of everything random", integer(t.seed, 0, 1 << 30)},
-         {"--loss", "NAME", "Of differences of what is shown: {}", choice(t.loss, {"l1", "l2", "charbonnier"})},
-         {"--tone", "NAME", "What is shown of radiance: {}, as a display does, or log(1 + x)", choice(t.tone, {"display", "log"})},
-         {"--mirrored", "SHARE", "Of directions near where highlights are, the others from anywhere", number(t.mirrored, 0.0, 1.0)},
-         {"--light", "W", "Weight of what mean radiance of a level is off by, beside the loss", number(t.light, 0.0, 10.0)},
-         {"--levels", "N", "That the loss looks at: 2 see the second net once, 5 four times", integer(t.levels, 1, mipnet::kTrainedLevels)},
-         {"--only-maps", "FOLDER", "Materials to train on in place of those made in code; --maps: beside them", folder(to.only_maps)},
-         {"--from", "WEIGHTS", "Go on from these, of the same lobe, layout and size", file(to.from)},
-         {"--taught-by", "WEIGHTS", "Take the levels of these, of the same lobe, as the truth", file(to.taught_by)},
-         {"--checkpoint", "FILE", "Where to keep what is done", file(to.checkpoint), "WEIGHTS.part"}});
+    table.add("The nets", {{"--brdf", "NAME", "Reflection model that shades the mipmaps: {}",
+                            choice(t.shape.lobe, {"ggx_aniso", "beckmann", "ashikhmin_shirley"})},
+                           {"--layout", "NAME",
+                            "Starting point of the nets: paper (plain means, as published) or cov (covariances of normals added to widths)",
+                            choice(t.shape.layout, {"paper", "cov"})},
+                           {"--size", "SIZE", "Hidden layers x units of both nets; 2x512/3x1024 is as published, 2x32 has no second net",
+                            text(to.size)},
+                           {"--footprint", "TEXELS", "Texels along a side of the second net's input, at its finest level: {}",
+                            choice(t.shape.far, {"4", "8"})}});
+    table.add("Training",
+              {{"--steps", "N", "Training steps, each on 32 tiles", integer(t.steps, 1, 100000000)},
+               {"--seed", "N", "Seed of all random numbers", integer(t.seed, 0, 1 << 30)},
+               {"--loss", "NAME", "Loss on differences between shaded pictures: {}", choice(t.loss, {"l1", "l2", "charbonnier"})},
+               {"--tone", "NAME", "Radiance in the loss: display (tonemapped) or log (log(1 + x))", choice(t.tone, {"display", "log"})},
+               {"--mirrored", "SHARE", "Share of direction pairs near highlights, {}; the others are random", number(t.mirrored, 0.0, 1.0)},
+               {"--light", "W", "Weight of a level's error in mean radiance, added to the loss, {}", number(t.light, 0.0, 10.0)},
+               {"--levels", "N", "Levels in the loss: 2 use the second net once, 5 use it four times",
+                integer(t.levels, 1, mipnet::kTrainedLevels)},
+               {"--only-maps", "FOLDER", "Folder of materials to train on instead of those made in code; --maps adds to them",
+                folder(to.only_maps)},
+               {"--from", "WEIGHTS", "Weights to start from, with the same lobe, layout and size", file(to.from)},
+               {"--taught-by", "WEIGHTS", "Weights whose levels are the truth, for the same lobe", file(to.taught_by)},
+               {"--checkpoint", "FILE", "Checkpoint file for unfinished training", file(to.checkpoint), "WEIGHTS.part"}});
     table.add("Measuring",
-              {{"--evaluate", "WEIGHTS", "Measure these instead of training", file(to.evaluate)},
+              {{"--evaluate", "WEIGHTS", "Weights to measure, instead of training", file(to.evaluate)},
                {"--maps", "FOLDER",
-                "Also on these materials, a folder each: normal, roughness, metallic maps; without --evaluate: train on them, too",
+                "Further materials, each a folder with normal, roughness and metallic maps: measured with --evaluate, else trained on",
                 folder(to.maps)},
-               {"--validation", "", "On materials to choose by, none of those to report", flag(to.validation)},
+               {"--validation", "", "Measure on validation materials only, none of the test materials", flag(to.validation)},
                {"--json", "FILE", "Figures of every material and level", file(to.json)}});
-    table.add("Output", {{"-o,--output", "FILE", "The weights", file(to.output)},
+    table.add("Output", {{"-o,--output", "FILE", "Weights file to write", file(to.output)},
                          quiet_option(to.quiet),
                          verbose_option(to.verbosity),
                          threads_option(to.threads)});
     table.take(limits, "Limits on input",
-               {{"--limit-image-side", "Width and height of pictures"}, {"--limit-file-bytes", "Size of their files"}});
+               {{"--limit-image-side", "Width and height of an input picture"}, {"--limit-file-bytes", "Size of one input file"}});
     return table;
 }
 
@@ -305,7 +309,7 @@ int run_train(TrainArguments& a, const OptionTable& given)
 Command train_command()
 {
     auto arguments = std::make_shared<TrainArguments>();
-    return {"train", "Train nets that make mipmaps, and measure them", train_option_table(*arguments), kFooter,
+    return {"train", "Train and measure neural nets that make mipmaps", train_option_table(*arguments), kFooter,
             [arguments](OptionTable& given) { return run_train(*arguments, given); }};
 }
 

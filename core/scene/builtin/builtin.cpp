@@ -15,20 +15,28 @@ template <class T> struct Maker {
 };
 
 constexpr Maker<Scene> kScenes[] = {
-    {{"teapot", "the Utah teapot in steel, brushed around its axis"}, make_teapot},
-    {{"spheres", "silver spheres over roughness (right) and anisotropy (up)"}, make_spheres},
-    {{"sphere", "one of them under a lamp, to look at a single lobe"}, make_sphere},
-    {{"plate", "a brass plate whose brushing follows a direction texture"}, make_plate},
-    {{"lights", "a dark room: brushed plates and spheres under area lights, for the environment builtin:night"}, make_lights},
-    {{"glass", "balls and a ring of glass on a turned steel disc, for technique mc and the reference"}, make_glass},
-    {{"bumps", "a hammered sphere, a turned disc, a record and tiles: surfaces whose look is in their maps"}, make_bumps},
-    {{"lacquer", "a carbon weave, car paint and brushed steel under clear coats, on satin plastic"}, make_lacquer},
-    {{"shaderballs", "twelve balls whose look is in their maps, near, far and grazing: for mip filters and cameras"}, make_shaderballs},
+    {{"teapot", "the Utah teapot in steel; its highlights run around the body"}, make_teapot},
+    {{"spheres", "silver spheres whose highlights run around them: roughness grows to the right, anisotropy upwards"}, make_spheres},
+    {{"sphere", "one silver sphere under a lamp, to look at a single lobe; its highlights run around it"}, make_sphere},
+    {{"plate", "a smooth brass plate; its highlights stretch along circles in a disc, along rays in a sunburst, and crosswise in squares "
+               "around both"},
+     make_plate},
+    {{"lights",
+      "a dark room under area lights: plates with level, upright and round highlights, and spheres; for the environment builtin:night"},
+     make_lights},
+    {{"glass", "balls and a ring of glass on a steel disc with highlights along circles, for technique mc and the reference"}, make_glass},
+    {{"bumps",
+      "a hammered copper sphere, a steel disc with highlights along circles, a grooved record and tiles; all detail is in their maps"},
+     make_bumps},
+    {{"lacquer", "balls under clear coats on satin plastic: carbon weave (highlights across its threads), car paint, and steel (highlights "
+                 "around it)"},
+     make_lacquer},
+    {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters"}, make_shaderballs},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},
     {{"sky", "a clear sky with a small sun"}, make_sky},
-    {{"night", "next to no light, for scenes with lights of their own"}, make_night},
+    {{"night", "almost no light, for scenes with their own lights"}, make_night},
 };
 
 template <class T, std::size_t N> std::vector<BuiltinInfo> infos(const Maker<T> (&makers)[N])
