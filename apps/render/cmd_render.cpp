@@ -13,6 +13,7 @@
 #include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "core/image/io/image_io.h"
+#include "raster/frame/upload.h"
 
 namespace burnish {
 namespace {
@@ -120,6 +121,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     Result<RenderOptions> checked = check_render_options(arguments, given);
     if (!checked)
         return fail(checked.error());
+    checked->mips.frames_override = sets_materials(checked->frame);
     const RenderOptions& options = *checked;
     if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
         return fail(paths.error());

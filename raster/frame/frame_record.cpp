@@ -239,8 +239,12 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
 
 Status FrameMaker::check(const FrameDesc& desc) const
 {
-    if (const Status ok = check_frame(input_.scene, desc); !ok || !input_.phong)
+    if (const Status ok = check_frame(input_.scene, desc); !ok)
         return ok;
+    if (const Status ok = check_prepared(input_.mips, desc); !ok)
+        return ok;
+    if (!input_.phong)
+        return {};
     const bool compensated = compensates_phong(desc, input_.scene);
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;

@@ -419,10 +419,10 @@ std::string levels_name(const Material& m, const MaterialMips& mips)
 std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips)
 {
     std::vector<PyramidKey> keys;
-    for (const bool overridden : {false, true})
+    for (int overridden = 0; overridden <= (mips.frames_override ? 1 : 0); ++overridden)
         for (std::size_t i = 0; i < scene.materials.size(); ++i)
             for (const TextureUse& use : kTextureUses)
-                if (const std::optional<Held> held = held_by(scene, mips, i, use, overridden);
+                if (const std::optional<Held> held = held_by(scene, mips, i, use, overridden != 0);
                     held && std::find(keys.begin(), keys.end(), held->key) == keys.end())
                     keys.push_back(held->key);
     return keys;

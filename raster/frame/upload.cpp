@@ -245,7 +245,8 @@ SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTa
     for (const TexturePyramid& p : s.pyramids)
         s.textures.push_back(texture_params(p));
     s.materials = material_records(scene, mips, false);
-    s.overridden = material_records(scene, mips, true);
+    if (mips.frames_override)
+        s.overridden = material_records(scene, mips, true);
     s.lights = light_records(tables);
     put_light_columns(s);
     return s;
@@ -274,6 +275,19 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
     return {};
 }
 
+bool sets_materials(const FrameDesc& desc)
+{
+    return desc.roughness >= 0.0f || desc.override_anisotropy || desc.frame_map == kFrameOff;
+}
+
+Status check_prepared(const SceneMips& mips, const FrameDesc& desc)
+{
+    if (mips.frames_override || !sets_materials(desc))
+        return {};
+    return Error{ExitCode::usage, "", "", "no frame of this scene may set roughness, anisotropy or a frame map",
+                 "MipSettings::frames_override"};
+}
+
 bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc)
 {
     bool unmapped = false;
@@ -291,7 +305,7 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
         }
         if (desc.override_anisotropy)
             m.anisotropic = desc.anisotropy != 0.0f || m.moments != kNoMoments;
-        if (desc.roughness >= 0.0f || desc.override_anisotropy || desc.frame_map == kFrameOff)
+        if (sets_materials(desc))
             m.keeps = m.facets = 0; // facets belong to the material's roughness and normals
         if (m.frame_map < 0 || desc.frame_map == kFrameOff)
             m.frame_map = desc.frame_map;

@@ -34,6 +34,9 @@ SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTa
 bool tilts(const Scene& scene, const FrameDesc& desc);
 // Runs check_desc(). Checks that the frame's lobes can be tilted if the scene tilts them.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
+// True where a frame sets roughness or anisotropy, or leaves normal maps out: it overrides materials.
+bool sets_materials(const FrameDesc& desc);
+Status check_prepared(const SceneMips& mips, const FrameDesc& desc); // against MipSettings::frames_override
 
 // Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
 bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc);

@@ -190,8 +190,8 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
 
 Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 {
-    for (const Status& ok :
-         {check_frame(input_.scene, with_msaa(reference_desc(desc), desc.msaa)), check_options(options_), check_ray_range(desc.view)})
+    for (const Status& ok : {check_frame(input_.scene, with_msaa(reference_desc(desc), desc.msaa)), check_options(options_),
+                             check_ray_range(desc.view), check_prepared(input_.mips, desc)})
         BN_TRY(ok);
     const TraceSpan span("reference");
     const Clock::time_point begin = Clock::now();

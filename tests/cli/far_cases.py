@@ -112,7 +112,7 @@ def places(offset):
     return [sum(pair) for pair in zip((0.25, 0.5, 3.0), offset)]
 
 
-@case("geometry.far_from_the_origin_is_as_it_is_near_it")
+@case("geometry.far_from_the_origin_is_as_it_is_near_it", tier="nightly")
 def far(bench):
     """Moves the plate and its camera. Pixels stay equal, by a camera in the file and by --eye, whose digits floats do not hold."""
     for backend in (("--backend", "tile"), ("--backend", "reference", "--samples", "4"), ("--backend", "vulkan", "--device", "lavapipe")):

@@ -283,7 +283,7 @@ def environment_pixels(bench):
 EVIL = "evil\x1b[31m\x07\x9b\u202e<b>&name"
 
 
-@case("hostile.names_are_escaped", "program", "input")
+@case("hostile.names_are_escaped", "program", "input", tier="nightly")
 def names(bench):
     gltf = files.triangle()
     gltf["materials"] = [{"name": EVIL}]

@@ -85,7 +85,7 @@ def names(bench):
     check(1000 < seen < 96 * 64, f"{seen} pixels show something")
 
 
-@case("layers.are_the_same_bytes_by_vulkan")
+@case("layers.are_the_same_bytes_by_vulkan", tier="nightly")
 def twins(bench):
     """Also compares images whose samples are tonemapped separately, and images whose samples are shared between pixels (auto)."""
     for scene, more in (("builtin:bumps", ()), ("builtin:spheres", ("--env-rotation", "40", "--no-background"))):

@@ -42,7 +42,7 @@ def grain(side, steep, seed=7):
     return png(2 * side, side, texel)
 
 
-@case("mip.each_filter_has_pictures_of_its_own")
+@case("mip.each_filter_has_pictures_of_its_own", tier="nightly")
 def pictures(bench):
     names = named(bench)
     check(names[:2] == ["box", "lean"] and set(SEARCHED) <= set(names), f"{names}")
@@ -131,7 +131,7 @@ def material(bench, name, normal):
     return name
 
 
-@case("mip.a_pyramid_that_was_baked_gives_the_same_pixels")
+@case("mip.a_pyramid_that_was_baked_gives_the_same_pixels", tier="nightly")
 def baked(bench):
     material(bench, "set", (33, 17, bumps))
     material(bench, "other", (33, 17, lambda x, y: bumps(x + 1, y)))
@@ -323,7 +323,7 @@ def textures(bench):
     bench.run(*words, "--format", "tga", "-o", "x").expect(2).expect_one_line("--format")
 
 
-@case("mip.a_folder_of_one_map_is_filtered")
+@case("mip.a_folder_of_one_map_is_filtered", tier="nightly")
 def one_map(bench):
     for name, texel, channels in (("x_normal", bumps, 3), ("x_roughness", lambda x, y: (40 + 12 * x,), 1), ("x_rotation", lambda x, y: (255, 128, 128), 3)):
         folder = bench.folder / name
@@ -485,7 +485,7 @@ def coupled(bench):
           done.describe())
 
 
-@case("mip.shaderballs_judge_filters_near_and_far")
+@case("mip.shaderballs_judge_filters_near_and_far", tier="nightly")
 def shaderballs(bench):
     needs_embree(bench)
     for camera in ("near", "mid", "far", "grazing"):
@@ -502,14 +502,14 @@ def shaderballs(bench):
     check(max(off["kappa"], off["mipnet"]) < off["box"], f"{off}")
 
 
-@case("mip.charts_sweep_filters")
+@case("mip.charts_sweep_filters", tier="nightly")
 def sweeps(bench):
     needs_embree(bench)
     bench.run("chart", "builtin:bumps", "--size", "32x24", "--env-size", "64", "--env-samples", "32", "--techniques", "mc", "--reference-samples", "8",
               "--runs", "1", "--sweep", "mip-filter=box,kappa", "-o", "report").expect(0)
 
 
-@case("mip.charts_of_filters_have_rows_by_level")
+@case("mip.charts_of_filters_have_rows_by_level", tier="nightly")
 def rows_by_level(bench):
     (bench.folder / "maps").mkdir()
     material(bench, "maps/set", (64, 64, bumps))
@@ -548,7 +548,7 @@ def rows_by_level(bench):
         bench.run(*arguments, "-o", "x").expect(code).expect_one_line(needle)
 
 
-@case("mip.charts_of_crossed_grain_know_two_lobes")
+@case("mip.charts_of_crossed_grain_know_two_lobes", tier="nightly")
 def crossed(bench):
     words = ("chart", "--mip", "--two-lobes", "--brdf", "ggx_aniso", "-q")
     bench.run(*words, "-o", "one").expect(0)

@@ -98,7 +98,7 @@ def whole(bench, name, **other):
 LOOKS = ((), ("--couple", "albedo"), ("--color-kernel", "kaiser"), ("--couple", "albedo", "--color-kernel", "kaiser"))
 
 
-@case("mip.files_hold_whole_pyramids", "input")
+@case("mip.files_hold_whole_pyramids", "input", tier="nightly")
 def files_hold(bench):
     whole(bench, "set")
     seen = ("builtin:sphere", *SMALL, "--material", "set")

@@ -10,7 +10,7 @@ import re
 import subprocess
 import sys
 
-HEADING = "## What burnish promises"
+HEADING = "## The promises"
 
 
 def rows_of(text):

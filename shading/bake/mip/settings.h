@@ -27,6 +27,7 @@ struct MipSettings {             // of all materials
     std::string pyramid;         // levels of `burnish bake mip`
     int threads = 0;             // that make levels; 0: all cores
     bool use_cache = false;      // levels that take long are looked for in the cache, and kept there
+    bool frames_override = true; // false: no frame sets roughness, anisotropy or FrameDesc::frame_map off; its textures are not made
 
     bool names(const std::string& path) const { return !path.empty() && (path == pyramid || path == net); }
 };
@@ -48,6 +49,7 @@ struct SceneMips {
     std::vector<MaterialMips> materials;   // by material of the scene; those beyond its end are filtered by box
     std::shared_ptr<const MipFile> baked;  // levels that were baked beforehand; none: made of the maps
     std::shared_ptr<const MipFile> cached; // the same as are made of the maps, found in the cache or kept there
+    bool frames_override = true;           // MipSettings::frames_override
 
     const MaterialMips& of(std::size_t material) const;
 };

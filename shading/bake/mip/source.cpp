@@ -27,6 +27,25 @@ template <class Code> void put_codes(const Image& map, std::size_t first, std::s
         to[x] = static_cast<float>(from[x * apart]) / most;
 }
 
+// Writes one channel of a map's row, as many values as the map is wide. other: replaces values that are not finite.
+void put_channel(const Image& map, int y, std::size_t channel, float other, float* to)
+{
+    const std::size_t texels = static_cast<std::size_t>(map.width), first = static_cast<std::size_t>(y) * texels;
+    const std::size_t channels = static_cast<std::size_t>(map.channels), of = channels >= 3 ? channel : 0;
+    if (map.type == PixelType::u8)
+        put_codes<std::uint8_t>(map, first, of, 255.0f, texels, to);
+    else if (map.type == PixelType::u16)
+        put_codes<std::uint16_t>(map, first, of, 65535.0f, texels, to);
+    else
+        for (std::size_t x = 0; x < texels; ++x)
+            to[x] = finite_or(map.f32()[(first + x) * channels + of], other);
+}
+
+float between(float low, float high, float share)
+{
+    return share == 0.0f ? low : low + share * (high - low);
+}
+
 // Writes channels `first` ... of a grid row, `count` of them. others[k] replaces values of the k-th that are not finite.
 void put_row(const Image& map, const Grid& grid, int y, int first, int count, const float* others, std::size_t stride, float* to)
 {
@@ -37,16 +56,27 @@ void put_row(const Image& map, const Grid& grid, int y, int first, int count, co
         pick<mip::Fns>().codes({codes, map.channels, first, count, texels, stride, to});
         return;
     }
+    if (same) {
+        for (int k = 0; k < count; ++k, to += stride)
+            put_channel(map, y, static_cast<std::size_t>(first + k), others[k], to);
+        return;
+    }
+    // Interpolate between the map's two rows and columns
+    const Neighbours v = neighbours(y, grid.height, map.height, grid.wrap_t, grid.nearest);
+    std::vector<Neighbours> columns(texels);
+    for (int x = 0; x < grid.width; ++x)
+        columns[static_cast<std::size_t>(x)] = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
+    std::vector<float> low(static_cast<std::size_t>(map.width)), high(low.size());
     for (int k = 0; k < count; ++k, to += stride) {
-        const std::size_t channel = static_cast<std::size_t>(first + k), of = map.channels >= 3 ? channel : 0;
-        if (same && map.type == PixelType::u8)
-            put_codes<std::uint8_t>(map, at, of, 255.0f, texels, to);
-        else if (same && map.type == PixelType::u16)
-            put_codes<std::uint16_t>(map, at, of, 65535.0f, texels, to);
-        else
-            for (int x = 0; x < grid.width; ++x)
-                to[x] =
-                    on_grid(map, grid, x, y, [&](std::size_t texel) { return finite_or(texel_channel(map, texel, channel), others[k]); });
+        put_channel(map, v.low, static_cast<std::size_t>(first + k), others[k], low.data());
+        put_channel(map, v.high, static_cast<std::size_t>(first + k), others[k], high.data());
+        for (std::size_t x = 0; x < texels; ++x) {
+            const Neighbours& u = columns[x];
+            const auto in_row = [&](const std::vector<float>& row) {
+                return between(row[static_cast<std::size_t>(u.low)], row[static_cast<std::size_t>(u.high)], u.share);
+            };
+            to[x] = between(in_row(low), in_row(high), v.share);
+        }
     }
 }
 

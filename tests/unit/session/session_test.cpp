@@ -63,6 +63,29 @@ TEST(session, draws_the_same_alone_and_beside_another)
     EXPECT_EQ(of_b, spheres);
 }
 
+// Textures for frames that set roughness are left out on request. Other frames keep their bits; a frame that needs them is an error.
+TEST(session, prepares_only_what_its_frames_read)
+{
+    Result<Session> box = Session::open("builtin:bumps", "builtin:studio", small_open());
+    ASSERT_TRUE(box);
+    const auto session_with = [&](bool frames_override) {
+        MipSettings mips;
+        mips.filter = kMipFilter_kappa, mips.frames_override = frames_override;
+        SessionParts parts = box->parts();
+        parts.scene = *load_scene_data("builtin:bumps", {}, {}, mips);
+        return Session::make(parts);
+    };
+    Result<Session> whole = session_with(true), lean = session_with(false);
+    ASSERT_TRUE(whole && lean);
+    EXPECT_EQ(drawn(*lean), drawn(*whole));
+    FrameDesc desc = small_frame(*lean, "bent_normal");
+    desc.roughness = 0.4f;
+    EXPECT_TRUE(whole->render(desc));
+    const Result<Frame> refused = lean->render(desc);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "MipSettings::frames_override");
+}
+
 TEST(session, shares_its_parts)
 {
     Result<Session> first = Session::open("builtin:teapot", "builtin:studio", small_open());
