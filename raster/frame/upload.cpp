@@ -284,7 +284,7 @@ Status check_prepared(const SceneMips& mips, const FrameDesc& desc)
 {
     if (mips.frames_override || !sets_materials(desc))
         return {};
-    return Error{ExitCode::usage, "", "", "no frame of this scene may set roughness, anisotropy or a frame map",
+    return Error{ExitCode::usage, "", "", "no frame of this scene may set roughness or anisotropy, or leave normal maps out",
                  "MipSettings::frames_override"};
 }
 

@@ -27,7 +27,7 @@ bool any_blends(const std::vector<MaterialRecord>& materials); // whether a mate
 std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // pictures are texture indices of the scene
 
-// Builds every texture pyramid that a material uses (pyramids.h) and the pictures of area lights, in parallel.
+// Builds the texture pyramids that materials use in the frames that `mips` allows, and the pictures of area lights, in parallel.
 SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs);
 
 // Returns true if the frame tilts any material's lobes against their surfaces.
@@ -36,7 +36,8 @@ bool tilts(const Scene& scene, const FrameDesc& desc);
 Status check_frame(const Scene& scene, const FrameDesc& desc);
 // True where a frame sets roughness or anisotropy, or leaves normal maps out: it overrides materials.
 bool sets_materials(const FrameDesc& desc);
-Status check_prepared(const SceneMips& mips, const FrameDesc& desc); // against MipSettings::frames_override
+// Refuses a frame that sets_materials() where the scene was prepared without (MipSettings::frames_override).
+Status check_prepared(const SceneMips& mips, const FrameDesc& desc);
 
 // Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
 bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc);

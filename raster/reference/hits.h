@@ -15,7 +15,7 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 struct LaneRays {
-    real3 origin, direction; // unit; perspective camera rays have length 1 along the view instead
+    real3 origin, direction; // direction: unit; perspective camera rays have length 1 along the view instead
     real tnear, tfar;
 };
 
@@ -254,7 +254,7 @@ BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted,
     }
 }
 
-struct LaneSurface { // surface at a hit, or background
+struct LaneSurface { // surface at a hit; without a hit only `reflects` and `emitter` are set, to false
     SurfaceBsdf r;
     real3 emission;         // towards the ray's origin
     real3 position, normal; // normal: the triangle's

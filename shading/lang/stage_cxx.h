@@ -148,8 +148,8 @@ BN_INLINE constexpr bool coats_used()
     return true;
 }
 
-// Constants of records: lists of a member and its value. Only geometry varies with such records. They have no textures, vertex
-// colours, punctual or area lights, energy compensation, exact Fresnel, transmission or coats, and the default lobe only.
+// Constants of records: lists of a member and its value. Only geometry varies with such records: they have no textures and no
+// lights but the environment, and the default lobe in its plainest form.
 #define BN_PLAIN_FRAME(constant)                                                                                                           \
     constant(light_count, 0);                                                                                                              \
     constant(area_light_count, 0);                                                                                                         \

@@ -60,7 +60,7 @@ struct extracted_light_reflection {
 BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe,
                                                                int light, lobe_layer layer)
 {
-    // Test the lobe's horizon and the surface's own
+    // Test the lobe's horizon
     real3 direction = splat3(the_frame(f).extracted_lights[light].direction);
     real3 l = to_lobe(lobe.lobe, x.s.n, direction);
     real3 in_place = l;

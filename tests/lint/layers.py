@@ -14,7 +14,7 @@ EVERYWHERE = ("tests", "bench")                              # they see all laye
 RENDERERS = ("tile", "vulkan", "reference")                  # they meet in raster/frame; raster/session sees them all
 
 # The rooms of each layer. A room includes itself and those before it; a room within a room is a room of its own. Tables (*.def) lie
-# beside the order: who is named in one includes it.
+# beside the order: a file that a table names includes the table.
 ROOMS = {
     "core": ("base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/gltf"),
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",

@@ -19,7 +19,7 @@ std::vector<double> looked_up(const Domain&, const double* u)
 std::vector<double> lobe(const double*& u)
 {
     const Domain none = {};
-    std::vector<double> m = ltc::run_animation(oracle_fns(), "ltc_lookup", looked_up(none, u), ltc::shipped_view());
+    std::vector<double> m = ltc::run_row(oracle_fns(), "ltc_lookup", looked_up(none, u), ltc::shipped_view());
     u += 4, m.resize(9);
     return m;
 }

@@ -28,7 +28,7 @@ std::vector<Vec> parallelogram_of(const Vec& middle, const Vec& a, const Vec& b)
 
 double part(const IsaFns& isa, const char* name, const Matrix& m, const std::vector<Vec>& corners)
 {
-    return run_animation(isa, name, joined({columns(m), flat(corners)}))[0];
+    return run_row(isa, name, joined({columns(m), flat(corners)}))[0];
 }
 
 // Returns a matrix and a parallelogram in general position, rounded to floats.
@@ -166,7 +166,7 @@ TEST(light, quads_are_cut_at_a_plane_that_leans)
         cuts += !left.empty() && left.size() != 4, below += left.empty();
         const double expected = left.empty() ? 0.0 : polygon_part(inverse(m), left);
         for (const IsaFns& isa : all_fns()) {
-            const Row got = run_animation(isa, "ltc_quad_above", joined({columns(m), flat(corners), flat({normal})}));
+            const Row got = run_row(isa, "ltc_quad_above", joined({columns(m), flat(corners), flat({normal})}));
             ASSERT_NEAR(got[0], expected, 1e-4) << isa.name << i;
             if (left.empty()) {
                 ASSERT_NEAR(got[1], 0.0, 1e-6) << isa.name << i;
@@ -203,7 +203,7 @@ TEST(light, small_quads_are_density_times_solid_angle)
     for (int i = 0; i < 50; ++i) {
         const Matrix m = chance.lobe(0.2, 0.3);
         const Vec at = chance.upper(), x = unit(cross({0.3, 0.9, 0.1}, at)), y = cross(at, x);
-        const double q = run_animation(oracle_fns(), "ltc_density", joined({columns(m), flat({at})}))[0];
+        const double q = run_row(oracle_fns(), "ltc_density", joined({columns(m), flat({at})}))[0];
         for (const double size : {1e-2, 1e-3, 1e-4}) {
             const std::vector<Vec> quad = parallelogram_of(at, scaled(x, size), scaled(y, size));
             EXPECT_NEAR(part(oracle_fns(), "ltc_quad", m, quad) / (4.0 * size * size), q, 40.0 * size * std::max(q, 1.0)) << i << size;
@@ -252,9 +252,9 @@ TEST(light, corners_on_the_horizon_cut_once)
 TEST(light, one_side_is_dark_from_behind)
 {
     for (const IsaFns& isa : all_fns()) {
-        EXPECT_EQ(run_animation(isa, "ltc_sided", {0.25, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0}), (Row{0.25, 0.25}));
-        EXPECT_EQ(run_animation(isa, "ltc_sided", {0.25, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0}), (Row{0.0, 0.25}));
-        EXPECT_EQ(run_animation(isa, "ltc_sided", {0.25, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}), (Row{0.0, 0.25})); // within its plane
+        EXPECT_EQ(run_row(isa, "ltc_sided", {0.25, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0}), (Row{0.25, 0.25}));
+        EXPECT_EQ(run_row(isa, "ltc_sided", {0.25, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0}), (Row{0.0, 0.25}));
+        EXPECT_EQ(run_row(isa, "ltc_sided", {0.25, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0}), (Row{0.0, 0.25})); // within its plane
     }
 }
 

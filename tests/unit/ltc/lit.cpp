@@ -20,7 +20,7 @@ std::vector<Row> run_rows(const test::IsaFns& isa, const char* name, const std::
     return results;
 }
 
-Row run_animation(const test::IsaFns& isa, const char* name, const Row& row, const test::TexelView& t)
+Row run_row(const test::IsaFns& isa, const char* name, const Row& row, const test::TexelView& t)
 {
     return run_rows(isa, name, {row}, t)[0];
 }
@@ -123,7 +123,7 @@ Matrix Chance::lobe(double least_alpha, double least_lambda)
     const double u = from(0.0, 1.0), alpha = least_alpha * std::pow(1.0 / least_alpha, u), other = alpha * from(least_lambda, 1.0);
     const bool swap = from(0.0, 1.0) < 0.5;
     return from_columns(
-        run_animation(test::oracle_fns(), "ltc_lookup", {eye.x, eye.y, eye.z, swap ? other : alpha, swap ? alpha : other}, shipped_view()));
+        run_row(test::oracle_fns(), "ltc_lookup", {eye.x, eye.y, eye.z, swap ? other : alpha, swap ? alpha : other}, shipped_view()));
 }
 
 Vec along(const Vec& a, double s, const Vec& b, double t, const Vec& c)

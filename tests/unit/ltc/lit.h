@@ -14,7 +14,7 @@ namespace burnish::ltc {
 using Row = std::vector<double>; // arguments of a kernel at one point, or its results
 
 std::vector<Row> run_rows(const test::IsaFns& isa, const char* name, const std::vector<Row>& rows, const test::TexelView& t = {});
-Row run_animation(const test::IsaFns& isa, const char* name, const Row& row, const test::TexelView& t = {});
+Row run_row(const test::IsaFns& isa, const char* name, const Row& row, const test::TexelView& t = {});
 Row joined(std::initializer_list<Row> rows);
 Row rounded(Row row); // to floats, so that double and float versions get equal inputs
 

@@ -13,7 +13,7 @@ namespace {
 
 Row looked_at(const test::IsaFns& isa, const Vec& eye, double alpha_x, double alpha_y)
 {
-    return run_animation(isa, "ltc_lookup", {eye.x, eye.y, eye.z, alpha_x, alpha_y}, shipped_view());
+    return run_row(isa, "ltc_lookup", {eye.x, eye.y, eye.z, alpha_x, alpha_y}, shipped_view());
 }
 
 Vec eye_at(double theta, double phi)
@@ -95,7 +95,7 @@ TEST(lookup, along_the_normal_all_azimuths_are_one)
 double seen(const Vec& eye, double alpha_x, double alpha_y)
 {
     const Row quad = flat({{-0.6, -0.5, 0.4}, {0.5, -0.6, 0.5}, {0.6, 0.7, 0.7}, {-0.5, 0.6, 0.6}});
-    return run_animation(test::fast_fns(), "ltc_quad_seen", joined({{eye.x, eye.y, eye.z, alpha_x, alpha_y}, quad}), shipped_view())[0];
+    return run_row(test::fast_fns(), "ltc_quad_seen", joined({{eye.x, eye.y, eye.z, alpha_x, alpha_y}, quad}), shipped_view())[0];
 }
 
 TEST(lookup, has_no_step_where_it_mirrors_or_exchanges_or_ends)
@@ -159,7 +159,7 @@ TEST(lookup, round_lobes_are_the_round_table_s_turned_to_the_eye)
         const Vec eye = eye_at(p.theta, p.phi);
         const Looked expected = lookup(round_halves(), p);
         for (const test::IsaFns& isa : {test::oracle_fns(), test::fast_fns()}) {
-            const Row got = run_animation(isa, "ltc_round_lookup", {sx * eye.x, sy * eye.y, eye.z, p.alpha}, round_view());
+            const Row got = run_row(isa, "ltc_round_lookup", {sx * eye.x, sy * eye.y, eye.z, p.alpha}, round_view());
             const Matrix m = Matrix{sx, 0.0, 0.0, 0.0, sy, 0.0, 0.0, 0.0, 1.0} * from_columns(got); // another gauge of this lobe
             for (int k = 0; k < 5; ++k) {
                 const Vec l = chance.upper();
@@ -184,7 +184,7 @@ TEST(lookup, without_a_matrix_in_the_table_the_natural_one_stands_in)
         for (const test::IsaFns& isa : test::all_fns()) {
             const Place place = {0.8, 0.5, 0.5, 0.4};
             const Vec v = eye_at(place.theta, place.phi);
-            const Row got = run_animation(isa, "ltc_lookup", {v.x, v.y, v.z, 0.5, 0.2}, t), m = columns(natural_matrix(place));
+            const Row got = run_row(isa, "ltc_lookup", {v.x, v.y, v.z, 0.5, 0.2}, t), m = columns(natural_matrix(place));
             for (std::size_t e = 0; e < 9; ++e)
                 EXPECT_NEAR(got[e], m[e], 1e-6) << isa.name << e;
             EXPECT_EQ(got[10], 0.0);
@@ -199,7 +199,7 @@ TEST(lookup, of_what_is_outside_is_defined)
         for (const Row& row :
              {Row{nan, nan, nan, nan, nan}, Row{inf, -inf, inf, inf, inf}, Row{0.0, 0.0, 0.0, 0.0, 0.0}, Row{0.6, 0.0, -0.8, 0.5, 0.5},
               Row{0.0, 0.0, -1.0, 1.9, 0.1}, Row{1.0, 0.0, 0.0, -1.0, 1e-30}, Row{0.7, 0.7, 0.1, 1e30, 0.3}}) {
-            const Row got = run_animation(isa, "ltc_lookup", row, shipped_view());
+            const Row got = run_row(isa, "ltc_lookup", row, shipped_view());
             for (const double x : got)
                 EXPECT_TRUE(std::isfinite(x)) << isa.name;
             EXPECT_GT(std::abs(got[9]), 1e-9) << isa.name;
@@ -218,12 +218,12 @@ TEST(lookup, gauges_are_one_density_and_one_light)
         const double turn = chance.from(-3.0, 3.0), c = std::cos(turn), s = std::sin(turn), flip = i % 2 ? 1.0 : -1.0;
         const Matrix other = m * Matrix{c, -s * flip, 0.0, s, c * flip, 0.0, 0.0, 0.0, 1.0};
         const Vec l = chance.upper();
-        const double q = run_animation(test::oracle_fns(), "ltc_density", joined({columns(m), flat({l})}))[0];
-        EXPECT_NEAR(run_animation(test::oracle_fns(), "ltc_density", joined({columns(other), flat({l})}))[0], q, 1e-12 * std::max(q, 1.0));
+        const double q = run_row(test::oracle_fns(), "ltc_density", joined({columns(m), flat({l})}))[0];
+        EXPECT_NEAR(run_row(test::oracle_fns(), "ltc_density", joined({columns(other), flat({l})}))[0], q, 1e-12 * std::max(q, 1.0));
         EXPECT_NEAR(q, transformed_cosine(inverse(m), l), 1e-12 * std::max(q, 1.0));
         const Row quad = flat({chance.point(1.0), chance.point(1.0), chance.point(1.0)});
-        EXPECT_NEAR(run_animation(test::oracle_fns(), "ltc_triangle", joined({columns(m), quad}))[0],
-                    run_animation(test::oracle_fns(), "ltc_triangle", joined({columns(other), quad}))[0], 1e-6);
+        EXPECT_NEAR(run_row(test::oracle_fns(), "ltc_triangle", joined({columns(m), quad}))[0],
+                    run_row(test::oracle_fns(), "ltc_triangle", joined({columns(other), quad}))[0], 1e-6);
     }
 }
 

@@ -16,12 +16,12 @@ using test::oracle_fns;
 
 Row of_disk(const IsaFns& isa, const Matrix& m, const Vec& middle, const Vec& a, const Vec& b)
 {
-    return run_animation(isa, "ltc_disk", joined({columns(m), flat({middle, a, b})}));
+    return run_row(isa, "ltc_disk", joined({columns(m), flat({middle, a, b})}));
 }
 
 Row of_sphere(const IsaFns& isa, const Matrix& m, const Vec& middle, double radius)
 {
-    return run_animation(isa, "ltc_sphere", joined({columns(m), flat({middle}), {radius}}));
+    return run_row(isa, "ltc_sphere", joined({columns(m), flat({middle}), {radius}}));
 }
 
 struct Axes {
@@ -82,7 +82,7 @@ TEST(round, small_discs_are_density_times_solid_angle)
     for (int i = 0; i < 50; ++i) {
         const Matrix m = chance.lobe(0.2, 0.3);
         const Axes axes = axes_about(chance.upper());
-        const double q = run_animation(oracle_fns(), "ltc_density", joined({columns(m), flat({axes.w})}))[0];
+        const double q = run_row(oracle_fns(), "ltc_density", joined({columns(m), flat({axes.w})}))[0];
         for (const double r : {1e-2, 1e-3, 1e-4})
             EXPECT_NEAR(of_disk(oracle_fns(), m, axes.w, scaled(axes.s, r), scaled(axes.t, r))[0] / (kPi * r * r), q,
                         40.0 * r * std::max(q, 1.0))
@@ -149,7 +149,7 @@ TEST(round, lines_are_thin_quads)
                             thin;
         most = std::max(most, quad);
         for (const IsaFns& isa : all_fns())
-            EXPECT_NEAR(run_animation(isa, "ltc_line", joined({columns(m), flat({p, q}), {thin}}))[0] / thin, quad,
+            EXPECT_NEAR(run_row(isa, "ltc_line", joined({columns(m), flat({p, q}), {thin}}))[0] / thin, quad,
                         1e-3 * std::max(quad, 1.0))
                 << isa.name << i;
     }
@@ -160,7 +160,7 @@ TEST(round, lines_that_point_here_or_lie_below_are_dark)
 {
     for (const IsaFns& isa : all_fns()) {
         const auto part = [&isa](const Vec& p, const Vec& q) {
-            return run_animation(isa, "ltc_line", joined({columns(kCosine), flat({p, q}), {0.01}}))[0];
+            return run_row(isa, "ltc_line", joined({columns(kCosine), flat({p, q}), {0.01}}))[0];
         };
         EXPECT_EQ(part({0.0, 0.0, 1.0}, {0.0, 0.0, 3.0}), 0.0);
         EXPECT_EQ(part({1.0, 0.0, -0.1}, {0.0, 1.0, -0.5}), 0.0);
@@ -179,7 +179,7 @@ TEST(round, textures_are_met_where_their_light_comes_from)
         const double s = chance.from(0.05, 0.95), t = chance.from(0.05, 0.95);
         const Vec flow = scaled(inverse(m) * along(corner, s, u, t, v), 1e-9); // towards a known place, from a small light
         for (const IsaFns& isa : all_fns()) {
-            const Row got = run_animation(isa, "ltc_texture", joined({columns(m), flat({flow, corner, u, v}), {256.0, 128.0, 8.0}}));
+            const Row got = run_row(isa, "ltc_texture", joined({columns(m), flat({flow, corner, u, v}), {256.0, 128.0, 8.0}}));
             EXPECT_NEAR(got[0], s, 2e-4) << isa.name << i;
             EXPECT_NEAR(got[1], t, 2e-4) << isa.name << i;
             for (const double sign : {-1.0, 1.0}) // the row ends on the texture
@@ -207,7 +207,7 @@ TEST(round, textures_are_met_where_a_cosine_has_its_light)
         }
     const Vec flow = scaled(f, std::sin(radius) * std::sin(radius));
     for (const IsaFns& isa : all_fns()) { // on a plane at height 1, with sides from -5 to 5
-        const Row got = run_animation(
+        const Row got = run_row(
             isa, "ltc_texture",
             joined({columns(kCosine), flat({flow, {-5.0, -5.0, 1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}), {256.0, 256.0, 8.0}}));
         EXPECT_NEAR(got[0], 0.5 + 0.1 * sum.x / sum.z, 1e-4) << isa.name;
@@ -225,15 +225,15 @@ TEST(round, textures_are_blurred_as_the_lobe_is_wide)
         for (const double h : {0.004, 0.01, 0.03}) {
             const Row square = flat({{0.0, 0.0, 1.0}, {-1.0, -1.0, 2.0 * h}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}});
             const double narrow = 0.6 * h * 256.0; // texels
-            const Row even = run_animation(isa, "ltc_texture", joined({columns(kCosine), square, {256.0, 256.0, 8.0}}));
+            const Row even = run_row(isa, "ltc_texture", joined({columns(kCosine), square, {256.0, 256.0, 8.0}}));
             EXPECT_NEAR(even[4], std::max(0.0, std::log2(narrow / 0.8)), 1e-3) << isa.name << h;
             EXPECT_NEAR(std::hypot(even[2], even[3]), 0.0, 1e-4) << isa.name << h;
-            const Row row = run_animation(isa, "ltc_texture", joined({columns(wide), square, {256.0, 256.0, 8.0}}));
+            const Row row = run_row(isa, "ltc_texture", joined({columns(wide), square, {256.0, 256.0, 8.0}}));
             EXPECT_NEAR(row[2] * row[2] * 256.0 * 256.0 / 3.0, 15.0 * narrow * narrow, 0.01 * narrow * narrow) << isa.name << h;
             EXPECT_NEAR(row[3], 0.0, 1e-5) << isa.name << h;
             Row lost = joined({columns(kCosine), square, {256.0, 256.0, 8.0}});
             lost[9] = lost[10] = lost[11] = 0.0; // no flow
-            EXPECT_EQ(run_animation(isa, "ltc_texture", lost), (Row{0.5, 0.5, 0.0, 0.0, 8.0})) << isa.name;
+            EXPECT_EQ(run_row(isa, "ltc_texture", lost), (Row{0.5, 0.5, 0.0, 0.0, 8.0})) << isa.name;
         }
 }
 

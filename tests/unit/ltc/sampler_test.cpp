@@ -97,7 +97,7 @@ TEST(sampler, quads_are_the_mean_over_their_points)
         const double mean = sum / kSamples, sigma = std::sqrt(std::max(squares / kSamples - mean * mean, 0.0) / kSamples);
         const auto corner = [&](double s, double t) { return along(middle, s, a, t, b); };
         const Row quad = flat({corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)});
-        const double part = run_animation(test::oracle_fns(), "ltc_quad", joined({columns(m), quad}))[0];
+        const double part = run_row(test::oracle_fns(), "ltc_quad", joined({columns(m), quad}))[0];
         if (!(mean > 1e-3) || sigma > 0.1 * mean) // nothing to compare, or too near to sample
             continue;
         ++quads;
@@ -142,7 +142,7 @@ TEST(sampler, other_models_are_what_shading_reflects_by)
         const Vec l = chance.upper();
         for (const Model model : {Model::beckmann, Model::ashikhmin_shirley, Model::ward}) {
             const Lobe lobe(place, 1.0, model);
-            const Row row = run_animation(test::oracle_fns(), "ltc_other_lobes", joined({flat({lobe.v, l}), {lobe.alpha_x, lobe.alpha_y}}));
+            const Row row = run_row(test::oracle_fns(), "ltc_other_lobes", joined({flat({lobe.v, l}), {lobe.alpha_x, lobe.alpha_y}}));
             const double expected = row[static_cast<std::size_t>(model) - 1] * l.z;
             EXPECT_NEAR(density(lobe, l).reflected, expected, 1e-4 * expected + 1e-9) << static_cast<int>(model) << " " << i;
         }
