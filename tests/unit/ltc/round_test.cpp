@@ -149,8 +149,7 @@ TEST(round, lines_are_thin_quads)
                             thin;
         most = std::max(most, quad);
         for (const IsaFns& isa : all_fns())
-            EXPECT_NEAR(run_row(isa, "ltc_line", joined({columns(m), flat({p, q}), {thin}}))[0] / thin, quad,
-                        1e-3 * std::max(quad, 1.0))
+            EXPECT_NEAR(run_row(isa, "ltc_line", joined({columns(m), flat({p, q}), {thin}}))[0] / thin, quad, 1e-3 * std::max(quad, 1.0))
                 << isa.name << i;
     }
     EXPECT_GT(most, 0.5);
@@ -207,9 +206,9 @@ TEST(round, textures_are_met_where_a_cosine_has_its_light)
         }
     const Vec flow = scaled(f, std::sin(radius) * std::sin(radius));
     for (const IsaFns& isa : all_fns()) { // on a plane at height 1, with sides from -5 to 5
-        const Row got = run_row(
-            isa, "ltc_texture",
-            joined({columns(kCosine), flat({flow, {-5.0, -5.0, 1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}), {256.0, 256.0, 8.0}}));
+        const Row got =
+            run_row(isa, "ltc_texture",
+                    joined({columns(kCosine), flat({flow, {-5.0, -5.0, 1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}), {256.0, 256.0, 8.0}}));
         EXPECT_NEAR(got[0], 0.5 + 0.1 * sum.x / sum.z, 1e-4) << isa.name;
         EXPECT_NEAR(got[1], 0.5, 1e-4) << isa.name;
     }
