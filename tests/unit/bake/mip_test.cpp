@@ -341,6 +341,29 @@ TEST(mip, smaller_maps_wrap_as_their_sampler_says)
     }
 }
 
+// Rows interpolate a smaller map with the same bits as single points do, however the sampler goes on at the border.
+TEST(mip, rows_of_smaller_maps_are_their_points)
+{
+    Maps maps;
+    maps.direction = floats(7, 6, [](int, int) { return std::array{0.9f, 0.8f, 0.7f}; });
+    maps.normal = floats(5, 3, [](int x, int y) { return code_of(0.1f * static_cast<float>(x), -0.2f * static_cast<float>(y)); });
+    for (const WrapMode wrap : {WrapMode::repeat, WrapMode::clamp})
+        for (const bool nearest : {false, true}) {
+            MipMaps of = maps.of();
+            of.wrap_s = of.wrap_t = wrap, of.nearest = nearest;
+            const MipSource source(of);
+            std::vector<MipPoint> row(7);
+            for (int y = 0; y < 6; ++y) {
+                source.row(y, row.data());
+                for (int x = 0; x < 7; ++x) {
+                    const MipPoint one = source.at(x, y), in_row = row[static_cast<std::size_t>(x)];
+                    EXPECT_EQ(one.n.x, in_row.n.x) << x << ", " << y;
+                    EXPECT_EQ(one.n.y, in_row.n.y) << x << ", " << y;
+                }
+            }
+        }
+}
+
 // Where the net is far from the reference, closed forms are kept. A representative sample of the material decides, at any size.
 TEST(mip, nets_are_compared_on_texels_of_the_material)
 {

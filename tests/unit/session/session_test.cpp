@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
+#include "raster/frame/pyramids.h"
 #include "raster/session/session.h"
 #include "tests/unit/data.h"
 
@@ -77,6 +78,8 @@ TEST(session, prepares_only_what_its_frames_read)
     };
     Result<Session> whole = session_with(true), lean = session_with(false);
     ASSERT_TRUE(whole && lean);
+    EXPECT_LT(used_pyramids(lean->scene(), lean->parts().scene->mips).size(),
+              used_pyramids(whole->scene(), whole->parts().scene->mips).size());
     EXPECT_EQ(drawn(*lean), drawn(*whole));
     FrameDesc desc = small_frame(*lean, "bent_normal");
     desc.roughness = 0.4f;
