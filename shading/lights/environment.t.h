@@ -27,16 +27,26 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
 }
 
 // Returns the mean radiance over cosine-weighted directions about the normal n, for the diffuse part. On a surface with
-// geometric normal N, a share of (1 - n.N) / 2 lies below the horizon. Subtract for it the light that the surface's back
-// would receive.
+// geometric normal N, a share of (1 - n.N) / 2 lies below the horizon, and its light is subtracted. These directions form a
+// lune. Their light is extrapolated from two means: about n, and about a direction d in the plane of n and N, about 30 degrees
+// below the horizon. The result is exact for constant light, and for light that differs only above and below the horizon.
 BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 {
-    real3 whole = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    real3 about_n = cube_sample(irradiance_cube(f), x.s.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
     if (!x.has_surface_horizon)
-        return whole;
-    real below = k_saturate(lit(0.5) - lit(0.5) * k_dot3(x.s.n, x.geometric_axes.n));
-    real3 back = cube_sample(irradiance_cube(f), -x.geometric_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    return max(whole - back * below, vec3_all(lit(0.0)));
+        return about_n;
+    // Find d, whose place nears -N as n does
+    real cosine = min(max(k_dot3(x.s.n, x.geometric_axes.n), lit(-1.0)), lit(1.0));
+    real away = lit(1.0) - cosine;
+    real sine2 = away * (lit(1.0) + cosine);
+    real depth = sqrt(sine2) * lit(0.5) + away * away * lit(0.3) + lit(1e-3);
+    real3 d = x.s.n - x.geometric_axes.n * (cosine + depth);
+    // Subtract the light below the horizon
+    real above_n = lit(0.5) + lit(0.5) * cosine; // shares of both means above the horizon
+    real above_d = lit(0.5) - lit(0.5) * depth / sqrt(sine2 + depth * depth);
+    real weight = (lit(1.0) - above_n) * above_n / max(above_n - above_d, lit(1e-3));
+    real3 about_d = cube_sample(irradiance_cube(f), d, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    return max(about_n * (above_n + weight) - about_d * weight, vec3_all(lit(0.0)));
 }
 
 // Returns environment light. specular: from the technique. Occlusion dims everything.

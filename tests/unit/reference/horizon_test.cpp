@@ -64,6 +64,23 @@ TEST(horizon, leaves_a_diffuse_plate_what_lies_above_it)
     }
 }
 
+// The map's normal leans to +x. Light from one half of the sky varies along the horizon, and the hidden part lies at +x alone.
+TEST(horizon, hides_light_on_the_side_to_which_a_normal_leans)
+{
+    BN_NEEDS_EMBREE();
+    for (const float side : {1.0f, -1.0f}) {
+        Stage stage(leaning_plate(lambert(0.8f)), 1.0f, 2);
+        stage.environment = environment_of([&](const glm::vec3& d) { return glm::vec3(d.x * side > 0.0f ? 1.0f : 0.0f); }, 128, stage.jobs);
+        const FrameDesc d = seen_from({0.5f, 0.0f, 1.0f});
+        ReferenceOptions o;
+        o.samples = 4096;
+        const Estimate e = estimate(render_reference(stage, d, o));
+        const double tile = mean_of(stage.render(d, best_isa()));
+        std::printf("side %+.0f: reference %.4f, tile renderer %.4f\n", static_cast<double>(side), e.mean, tile);
+        EXPECT_NEAR(tile, e.mean, 0.015 + 4.5 * e.deviation) << side;
+    }
+}
+
 // A metal of reflectance 1 under light from below alone is black; without the horizon it is not.
 TEST(horizon, leaves_a_metal_nothing_of_what_lies_below_it)
 {
