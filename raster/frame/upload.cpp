@@ -57,7 +57,8 @@ MaterialRecord material_record(const Material& m)
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
     r.relief = m.heights;
-    r.coated = m.clearcoat > 0.0f && !m.unlit;
+#define BN_COATING(id, at, strength, trait) r.coatings |= m.strength > 0.0f && !m.unlit ? 1 << at : 0;
+#include "shading/coatings.def"
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }

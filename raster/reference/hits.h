@@ -273,6 +273,22 @@ BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresn
     return r;
 }
 
+// Selects coatings. Lanes of a surface without the coating have a share of 0.
+BN_INLINE void select_coatings(mask m, const SurfaceBsdf& a, const SurfaceBsdf& b, SurfaceBsdf& r)
+{
+    r.coatings = a.coatings | b.coatings;
+    for (int k = 0; k < kCoatings; ++k) {
+        if (!has_coating(r, k))
+            continue;
+        const coating &c = a.coats[k], &d = b.coats[k];
+        r.coats[k].axes.n = select(m, c.axes.n, d.axes.n), r.coats[k].axes.t = select(m, c.axes.t, d.axes.t);
+        r.coats[k].axes.b = select(m, c.axes.b, d.axes.b), r.coats[k].horizon = select(m, c.horizon, d.horizon);
+        r.coats[k].reflectance = select(m, c.reflectance, d.reflectance), r.coats[k].share = select(m, c.share, d.share);
+        r.coats[k].roughness = select(m, c.roughness, d.roughness);
+        r.choose_coating[k] = select(m, a.choose_coating[k], b.choose_coating[k]);
+    }
+}
+
 BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const SurfaceBsdf& b)
 {
     SurfaceBsdf r = a;
@@ -297,14 +313,7 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
         r.x.through.parts = select_parts(m, a.x.through.parts, b.x.through.parts);
         r.refracts = either(both(m, a.refracts), both(not_(m), b.refracts));
     }
-    if (a.coated || b.coated) {
-        const coat_layer &c = a.coat, &d = b.coat;
-        r.coated = true;
-        r.coat.axes.n = select(m, c.axes.n, d.axes.n), r.coat.axes.t = select(m, c.axes.t, d.axes.t);
-        r.coat.axes.b = select(m, c.axes.b, d.axes.b), r.coat.horizon = select(m, c.horizon, d.horizon);
-        r.coat.weight = select(m, c.weight, d.weight), r.coat.roughness = select(m, c.roughness, d.roughness);
-        r.choose_coat = select(m, a.choose_coat, b.choose_coat);
-    }
+    select_coatings(m, a, b, r);
     r.choose_specular = select(m, a.choose_specular, b.choose_specular);
     r.mirror = select(m, a.mirror, b.mirror);
     return r;
@@ -362,13 +371,18 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
         choose_facets(f, m, at, g, x);
     if (!x.refracts)
         x.through = interface_inputs(); // lanes with other materials may refract
-    coat_layer coat = {x.geometric_axes, x.geometric_axes.n, lit(0.0), lit(1.0)};
-    if (m.coated)
-        coat = coat_of(f, m, at, x.geometric_axes, x.s.v, facing_handedness(g.fragment));
-    r.r = make_surface_bsdf(f, x, m.coated != 0, coat);
+    real reflected;
+    r.r = make_surface_bsdf(f, x, reflected);
     r.emission = own_light(m, at);
-    if (m.coated)
-        r.emission = r.emission * (lit(1.0) - coat.weight);
+    // Put the coatings over it
+    const auto cover = [&](int k, const coating& c) {
+        add_coating(r.r, k, c, reflected);
+        r.emission = r.emission * (lit(1.0) - c.share);
+    };
+#define BN_COATING(id, bit, strength, trait)                                                                                               \
+    if (has_coating(m, bit))                                                                                                               \
+        cover(bit, id##_coating(f, m, at, x.geometric_axes, x.s.v, facing_handedness(g.fragment)));
+#include "shading/coatings.def"
     return r;
 }
 

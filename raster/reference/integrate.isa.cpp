@@ -85,25 +85,25 @@ BN_INLINE LaneRays leaving_ray(const ReferenceParams& f, const LaneSurface& s, r
     return r;
 }
 
-struct CoatUnderLamps { // a coated surface's point and lobe for punctual lights
+struct CoatingUnderLamps { // a coating's point and lobe for punctual lights
     shaded_point point;
     bsdf_lobe lobe;
 };
 
-BN_INLINE CoatUnderLamps coat_under_lamps(const ReferenceParams& f, const SurfaceBsdf& r)
+BN_INLINE CoatingUnderLamps coating_under_lamps(const ReferenceParams& f, const SurfaceBsdf& r, int at)
 {
-    CoatUnderLamps c;
-    if (!r.coated)
+    CoatingUnderLamps c;
+    if (!has_coating(r, at))
         return c;
-    make_coat_point(f, r.coat, r.x.geometric_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
-    c.lobe = bsdf_lobe_under_lights(lobe_that_has(kRoundLobe), c.point.lobe, c.point.s, c.point.geometric_axes);
+    make_coating_point(f, r.coats[at], r.x.geometric_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
+    c.lobe = bsdf_lobe_under_lights(kCoatingLobes[at], c.point.lobe, c.point.s, c.point.geometric_axes);
     return c;
 }
 
-BN_INLINE real3 coat_lit(const ReferenceParams& f, const SurfaceBsdf& r, const CoatUnderLamps& coat, const light_sample& towards, int light)
+BN_INLINE real3 coating_lit(const ReferenceParams& f, const coating& c, const CoatingUnderLamps& at, const light_sample& towards, int light)
 {
-    const punctual_light shone = light_from(f, coat.point, coat.lobe, vec3_all(lit(0.0)), towards, light);
-    return select(k_dot3(r.coat.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
+    const punctual_light shone = light_from(f, at.point, at.lobe, vec3_all(lit(0.0)), towards, light);
+    return select(k_dot3(c.horizon, shone.l) > lit(0.0), shone.radiance, vec3_all(lit(0.0)));
 }
 
 // Sums punctual lights, with occlusion unless the mode is direct.
@@ -114,20 +114,24 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     rough_interface through;
     if (s.r.x.refracts)
         through = rough_interface_at(s.r.x);
-    const CoatUnderLamps coat = coat_under_lamps(f, s.r);
+    CoatingUnderLamps coatings[kCoatings];
+    for (int k = 0; k < kCoatings; ++k)
+        coatings[k] = coating_under_lamps(f, s.r, k);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < f.light_count; ++i) {
         const LightRecord& l = f.lights[i];
         const light_sample towards = light_towards(f, s.position, i);
-        // Evaluate lobe, interface and coat
+        // Evaluate lobe, interface and coatings
         punctual_light light = light_from(f, s.r.x, lobe, s.r.diffuse, towards, i);
         if (s.r.x.refracts)
             light.radiance =
                 select(s.r.refracts, light_from_interface(f, s.r.x, through, s.r.diffuse, towards, i).radiance, light.radiance);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
-        if (s.r.coated) {
-            light.radiance = select(lit_lanes, light.radiance * (lit(1.0) - s.r.coat.weight), vec3_all(lit(0.0)));
-            light.radiance = light.radiance + coat_lit(f, s.r, coat, towards, i);
+        for (int k = 0; k < kCoatings; ++k) {
+            if (!has_coating(s.r, k))
+                continue;
+            light.radiance = select(lit_lanes, light.radiance * (lit(1.0) - s.r.coats[k].share), vec3_all(lit(0.0)));
+            light.radiance = light.radiance + coating_lit(f, s.r.coats[k], coatings[k], towards, i);
             lit_lanes = both(s.reflects, any_light(light.radiance));
         }
         // In path mode, light from behind enters through the interface

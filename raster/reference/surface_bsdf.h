@@ -1,10 +1,10 @@
 // A surface's BSDF, as technique `mc` samples it: one term for the lobe (bsdf_lobe.t.h, reflectance.t.h) or for a rough interface that
-// transmits light too (refraction.t.h), a diffuse term, and a clear coat above (coat.t.h). Gives values, densities and samples. Directions
+// transmits light too (refraction.t.h), a diffuse term, and coatings above (coating.t.h). Gives values, densities and samples. Directions
 // are world space, unit.
 #pragma once
 #include "raster/reference/samples.h"
 #include "shading/models/lambert.k.h"
-#include "shading/surface/coat.t.h"
+#include "shading/surface/coating.t.h"
 #include "shading/surface/shaded_point.t.h"
 
 namespace burnish {
@@ -17,23 +17,44 @@ struct SurfaceBsdf {
     real3 horizon; // surface normal before normal maps and tilts: nothing below its horizon is reflected
     real3 diffuse; // BRDF of the diffuse part, 1/sr; with phong_diffuse, lit light is also multiplied by phong_diffuse_lit()
     bool phong_diffuse;
-    real choose_specular; // probability
-    mask mirror;          // the lobe has no width: only samples meet it
-    mask refracts;        // an interface replaces the lobe; empty if !x.refracts
-    bool coated;          // some lanes have a coat
-    coat_layer coat;      // valid if coated; weight 0 in lanes without a coat
-    real choose_coat;     // probability
+    real choose_specular;           // probability
+    mask mirror;                    // the lobe has no width: only samples meet it
+    mask refracts;                  // an interface replaces the lobe; empty if !x.refracts
+    int coatings;                   // bit i: some lanes have coating i of shading/coatings.def
+    coating coats[kCoatings];       // valid where the bit is set; share 0 in lanes without the coating
+    real choose_coating[kCoatings]; // probability, once no higher coating is chosen
 };
 
 constexpr int kDefaultLobeIndex = lobe_with(kDefaultLobe);
+constexpr int kCoatingLobes[] = {
+#define BN_COATING(id, at, strength, trait) lobe_with(trait),
+#include "shading/coatings.def"
+};
 
 BN_INLINE real luminance_of(real3 c)
 {
     return c.x * lit(0.2126) + c.y * lit(0.7152) + c.z * lit(0.0722);
 }
 
-// Makes a reflector. coated: `coat` is valid.
-BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_point& x, bool coated, const coat_layer& coat)
+BN_INLINE bool has_coating(const SurfaceBsdf& r, int at)
+{
+    return (r.coatings >> at & 1) != 0;
+}
+
+// Puts the coating `at` over r. reflected: luminance of the light that r reflects; the coating adds its share.
+BN_INLINE void add_coating(SurfaceBsdf& r, int at, const coating& c, real& reflected)
+{
+    const real below = (lit(1.0) - c.share) * reflected;
+    const real all = c.share + below;
+    const real part = min(max(c.share / max(all, lit(1e-20)), lit(0.1)), lit(0.9));
+    r.coatings |= 1 << at;
+    r.coats[at] = c;
+    r.choose_coating[at] = select(c.share > lit(0.0), part, lit(0.0));
+    reflected = all;
+}
+
+// Makes a reflector without coatings. reflected: receives the luminance of the light that it reflects.
+BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_point& x, real& reflected)
 {
     SurfaceBsdf r;
     const surface& s = x.s;
@@ -54,22 +75,23 @@ BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_poin
     r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
     if (lobe_has(f.lobe, kPunctualOnly))
         r.choose_specular = lit(0.0);
-    // Choose the coat by its weight
-    r.coated = coated, r.coat = coat;
-    r.choose_coat = lit(0.0);
-    if (coated) {
-        const real below = (lit(1.0) - coat.weight) * (specular + rest);
-        const real of_coat = min(max(coat.weight / max(coat.weight + below, lit(1e-20)), lit(0.1)), lit(0.9));
-        r.choose_coat = select(coat.weight > lit(0.0), of_coat, lit(0.0));
+    // Start without coatings
+    r.coatings = 0;
+    for (int k = 0; k < kCoatings; ++k) {
+        r.coats[k] = {x.geometric_axes, x.geometric_axes.n, false, vec3_all(lit(0.0)), lit(0.0), lit(1.0)};
+        r.choose_coating[k] = lit(0.0);
     }
+    reflected = specular + rest;
     return r;
 }
 
-BN_INLINE bsdf_lobe coat_lobe_of(const SurfaceBsdf& r)
+// Returns a coating's lobe. A smooth coating gets the lobe model's least width, so that it is never a mirror.
+BN_INLINE bsdf_lobe coating_lobe_of(const SurfaceBsdf& r, int at)
 {
-    const real sigma = r.coat.roughness * r.coat.roughness * lit(0.70710678118654752);
-    const aniso_lobe lobe = {r.coat.axes.t, r.coat.axes.b, sigma, sigma};
-    return make_bsdf_lobe(lobe_that_has(kRoundLobe), lobe, r.coat.axes.n, r.x.s.v, r.coat.axes);
+    const coating& c = r.coats[at];
+    const real sigma = c.roughness * c.roughness * lit(0.70710678118654752);
+    const aniso_lobe lobe = {c.axes.t, c.axes.b, sigma, sigma};
+    return make_bsdf_lobe(kCoatingLobes[at], lobe, c.axes.n, r.x.s.v, c.axes);
 }
 
 BN_INLINE bsdf_lobe lobe_of(const SurfaceBsdf& r, int model)
@@ -136,7 +158,7 @@ BN_STAGE Reflection scatter(const SurfaceBsdf& r, real3 wi)
     return to;
 }
 
-// Evaluates everything below a coat, except a mirror's reflection.
+// Evaluates everything below the coatings, except a mirror's reflection.
 BN_INLINE Reflection reflect_below(const SurfaceBsdf& r, real3 wi)
 {
     const LobeValue l = lobe_value(r, wi);
@@ -160,22 +182,26 @@ BN_INLINE Reflection reflect_below(const SurfaceBsdf& r, real3 wi)
     return to;
 }
 
-// Adds the coat. A smooth coat gets the lobe model's least width, so that it is never a mirror.
+// Adds the coatings, from the lowest to the highest.
 BN_STAGE Reflection reflect_coated(const SurfaceBsdf& r, real3 wi, const Reflection& below)
 {
-    const LobeValue l = value_of(coat_lobe_of(r), wi);
-    const mask shines = k_dot3(r.coat.horizon, wi) > lit(0.0);
-    const real weight = r.coat.weight, passed = lit(1.0) - weight;
-    Reflection to;
-    to.value = below.value * passed + vec3_all(select(shines, l.value * weight, lit(0.0)));
-    to.pdf = r.choose_coat * l.pdf + (lit(1.0) - r.choose_coat) * below.pdf;
+    Reflection to = below;
+    for (int k = 0; k < kCoatings; ++k) {
+        if (!has_coating(r, k))
+            continue;
+        const coating& c = r.coats[k];
+        const LobeValue l = value_of(coating_lobe_of(r, k), wi);
+        const mask shines = k_dot3(c.horizon, wi) > lit(0.0);
+        to.value = to.value * (lit(1.0) - c.share) + select(shines, c.reflectance * l.value, vec3_all(lit(0.0)));
+        to.pdf = r.choose_coating[k] * l.pdf + (lit(1.0) - r.choose_coating[k]) * to.pdf;
+    }
     return to;
 }
 
 BN_INLINE Reflection reflect(const SurfaceBsdf& r, real3 wi)
 {
     const Reflection below = reflect_below(r, wi);
-    return r.coated ? reflect_coated(r, wi, below) : below;
+    return r.coatings != 0 ? reflect_coated(r, wi, below) : below;
 }
 
 struct SurfaceBsdfSample {
@@ -245,23 +271,38 @@ BN_INLINE SurfaceBsdfSample sample_below(const SurfaceBsdf& r, real2 xi, real ch
     return s;
 }
 
+// Samples one layer: the coatings from the highest to the lowest, then what lies below them.
 BN_STAGE SurfaceBsdfSample sample_coated(const SurfaceBsdf& r, real2 xi, real choice)
 {
-    const real rest = lit(1.0) - r.choose_coat;
-    const mask of_coat = choice < r.choose_coat;
-    SurfaceBsdfSample s = sample_below(r, xi, min(max((choice - r.choose_coat) / rest, lit(0.0)), lit(0.99999994)));
-    s.wi = select(of_coat, k_normalize3(bsdf_lobe_sample(coat_lobe_of(r), xi).wi), s.wi);
-    s.exact = both(s.exact, not_(of_coat)), s.alone = both(s.alone, not_(of_coat));
+    mask taken = mask_from_bits(0);
+    real3 glossy = r.x.s.n;
+    real rest = lit(1.0), passed = lit(1.0); // probability and transmittance of the layers below
+    for (int k = kCoatings - 1; k >= 0; --k) {
+        if (!has_coating(r, k))
+            continue;
+        // Take the coating's direction in lanes that choose it
+        const mask chosen = both(not_(taken), choice < r.choose_coating[k]);
+        glossy = select(chosen, k_normalize3(bsdf_lobe_sample(coating_lobe_of(r, k), xi).wi), glossy);
+        taken = either(taken, chosen);
+        // Stretch the rest of the choices
+        const real left = lit(1.0) - r.choose_coating[k];
+        choice = min(max((choice - r.choose_coating[k]) / left, lit(0.0)), lit(0.99999994));
+        rest = rest * left, passed = passed * (lit(1.0) - r.coats[k].share);
+    }
+    // Weigh by all layers, or by the mirror or interface alone
+    SurfaceBsdfSample s = sample_below(r, xi, choice);
+    s.wi = select(taken, glossy, s.wi);
+    s.exact = both(s.exact, not_(taken)), s.alone = both(s.alone, not_(taken));
     const Reflection at = reflect(r, s.wi);
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
-    s.weight = select(s.alone, s.weight * ((lit(1.0) - r.coat.weight) / rest), at.value * inv);
+    s.weight = select(s.alone, s.weight * (passed / rest), at.value * inv);
     s.pdf = select(s.alone, s.pdf * rest, at.pdf);
     return s;
 }
 
 BN_INLINE SurfaceBsdfSample sample_surface_bsdf(const SurfaceBsdf& r, real2 xi, real choice)
 {
-    return r.coated ? sample_coated(r, xi, choice) : sample_below(r, xi, choice);
+    return r.coatings != 0 ? sample_coated(r, xi, choice) : sample_below(r, xi, choice);
 }
 
 } // namespace BN_ISA_NS

@@ -80,8 +80,8 @@ const char* not_of_material(const MaterialRecord& m)
         return techniques()[static_cast<std::size_t>(m.technique)].name;
     if (m.transmission > 0.0f)
         return "materials that let light through";
-    if (m.coated != 0)
-        return "clear coats";
+    if (m.coatings != 0)
+        return "coatings";
     if (m.alpha_mode == kAlpha_blend)
         return "blended alpha";
     if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)

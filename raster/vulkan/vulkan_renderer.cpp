@@ -264,13 +264,16 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // the frame compares it with the default lobe
         lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
-    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuCoatBit);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuFirstCoating && kGpuFirstCoating + kCoatings < 32);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials) {
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
-        if (m.coated) // a coat has a round lobe
-            lobes |= 1 << kGpuCoatBit | 1 << lobe_with(kRoundLobe);
+        // Add its coatings and their lobes
+#define BN_COATING(id, at, strength, trait)                                                                                                \
+    if (m.coatings >> at & 1)                                                                                                              \
+        lobes |= 1 << (kGpuFirstCoating + at) | 1 << lobe_with(trait);
+#include "shading/coatings.def"
     }
     return {techniques, lobes};
 }

@@ -62,6 +62,13 @@ const int kLobeCount = 0
 #include "shading/models.def"
     ;
 
+const int kCoatings = 0 // layers above a material's own lobe
+#define BN_COATING(id, at, strength, trait) +1
+#include "shading/coatings.def"
+    ;
+#define BN_COATING(id, at, strength, trait) const int kCoating_##id = at;
+#include "shading/coatings.def"
+
 const int kMostFacets = 16; // per material, see MaterialRecord::facet
 const int kKeptKnots = 4;   // view cosines, see MaterialRecord::kept
 
@@ -193,7 +200,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
     int refracts;                    // transmits light, and its technique follows transmitted light
-    int coated;                      // has a clear coat in some place
+    int coatings;                    // bit i: has coating i of shading/coatings.def in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
     float anisotropy_blend; // anisotropy_blend_of() of its factors where the technique shares samples; 1 elsewhere and where slopes widen
                             // lobes

@@ -143,7 +143,7 @@ BN_INLINE constexpr bool area_way_used(int)
     return true;
 }
 
-BN_INLINE constexpr bool coats_used()
+BN_INLINE constexpr bool coating_used(int)
 {
     return true;
 }
@@ -166,7 +166,7 @@ BN_INLINE constexpr bool coats_used()
     constant(uses_color, 0);                                                                                                               \
     constant(unlit, 0);                                                                                                                    \
     constant(refracts, 0);                                                                                                                 \
-    constant(coated, 0);                                                                                                                   \
+    constant(coatings, 0);                                                                                                                 \
     constant(relief, 0);
 #define BN_UNTABLED_MATERIAL(constant) /* for techniques that do not sample an Ashikhmin-Shirley lobe */                                   \
     BN_PLAIN_MATERIAL(constant)                                                                                                            \

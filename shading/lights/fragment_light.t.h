@@ -9,7 +9,7 @@
 #include "shading/lights/environment.t.h"
 #include "shading/lights/extracted.t.h"
 #include "shading/lights/punctual.t.h"
-#include "shading/surface/coat.t.h"
+#include "shading/surface/coating_point.t.h"
 #include "shading/surface/facets.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/mc.t.h"
@@ -36,28 +36,24 @@ BN_STAGE real3 light_of_area_lights(any_frame f, BN_IN(shaded_point) x, int lobe
     return light_from_area(f, x, lobe, position, base_layer(f));
 }
 
-struct coat_light {
-    real passed; // transmittance for the layer below, its emission included
-    real3 gloss; // the coat's own light
+struct coating_light {
+    real passed; // transmittance for the layers below, their emission included
+    real3 gloss; // the coating's own light
 };
 
-// Shades a clear coat. traits: the technique's. A technique that samples lobes samples the coat's too; the others take the
-// coat's environment light from one prefiltered fetch.
-BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id,
-                                  int traits)
+// Shades a coating. lobe: its lobe, index in shading/models.def. traits: the technique's. A technique that samples lobes samples
+// the coating's too; the others take its environment light from one prefiltered fetch.
+BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe, BN_IN(material_inputs) at, BN_IN(surface_frame) axes,
+                                     BN_IN(visible_point) p, integer pixel_id, int traits)
 {
-    // Make a point for the coat
-    surface_frame axes = facing_geometric_axes(p);
-    real3 v = k_normalize3(-p.ray);
-    coat_layer coat = coat_of(f, m, at, axes, v, facing_handedness(p));
     shaded_point c;
     c.pixel_id = pixel_id;
-    make_coat_point(f, coat, axes, v, at.occlusion, texture_used(m, kCoatNormalTex) && the_frame(f).horizon != 0, c);
-    int lobe = lobe_that_has(kRoundLobe);
+    make_coating_point(f, layer, axes, k_normalize3(-p.ray), at.occlusion, layer.has_surface_horizon, c);
     // Add environment light
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
-        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, mc_of_lobe(f, c, coat_bsdf_lobe(c)));
+        light = environment_light(f, c, kSamplesLobe + kTestsHorizon,
+                                  mc_of_lobe(f, c, make_bsdf_lobe(lobe, c.lobe, c.s.n, c.s.v, c.geometric_axes)));
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
     // Add extracted lights, lamps and area lights
@@ -67,10 +63,30 @@ BN_STAGE coat_light light_of_coat(any_frame f, any_material m, BN_IN(material_in
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0)
         light = light + light_from_area(f, c, lobe, p.position, layer_with_lobe(lobe));
-    // Return the coat's light and transmittance
-    coat_light r;
-    r.passed = lit(1.0) - coat.weight;
+    // Return the coating's light and transmittance
+    coating_light r;
+    r.passed = lit(1.0) - layer.share;
     r.gloss = light;
+    return r;
+}
+
+// Define light_of_<id>() for each coating.
+#define BN_COATING(id, at_bit, strength, trait)                                                                                            \
+    BN_STAGE coating_light light_of_##id(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, \
+                                         int traits)                                                                                       \
+    {                                                                                                                                      \
+        surface_frame axes = facing_geometric_axes(p);                                                                                     \
+        coating layer = id##_coating(f, m, at, axes, k_normalize3(-p.ray), facing_handedness(p));                                          \
+        return light_of_coating(f, layer, lobe_that_has(trait), at, axes, p, pixel_id, traits);                                            \
+    }
+#include "shading/coatings.def"
+
+// Puts a coating over r. shares: r has a shared part.
+BN_FN shared_sample_record under_coating(shared_sample_record r, BN_IN(coating_light) over, bool shares)
+{
+    if (shares)
+        r.factor = r.factor * over.passed;
+    r.rest = r.rest * over.passed + over.gloss;
     return r;
 }
 
@@ -176,13 +192,11 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
             r.rest = r.rest + (facets - r.rest) * far;
         }
     }
-    // Put the coat over it
-    if (coats_used() && the_material(m).coated != 0) {
-        coat_light coat = light_of_coat(f, m, at, p, x.pixel_id, traits);
-        if (shares)
-            r.factor = r.factor * coat.passed;
-        r.rest = r.rest * coat.passed + coat.gloss;
-    }
+    // Put the coatings over it
+#define BN_COATING(id, bit, strength, trait)                                                                                               \
+    if (coating_used(bit) && has_coating(m, bit))                                                                                          \
+        r = under_coating(r, light_of_##id(f, m, at, p, x.pixel_id, traits), shares);
+#include "shading/coatings.def"
     return r;
 }
 

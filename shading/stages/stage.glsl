@@ -35,11 +35,11 @@ real4 grid_of_four(frame_ref f, int first, integer set)
 real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 * i + 1], bn_reals[3 * i + 2]); }
 
 // One bit per lobe that materials and the frame use, by index in models.def. Higher bits hold the frame's method for area
-// lights, if any, and the coat bit.
+// lights, if any, and coatings.
 layout(constant_id = 1) const int kLobes = -1;
 bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
 bool area_way_used(int at) { return (kLobes >> (kGpuFirstAreaWay + at) & 1) != 0; }
-bool coats_used() { return (kLobes >> kGpuCoatBit & 1) != 0; }
+bool coating_used(int at) { return (kLobes >> (kGpuFirstCoating + at) & 1) != 0; }
 
 struct cube_sum {
     cube_desc cube;

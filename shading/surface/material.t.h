@@ -1,22 +1,15 @@
-// A material at a visible point: its factors times its textures. shading/material.def lists the values.
+// A material at a visible point: its factors times its textures.
 #ifndef BN_MATERIAL_T_H
 #define BN_MATERIAL_T_H
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
+#include "shading/surface/material_inputs.t.h"
 #include "shading/surface/visible_point.k.h"
+#define BN_COATING_TEXTS
+#include "shading/coatings.def"
 
 BN_KERNELS_BEGIN
-
-struct material_inputs {
-#define BN_INPUT(type, words, name) type name;
-#include "shading/material.def"
-};
-
-BN_FN real3 rgb_of(real4 t)
-{
-    return vec3_of(t.x, t.y, t.z);
-}
 
 // Returns base colour and alpha.
 BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visible_point) p)
@@ -36,12 +29,7 @@ BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visibl
     return vec4_of(color.x, color.y, color.z, alpha);
 }
 
-// Decodes a texel to a normal in tangent space, any length.
-BN_FN real3 scaled_normal(real4 texel, real scale)
-{
-    real3 n = rgb_of(texel) * lit(2.0) - vec3_all(lit(1.0));
-    return vec3_of(n.x * scale, n.y * scale, n.z);
-}
+// Returns the normal map's normal, any length.
 BN_FN real3 normal_of_texel(material_ref m, real4 texel)
 {
     return scaled_normal(texel, splat(the_material(m).normal_scale));
@@ -137,21 +125,9 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.transmission = splat(the_material(m).transmission);
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
-    // Clear coat
-    r.coat = lit(0.0);
-    r.coat_roughness = lit(0.0);
-    r.coat_normal_map = vec3_all(lit(0.0));
-    if (the_material(m).coated != 0) {
-        // Multiply the coat's factors by its textures
-        r.coat = splat(the_material(m).clearcoat);
-        if (texture_used(m, kCoatTex))
-            r.coat = r.coat * texel_of(t, kCoatTex).x;
-        r.coat_roughness = splat(the_material(m).clearcoat_roughness);
-        if (texture_used(m, kCoatRoughnessTex))
-            r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
-        if (texture_used(m, kCoatNormalTex))
-            r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
-    }
+        // Coatings
+#define BN_COATING(id, at, strength, trait) id##_inputs(m, t, r);
+#include "shading/coatings.def"
     return r;
 }
 

@@ -189,7 +189,8 @@ SurfaceBsdf surface_bsdf_of(float f0, float diffuse, float sigma_u, float sigma_
     x.has_surface_horizon = tilted, x.diffuse = true;
     x.dfg = {0.8f, 0.02f}, x.gain = vec3_all(1.0f);
     x.dielectric_f0 = vec3_all(f0), x.dielectric_f90 = 1.0f;
-    return make_surface_bsdf(f, x, false, coat_layer{});
+    real reflected;
+    return make_surface_bsdf(f, x, reflected);
 }
 
 TEST(surface_bsdf, samples_follow_their_density_and_weigh_value_over_it)

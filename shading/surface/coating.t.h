@@ -1,0 +1,30 @@
+// A coating: a layer above a material's own lobe, with a round lobe about its own normal. shading/coatings.def lists them.
+#ifndef BN_COATING_T_H
+#define BN_COATING_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/surface.k.h"
+
+BN_KERNELS_BEGIN
+
+// The coatings' functions <id>_coating(f, m, at, axes, v, handedness) return this record. axes: the geometry's, facing the
+// eye; v: to the eye, unit, world space; handedness: facing_handedness().
+struct coating {
+    surface_frame axes;       // about the coating's normal, which ignores the base layer's normal map
+    real3 horizon;            // normal of the horizon; light from below it is not reflected
+    bool has_surface_horizon; // that is the geometry's horizon, and the normal may differ from the geometry's
+    real3 reflectance;        // factor on the coating's lobe, [0,1]
+    real share;               // of all light that the coating reflects, [0,1]; the layers below have 1 - share
+    real roughness;           // perceptual, [0,1]
+};
+
+// Returns true where a material has the coating `at` in some place.
+BN_FN bool has_coating(material_ref m, int at)
+{
+    return (the_material(m).coatings >> at & 1) != 0;
+}
+
+BN_KERNELS_END
+
+#endif
