@@ -182,12 +182,12 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.s.f0 = f0;
     x.s.f90 = f90;
     x.s.roughness = roughness;
-    x.albedo = f0 * dfg.x + f90 * dfg.y;
-    x.phong_albedo = lit(-1.0);
-    x.phong_set = -1;
+    x.energy.albedo = f0 * dfg.x + f90 * dfg.y;
+    x.energy.phong_albedo = lit(-1.0);
+    x.energy.phong_set = -1;
     x.anisotropy_blend = anisotropy_blend_of(x.lobe.sigma_u, x.lobe.sigma_v);
-    x.gain = vec3(1.0);
-    x.compensation = vec3(1.0);
+    x.energy.gain = vec3(1.0);
+    x.energy.compensation = vec3(1.0);
     x.pixel_id = pixel;
     return x;
 }

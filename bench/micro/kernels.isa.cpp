@@ -23,7 +23,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
                                                      lit(1.0), lit(1.0));
         shaded_point x = {};
         x.s = s, x.lobe = lobe, x.geometric_axes = frame;
-        x.albedo = s.f0, x.gain = vec3_all(lit(1.0));
+        x.energy.albedo = s.f0, x.energy.gain = vec3_all(lit(1.0));
         x.pixel_id = iota() + int_lit(i);
         const real3 color = technique_specular(f, technique_tag<kTechnique>{}, x);
         store(rgb, color.x), store(rgb + kLanes, color.y), store(rgb + 2 * kLanes, color.z);

@@ -304,7 +304,7 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
     r.x.lobe.sigma_u = select(m, k.sigma_u, l.sigma_u), r.x.lobe.sigma_v = select(m, k.sigma_v, l.sigma_v);
     const surface_frame &p = a.x.geometric_axes, &q = b.x.geometric_axes;
     r.x.geometric_axes.n = select(m, p.n, q.n), r.x.geometric_axes.t = select(m, p.t, q.t), r.x.geometric_axes.b = select(m, p.b, q.b);
-    r.x.gain = select(m, a.x.gain, b.x.gain);
+    r.x.energy.gain = select(m, a.x.energy.gain, b.x.energy.gain);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
     if (a.x.refracts || b.x.refracts) {

@@ -67,7 +67,7 @@ BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_poin
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
     // Choose terms by their reflected energy
-    real specular = luminance_of((s.f0 * x.dfg.scale + s.f90 * x.dfg.bias) * x.gain);
+    real specular = luminance_of((s.f0 * x.energy.dfg.scale + s.f90 * x.energy.dfg.bias) * x.energy.gain);
     if (x.refracts)
         specular = specular + luminance_of(x.through.tint) * passed;
     const real rest = luminance_of(s.diffuse) * passed;
@@ -153,7 +153,7 @@ BN_STAGE Reflection scatter(const SurfaceBsdf& r, real3 wi)
     const real3 share = select(s.transmits, interface_passes(g.at, s.o_dot_m), interface_reflects(g.at, s.o_dot_m));
     const real reflecting = reflecting_share(g, s.o_dot_m);
     Reflection to;
-    to.value = select(r.mirror, vec3_all(lit(0.0)), share * r.x.gain * (s.value * abs(i.z)));
+    to.value = select(r.mirror, vec3_all(lit(0.0)), share * r.x.energy.gain * (s.value * abs(i.z)));
     to.pdf = select(r.mirror, lit(0.0), s.pdf * select(s.transmits, lit(1.0) - reflecting, reflecting));
     return to;
 }
@@ -168,7 +168,7 @@ BN_INLINE Reflection reflect_below(const SurfaceBsdf& r, real3 wi)
     const real lobe = select(shines, l.value, lit(0.0));
     const real3 fresnel = reflectance_of(r.x.s, k_saturate(l.o_dot_h));
     const real cosine = max(k_dot3(r.x.s.n, wi), lit(0.0));
-    real3 specular = fresnel * r.x.gain * lobe;
+    real3 specular = fresnel * r.x.energy.gain * lobe;
     real specular_pdf = select(r.mirror, lit(0.0), l.pdf);
     if (r.x.refracts) {
         const Reflection s = scatter(r, wi);
@@ -233,7 +233,7 @@ BN_STAGE InterfaceSample sample_interface(const SurfaceBsdf& r, real2 xi, real c
     const real3 passed = interface_passes(g.at, m.o_dot_m) * (down.weight / max(passing, lit(1e-20)));
     InterfaceSample s;
     s.wi = from_frame(g.axes, select(reflects, up.wi, down.wi));
-    s.weight = select(reflects, reflected, passed) * r.x.gain;
+    s.weight = select(reflects, reflected, passed) * r.x.energy.gain;
     s.pdf = select(reflects, up.pdf * reflecting, down.pdf * passing);
     s.alone = either(either(not_(reflects), r.mirror), not_(up.valid));
     return s;
@@ -258,7 +258,7 @@ BN_INLINE SurfaceBsdfSample sample_below(const SurfaceBsdf& r, real2 xi, real ch
     const Reflection at = reflect_below(r, s.wi);
     s.pdf = at.pdf;
     const real inv = select(at.pdf > lit(0.0), lit(1.0) / max(at.pdf, lit(1e-20)), lit(0.0));
-    const real3 whole = reflectance_of(r.x.s, k_saturate(r.o.z)) * r.x.gain / max(r.choose_specular, lit(1e-6));
+    const real3 whole = reflectance_of(r.x.s, k_saturate(r.o.z)) * r.x.energy.gain / max(r.choose_specular, lit(1e-6));
     const real3 of_mirror = whole * bsdf_lobe_mirror_albedo(lobe_of(r, r.lobe));
     const mask seen = k_dot3(r.horizon, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, of_mirror, vec3_all(lit(0.0))), at.value * inv);

@@ -144,7 +144,7 @@ BN_STAGE ltc_light area_part_tilted(any_frame f, BN_IN(area_view) v, BN_IN(ltc_l
     real share = bsdf_lobe_eval_cos(tilted, wi) / max(bsdf_lobe_eval_cos(upright, wi), lit(1e-12));
     // An eye below the lobe's own horizon sees no untilted lobe: use the ratio of albedos there.
     real above = k_saturate(k_dot3(x.s.n, x.s.v) * lit(10.0));
-    real ratio = x.albedo_ratio + (min(share, lit(4.0)) - x.albedo_ratio) * above;
+    real ratio = x.energy.albedo_ratio + (min(share, lit(4.0)) - x.energy.albedo_ratio) * above;
     light.part = light.part * ratio;
     return light;
 }
@@ -234,9 +234,9 @@ BN_FN real3 area_light_by_cosines(frame_ref f, BN_IN(shaded_point) x, int model,
     dfg_value albedo;
     albedo.scale = shiny.all - shiny.grazing;
     albedo.bias = shiny.grazing;
-    real3 sum = specular * albedo_of(x.s, albedo) * x.gain;
+    real3 sum = specular * albedo_of(x.s, albedo) * x.energy.gain;
     if (uses_substitute_lobe(f) && !tilts)
-        sum = sum * x.albedo_ratio;
+        sum = sum * x.energy.albedo_ratio;
     if (layer_has(layer, kPunctualOnly))
         sum = vec3_all(lit(0.0));
     // Add the diffuse part
@@ -306,7 +306,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
         }
     }
     // Apply gain, and add the diffuse part
-    real3 sum = specular * x.gain;
+    real3 sum = specular * x.energy.gain;
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

@@ -16,7 +16,7 @@ BN_FN real3 seen_of_lobe(frame_ref f, BN_IN(shaded_point) x, int traits, real3 s
     real3 left = specular;
     // Scale to the substitute lobe's albedo
     if (uses_substitute_lobe(f) && (traits & kSamplesLobe) == 0) {
-        left = specular * x.albedo_ratio;
+        left = specular * x.energy.albedo_ratio;
         if (lies_in_surface(f)) // the factor covers the horizon too
             return left;
     }
@@ -53,7 +53,7 @@ BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
     // Scale and correct the specular part
-    real3 scaled = specular * x.gain * splat(the_frame(f).specular.scale);
+    real3 scaled = specular * x.energy.gain * splat(the_frame(f).specular.scale);
     real3 seen = seen_of_lobe(f, x, traits, scaled);
     // Return it alone on metals
     if (!x.diffuse) {
@@ -71,7 +71,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
 // technique returns. more: light from other sources.
 BN_FN shared_sample_record shared_light(frame_ref f, BN_IN(shaded_point) x, int traits, shared_sample_record r, real3 more)
 {
-    real3 whole = x.albedo * x.gain * splat(the_frame(f).specular.scale);
+    real3 whole = x.energy.albedo * x.energy.gain * splat(the_frame(f).specular.scale);
     r.factor = select(r.width < lit(0.0), vec3_all(lit(0.0)), seen_of_lobe(f, x, traits, whole) * x.s.occlusion);
     r.rest = environment_light(f, x, traits, r.rest) + more;
     return r;

@@ -114,7 +114,7 @@ BN_FN real3 extracted_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(
     real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     real3 with = cube_sample_level(full_env(f), r, 0) * splat(the_frame(f).whole.scale);
     real3 without = cube_sample_level(prefiltered_env(f), r, 0) * splat(the_frame(f).specular.scale);
-    real3 shown = (with - without) * x.albedo * bsdf_lobe_mirror_albedo(lobe);
+    real3 shown = (with - without) * x.energy.albedo * bsdf_lobe_mirror_albedo(lobe);
     if (x.has_surface_horizon)
         return select(k_dot3(x.geometric_axes.n, r) > lit(0.0), shown, vec3_all(lit(0.0)));
     return shown;
@@ -154,7 +154,7 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
     if (any_lane(mirror > lit(0.0)))
         specular = specular + (extracted_lights_mirrored(f, x, lobe.bsdf) - specular) * mirror;
     // Apply gain and occlusion, and add the diffuse part
-    real3 sum = specular * x.gain;
+    real3 sum = specular * x.energy.gain;
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

@@ -144,7 +144,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
-            fetched = fetched + split_isotropic_specular(f, x) * x.gain * (share * x.s.occlusion);
+            fetched = fetched + split_isotropic_specular(f, x) * x.energy.gain * (share * x.s.occlusion);
             if (x.has_surface_horizon)
                 groups = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v)).groups;
         }

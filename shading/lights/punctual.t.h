@@ -41,9 +41,9 @@ BN_FN punctual_light light_from(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_l
     punctual_light r;
     r.l = at.l;
     if (lobe_has(lobe.model, kLies_surface + kLies_thread))
-        r.radiance = punctual_radiance_apart(x.s, at.l, bsdf_lobe_eval_cos(lobe, at.l), reflectance, dull, x.gain, intensity);
+        r.radiance = punctual_radiance_apart(x.s, at.l, bsdf_lobe_eval_cos(lobe, at.l), reflectance, dull, x.energy.gain, intensity);
     else
-        r.radiance = punctual_radiance(x.s, at.l, bsdf_lobe_light(lobe, x.s, at.l), reflectance, dull, x.gain, intensity);
+        r.radiance = punctual_radiance(x.s, at.l, bsdf_lobe_light(lobe, x.s, at.l), reflectance, dull, x.energy.gain, intensity);
     return r;
 }
 
@@ -56,7 +56,7 @@ BN_STAGE punctual_light light_from_interface(any_frame f, BN_IN(shaded_point) x,
     real n_dot_l = max(k_dot3(x.s.n, at.l), lit(0.0));
     real3 dull = diffuse_under_light(f, diffuse, n_dot_l) * n_dot_l;
     // Add the interface's reflection
-    real3 shiny = interface_value(g, at.l) * x.gain;
+    real3 shiny = interface_value(g, at.l) * x.energy.gain;
     punctual_light r;
     r.l = at.l;
     r.radiance = (dull + shiny) * intensity;

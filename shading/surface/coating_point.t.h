@@ -37,19 +37,19 @@ BN_FN void make_coating_point(frame_ref f, BN_IN(coating) layer, BN_IN(surface_f
     c.anisotropy_blend = lit(0.0);
     // Look up directional albedo
     if (the_frame(f).dfg_fit != 0)
-        c.dfg = dfg_fit(c.s.n_dot_v, layer.roughness);
+        c.energy.dfg = dfg_fit(c.s.n_dot_v, layer.roughness);
     else
-        c.dfg = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, c.s.n_dot_v, layer.roughness);
+        c.energy.dfg = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, c.s.n_dot_v, layer.roughness);
     // Find albedo; a coating has no energy compensation
-    c.albedo = albedo_of(c.s, c.dfg);
-    c.phong_albedo = lit(-1.0);
-    c.own_dfg.scale = lit(1.0);
-    c.own_dfg.bias = lit(0.0);
-    c.phong_set = -1;
-    c.albedo_ratio = lit(1.0);
-    c.whole = c.own_dfg;
-    c.compensation = vec3_all(lit(1.0));
-    c.gain = c.compensation;
+    c.energy.albedo = albedo_of(c.s, c.energy.dfg);
+    c.energy.phong_albedo = lit(-1.0);
+    c.energy.own_dfg.scale = lit(1.0);
+    c.energy.own_dfg.bias = lit(0.0);
+    c.energy.phong_set = -1;
+    c.energy.albedo_ratio = lit(1.0);
+    c.energy.whole = c.energy.own_dfg;
+    c.energy.compensation = vec3_all(lit(1.0));
+    c.energy.gain = c.energy.compensation;
     // Use the coating's reflectance for all light
     c.dielectric_f0 = layer.reflectance;
     c.dielectric_f90 = layer.share;

@@ -83,24 +83,24 @@ BN_FN facet_light facet_light_of(material_ref m, real cosine)
     return r;
 }
 
-// Scales x.gain so that facets reflect as much as all normals of the map. at: facet_inputs(); chosen: 1, or 0 in lanes
+// Scales x.energy.gain so that facets reflect as much as all normals of the map. at: facet_inputs(); chosen: 1, or 0 in lanes
 // without facets.
 BN_FN void keep_light_of_facets(frame_ref f, material_ref m, BN_IN(material_inputs) at, real chosen, BN_INOUT(shaded_point) x)
 {
     // Undo the widening by the group's spread
     if (!widens_lobes(m)) {
-        dfg_value whole = x.whole;
-        real3 gain = x.gain;
+        dfg_value whole = x.energy.whole;
+        real3 gain = x.energy.gain;
         undo_widening(f, at.own_roughness, x);
-        x.whole.scale = whole.scale + (x.whole.scale - whole.scale) * chosen;
-        x.whole.bias = whole.bias + (x.whole.bias - whole.bias) * chosen;
-        x.gain = gain + (x.gain - gain) * chosen;
+        x.energy.whole.scale = whole.scale + (x.energy.whole.scale - whole.scale) * chosen;
+        x.energy.whole.bias = whole.bias + (x.energy.whole.bias - whole.bias) * chosen;
+        x.energy.gain = gain + (x.energy.gain - gain) * chosen;
     }
     // Keep the map's share of light above the horizon
     if (!x.has_surface_horizon)
         return;
     facet_light light = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v));
-    x.gain = x.gain * (lit(1.0) + (light.map_over_groups - lit(1.0)) * chosen);
+    x.energy.gain = x.energy.gain * (lit(1.0) + (light.map_over_groups - lit(1.0)) * chosen);
 }
 
 BN_KERNELS_END

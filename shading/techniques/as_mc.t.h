@@ -87,11 +87,11 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
     real texels = size * size * lit(0.47746482927568601) * finer / count; // 6 / (4 pi); finer: 4 is exact for one set, 1 for four
     real texel_term = lit(0.5) * k_log2(texels) - lit(63.0); // half of the exponent's 127, and half a level to round to the nearest
     // Take half vectors from the table or from the lobe
-    bool by_table = x.phong_set >= 0;
+    bool by_table = x.energy.phong_set >= 0;
     as_lobe lobe;
     if (!by_table)
         lobe = as_lobe_of(x);
-    int first = by_table ? x.phong_set : 0;
+    int first = by_table ? x.energy.phong_set : 0;
     cube_desc same = cube;
     // Visit the samples
     real last = to_real(int_lit(cube.levels - 1));
@@ -135,7 +135,7 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
     real of_samples = weights / count;
     real albedo = of_samples;
     if (the_frame(f).as_tables == 0)
-        albedo = select(x.phong_albedo > lit(0.0), x.phong_albedo, albedo);
+        albedo = select(x.energy.phong_albedo > lit(0.0), x.energy.phong_albedo, albedo);
     real mean_weight = kept / count;
     // Correct for tilt and for the known albedo
     if (x.has_surface_horizon && lies_in_surface(f)) // as if the lobe were untilted, as in filtered_is
@@ -144,8 +144,8 @@ BN_FN real3 as_mc_of_set(frame_ref f, BN_IN(shaded_point) x, integer set, bool s
         total = total * (albedo / max(of_samples, lit(1e-4)));
     if (the_frame(f).energy_compensation != 0) { // for this lobe, not for the default one
         if (uses_substitute_lobe(f))
-            albedo = albedo * x.albedo_ratio;
-        total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.compensation;
+            albedo = albedo * x.energy.albedo_ratio;
+        total = total * energy_compensation_of_albedo(x.s.f0, albedo) / x.energy.compensation;
     }
     // Take the mean, in units of the prefiltered environment
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;
@@ -173,7 +173,7 @@ BN_FN shared_sample_record as_mc_shared(frame_ref f, BN_IN(shaded_point) x, real
     mask mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     // Fill light and rest
     shared_sample_record r;
-    r.light = select(mirror, nothing, found / max(x.albedo, vec3_all(lit(1e-6))));
+    r.light = select(mirror, nothing, found / max(x.energy.albedo, vec3_all(lit(1e-6))));
     r.rest = select(mirror, mirrors_apart(f, x, nothing, lit(1.0)), nothing);
     // Describe the lobe for its similarity to others
     real along2 = max((x.lobe.sigma_u - x.lobe.sigma_v) * (x.lobe.sigma_u + x.lobe.sigma_v), lit(0.0));

@@ -14,7 +14,7 @@ BN_FN real3 bent_normal_specular(frame_ref f, BN_IN(shaded_point) x)
     cube_desc cube = prefiltered_env(f);
     bent_ray ray = bent_normal_ray(x.s.n, x.s.v, x.lobe);
     real lod = ray.lod * to_real(int_lit(cube.levels - 1));
-    return cube_sample(cube, ray.direction, lod) * x.albedo;
+    return cube_sample(cube, ray.direction, lod) * x.energy.albedo;
 }
 
 BN_KERNELS_END

@@ -52,14 +52,14 @@ BN_FN real3 filtered_is_sum(frame_ref f, BN_IN(shaded_point) x, bool ggx)
     real3 total = cube_terms_value(sum);
     real own = weights / count;
     if (x.has_surface_horizon &&
-        lies_in_surface(f)) { // as if the lobe were untilted: x.albedo_ratio has the loss of a tilted lobe below the horizon
+        lies_in_surface(f)) { // as if the lobe were untilted: x.energy.albedo_ratio has the loss of a tilted lobe below the horizon
         real mean_weight = kept / count;
         total = total * own / max(mean_weight, lit(1e-4));
     }
     if (the_frame(f).energy_compensation != 0) { // the albedo of these few samples, or of a Beckmann lobe, differs from the table's
         if (uses_substitute_lobe(f))
-            own = own * x.albedo_ratio;
-        total = total * energy_compensation_of_albedo(x.s.f0, own) / x.compensation;
+            own = own * x.energy.albedo_ratio;
+        total = total * energy_compensation_of_albedo(x.s.f0, own) / x.energy.compensation;
     }
     // Take the mean; replace lobes without width by mirrors
     uniform_real scale = the_frame(f).box.scale / the_frame(f).specular.scale;

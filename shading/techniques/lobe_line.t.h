@@ -79,7 +79,7 @@ BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, 
 // Samples alone, for fragments that cannot read their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5)) * x.albedo;
+    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5)) * x.energy.albedo;
 }
 
 BN_KERNELS_END

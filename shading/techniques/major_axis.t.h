@@ -40,7 +40,7 @@ BN_FN real3 major_axis_specular(frame_ref f, BN_IN(shaded_point) x)
         uniform_real s = n == 1 ? 0.5f : float(j) / float(last);
         cube_sum_add(sum, major_axis_direction(curve, splat(s)), levels);
     }
-    return cube_sum_value(sum) * x.albedo;
+    return cube_sum_value(sum) * x.energy.albedo;
 }
 
 // Samples of a lobe along its grain, and the sum of their weights.
@@ -65,7 +65,7 @@ BN_FN void add_grain_sample(BN_IN(shaded_point) x, BN_IN(major_axis_grain) grain
 
 BN_FN real3 grain_mean(BN_IN(shaded_point) x, BN_INOUT(grain_sum) sum)
 {
-    return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20)) * x.albedo;
+    return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20)) * x.energy.albedo;
 }
 
 // Returns the lobe along its major axis.

@@ -11,7 +11,7 @@ BN_KERNELS_BEGIN
 
 BN_FN real3 split_isotropic_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return split_isotropic_radiance(x.s, prefiltered_env(f)) * x.albedo;
+    return split_isotropic_radiance(x.s, prefiltered_env(f)) * x.energy.albedo;
 }
 
 BN_KERNELS_END

@@ -30,7 +30,7 @@ BN_FN real3 mirrored(frame_ref f, BN_IN(shaded_point) x, real dim)
 {
     real3 r = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     real seen = above_horizon(x, r, dim);
-    return cube_sample_level(prefiltered_env(f), r, 0) * x.albedo * seen;
+    return cube_sample_level(prefiltered_env(f), r, 0) * x.energy.albedo * seen;
 }
 
 // Replaces the value by a mirror where the lobe has no width, since sampled lobes have a least width.

@@ -187,7 +187,7 @@ SurfaceBsdf surface_bsdf_of(float f0, float diffuse, float sigma_u, float sigma_
     x.s.n = frame.n;
     x.lobe = {frame.t, frame.b, sigma_u, sigma_v};
     x.has_surface_horizon = tilted, x.diffuse = true;
-    x.dfg = {0.8f, 0.02f}, x.gain = vec3_all(1.0f);
+    x.energy.dfg = {0.8f, 0.02f}, x.energy.gain = vec3_all(1.0f);
     x.dielectric_f0 = vec3_all(f0), x.dielectric_f90 = 1.0f;
     real reflected;
     return make_surface_bsdf(f, x, reflected);

@@ -1,0 +1,97 @@
+// From a material at a visible point to the point that lights shade.
+#ifndef BN_MAKE_SHADED_POINT_T_H
+#define BN_MAKE_SHADED_POINT_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/surface/lobe_energy.t.h"
+#include "shading/surface/lobe_shape.t.h"
+#include "shading/surface/material_inputs.t.h"
+#include "shading/surface/reflectance.t.h"
+#include "shading/surface/refraction.t.h"
+#include "shading/surface/shaded_point.t.h"
+#include "shading/surface/surface.k.h"
+#include "shading/surface/visible_point.k.h"
+
+BN_KERNELS_BEGIN
+
+// Makes the interface of a transmissive material: the interface takes a share of the diffuse part, and its own gain
+// replaces x.energy.gain.
+BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
+{
+    x.through.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+    x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), front);
+    x.through.tint = x.s.diffuse * at.transmission;
+    x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
+    x.energy.gain = vec3_all(lit(1.0));
+    if (the_frame(f).energy_compensation != 0)
+        x.energy.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
+}
+
+// Returns the surface's frame under a normal map, turned by the method that the material's record names.
+BN_FN surface_frame frame_by_map(material_ref m, surface_frame axes, real3 map, real handedness)
+{
+    if (the_material(m).frame_map == kFrameQuaternion)
+        return turned_frame(axes, map);
+    if (the_material(m).frame_map == kFrameNormalOnly)
+        return bent_frame(axes, map);
+    return mapped_frame(axes, map, handedness);
+}
+
+// Return the geometry's frame; a surface seen from behind shows its other side.
+BN_FN real facing_handedness(BN_IN(visible_point) p)
+{
+    return select(p.front, p.tangent_sign, -p.tangent_sign);
+}
+BN_FN surface_frame facing_geometric_axes(BN_IN(visible_point) p)
+{
+    real3 normal = select(p.front, p.normal, -p.normal);
+    return geometric_frame(normal, p.tangent, facing_handedness(p));
+}
+
+// Returns the lobe's frame: the geometry's frame turned by the normal map, then tilted.
+BN_FN surface_frame lobe_axes(frame_ref f, material_ref m, BN_IN(material_inputs) at, surface_frame axes, real handedness)
+{
+    if (texture_used(m, kNormalTex))
+        axes = frame_by_map(m, axes, at.normal_map, handedness);
+    if (lies_in_surface(f) && the_material(m).tilt_mapped != 0) {
+        real2 slope = at.slope + vec2_of(splat(the_material(m).tilt_slope[0]), splat(the_material(m).tilt_slope[1]));
+        axes = sloped_frame(axes, slope);
+    } else if (lies_in_surface(f))
+        axes = tilted_frame(axes, vec2_of(splat(the_material(m).tilt_cos[0]), splat(the_material(m).tilt_cos[1])),
+                            vec2_of(splat(the_material(m).tilt_sin[0]), splat(the_material(m).tilt_sin[1])));
+    return axes;
+}
+
+// Fills x.
+BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
+                             integer pixel_id, BN_INOUT(shaded_point) x)
+{
+    x.pixel_id = pixel_id;
+    // Find the shading frame and the lobe
+    real3 v = k_normalize3(-p.ray);
+    x.geometric_axes = facing_geometric_axes(p);
+    surface_frame axes = lobe_axes(f, m, at, x.geometric_axes, facing_handedness(p));
+    x.has_surface_horizon = (texture_used(m, kNormalTex) && the_frame(f).horizon != 0) || can_tilt(f, m);
+    x.lobe = lobe_in_frame(m, shape, axes);
+    // Set up the surface and its reflectances
+    x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
+    x.dielectric_f0 = at.dielectric_f0;
+    x.dielectric_f90 = at.dielectric_f90;
+    x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    // Use exact reflectances where the frame wants them
+    x.s.exact = the_frame(f).fresnel;
+    if (x.s.exact != 0) {
+        x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+        x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
+    }
+    x.anisotropy_blend = splat(the_material(m).anisotropy_blend);
+    find_energy(f, m, at, x);
+    x.refracts = the_material(m).refracts != 0;
+    if (x.refracts)
+        make_interface(f, m, at, p.front, x);
+}
+
+BN_KERNELS_END
+
+#endif
