@@ -9,6 +9,7 @@
 #include "shading/lights/background.t.h"
 #include "shading/surface/coverage.t.h"
 #include "shading/surface/facets.t.h"
+#include "shading/surface/make_shaded_point.t.h"
 #include "shading/surface/relief.t.h"
 
 namespace burnish {

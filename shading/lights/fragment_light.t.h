@@ -11,6 +11,7 @@
 #include "shading/lights/punctual.t.h"
 #include "shading/surface/coating_point.t.h"
 #include "shading/surface/facets.t.h"
+#include "shading/surface/make_shaded_point.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_samples.k.h"

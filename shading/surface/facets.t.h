@@ -7,7 +7,7 @@
 #include "shading/lang/stage.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
-#include "shading/surface/shaded_point.t.h"
+#include "shading/surface/lobe_energy.t.h"
 
 BN_KERNELS_BEGIN
 

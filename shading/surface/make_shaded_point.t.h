@@ -6,7 +6,7 @@
 #include "shading/lang/stage.h"
 #include "shading/surface/lobe_energy.t.h"
 #include "shading/surface/lobe_shape.t.h"
-#include "shading/surface/material_inputs.t.h"
+#include "shading/surface/material.t.h"
 #include "shading/surface/reflectance.t.h"
 #include "shading/surface/refraction.t.h"
 #include "shading/surface/shaded_point.t.h"

@@ -8,12 +8,9 @@
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/diffuse.k.h"
 #include "shading/surface/energy.k.h"
-#include "shading/surface/lobe_shape.t.h"
-#include "shading/surface/material.t.h"
 #include "shading/surface/reflectance.t.h"
 #include "shading/surface/refraction.t.h"
 #include "shading/surface/surface.k.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -8,7 +8,7 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
-#include "shading/surface/shaded_point.t.h"
+#include "shading/surface/make_shaded_point.t.h"
 
 BN_KERNELS_BEGIN
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "raster/frame/frame_record.h"
-#include "shading/surface/shaded_point.t.h"
+#include "shading/surface/make_shaded_point.t.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
