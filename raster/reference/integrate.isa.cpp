@@ -10,6 +10,7 @@
 #include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_sample.t.h"
 #include "shading/lights/punctual.t.h"
+#include "shading/surface/coating_point.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

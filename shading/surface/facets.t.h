@@ -5,9 +5,9 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
+#include "shading/surface/lobe_energy.t.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
-#include "shading/surface/lobe_energy.t.h"
 
 BN_KERNELS_BEGIN
 

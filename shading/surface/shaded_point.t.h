@@ -128,7 +128,8 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
         real3 own = x.dielectric_f0;
         return phong_diffuse_seen(max(own.x, max(own.y, own.z)), x.s.n_dot_v);
     }
-    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, x.dielectric_f0, x.energy.whole);
+    real3 dielectric =
+        dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, x.dielectric_f0, x.energy.whole);
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     if (!x.refracts)
         return passed;

@@ -200,7 +200,7 @@ SEEDED = {
     "--masking separable": "prefiltered_tilt albedo_by_a_fit",
     "--dfg fit": "separable_masking",
     "--env-rotation 20": "bent_normal_bends_too_far split_isotropic_is_round prefilter_knows_no_angle sun_in_prefiltered_levels coarse_cube "
-                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps separable_tilt tilt_under_normal_maps",
+                         "masking_bends_the_lobe glass_by_few_samples grains_that_cross few_texture_taps separable_tilt tilt_under_normal_maps tilt_of_diffuse_parts",
     "--roughness 0.85": "line_of_lobes_limited grid_of_few phong_grid_of_few triangles_between_samples tiles_of_one_picture needles_between_samples "
                         "plates_at_one_depth near_plane texels_far_from_zero texels_of_wide_pictures texels_that_are_no_numbers "
                         "normals_in_halves",
