@@ -109,6 +109,13 @@ bool changes_scene(const Option& option)
     return option.group == "Materials" || option.name == "--time" || option.name == "--animation";
 }
 
+bool needs_parts(const RenderOptions& options)
+{
+    const bool displayed =
+        std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
+    return displayed && options.resolve != Resolve::linear && options.backend != "reference";
+}
+
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)
 {
     RenderOptions out = arguments.plain;
@@ -117,6 +124,10 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         return usage_error("--light",
                            fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
     BN_TRY(check_technique(arguments, out));
+    const bool keeps_samples =
+        !out.shadow_ratio && out.backend != "reference" && (out.backend != "vulkan" || out.vulkan.pipeline == VulkanPipeline::ids);
+    if (!given.given("--resolve") && !keeps_samples)
+        out.resolve = Resolve::linear;
     out.mips.brdf = out.frame.brdf, out.mips.use_cache = out.environment.use_cache;
     out.mips.threads = out.threads;
     const Result<Isa> isa = choose_isa(given, out.isa);

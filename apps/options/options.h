@@ -36,7 +36,7 @@ struct RenderOptions {
     std::string risks;                 // picture of the atlas's risks for the technique; "-": text only; empty: none
     bool shadow_ratio = false;         // area lights cast shadows, by ray-traced samples
     int shadow_samples = 64;           // a pixel
-    Resolve resolve = Resolve::linear; // for 8-bit outputs
+    Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
     std::string stats_file;            // empty: none; "-": standard output
     std::string trace_file;            // empty: none
 
@@ -69,6 +69,9 @@ struct RenderOptions {
     bool quiet = false;
     int verbosity = 0;
 };
+
+// Returns true if pictures need the samples of pixels: 8-bit ones that are not plain means. The reference keeps no samples.
+bool needs_parts(const RenderOptions& options);
 
 // Targets of the command line's values. Most values are final here; some wait for other options.
 struct RenderArguments {

@@ -1,11 +1,9 @@
 #include "apps/options/scene_with_view.h"
 
 #include <algorithm>
-#include <fmt/core.h>
 
 #include "apps/cli/open.h"
 #include "apps/options/scene_view.h"
-#include "shading/lang/records.h"
 
 namespace burnish {
 
@@ -23,17 +21,11 @@ Result<SceneWithView> load_scene_with_view(const std::string& name, const Render
     return SceneWithView{*data, view->view};
 }
 
-void warn_of_opaque_glass(const Scene& scene, const std::vector<std::string>& techniques, Report& report)
+void warn_of_missing_behind_glass(const Scene& scene, Report& report)
 {
-    if (std::none_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.transmission > 0.0f; }))
-        return;
-    std::vector<std::string> opaque;
-    for (const std::string& name : techniques)
-        if (!(find_technique(name)->traits & kRefracts))
-            opaque.push_back(name);
-    if (!opaque.empty())
-        report.warning(
-            fmt::format("materials that let light through are drawn opaque by {}; mc and the reference refract it", join(opaque)));
+    if (std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.transmission > 0.0f; }))
+        report.warning("materials that transmit light show the environment without the objects behind them; "
+                       "--backend reference --reference-mode path draws these objects");
 }
 
 } // namespace burnish

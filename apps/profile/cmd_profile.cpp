@@ -154,7 +154,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     // Measure the frames
     FrameDesc desc = options.frame;
     desc.view = seen->view;
-    desc.parts = options.resolve != Resolve::linear, desc.triangle_ids = !desc.background;
+    desc.parts = needs_parts(options), desc.triangle_ids = !desc.background;
     ProfileFigures figures;
     figures.device = session->device(), figures.threads = jobs->threads();
     figures.frames = given.given("--frames") ? options.frames : kFrames;

@@ -54,12 +54,6 @@ bool draws_alpha(const RenderOptions& options)
     return !options.frame.background;
 }
 
-// The reference keeps no samples for --resolve.
-bool resolves_parts(const RenderOptions& options)
-{
-    return options.resolve != Resolve::linear && options.backend != "reference";
-}
-
 } // namespace
 
 Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options)
@@ -150,7 +144,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
         report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")
-        warn_of_opaque_glass(parts.scene->scene, {options.frame.technique}, report);
+        warn_of_missing_behind_glass(parts.scene->scene, report);
 
     // Open and bake the environment
     const Stopwatch bake;
@@ -185,7 +179,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     Frame last;
     // Ask for the frame's extra outputs
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
-    desc.parts = resolves_parts(options);
+    desc.parts = needs_parts(options);
     ask_for_layers(options.aov, desc);
     if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
         return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));

@@ -74,11 +74,13 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
-// Describes the onset of an entry for any scene. The eye of a trial scene becomes an angle.
+// Describes the onset of an entry for any scene. The eye of a trial scene and a tilt by two angles become an angle.
 std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 {
     if (setting.options.eye && setting.values.starts_with("eye "))
         return fmt::format("an eye {:.0f} degrees above the surface", glm::degrees(std::asin(std::clamp(at.n_dot_v, 0.0f, 1.0f))));
+    if (setting.values.starts_with("tilt "))
+        return fmt::format("a tilt of {:.0f} degrees", glm::degrees(at.tilt));
     return setting.values;
 }
 

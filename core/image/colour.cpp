@@ -251,10 +251,12 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
         for (; part != parts.end() && part->pixel == pixel; ++part) {
             if (part->background && channels == 4)
                 continue;
-            const std::array<float, 3>& c = part->color;
-            const Rgb exposed = {expose(c[0], scale), expose(c[1], scale), expose(c[2], scale)};
+            // Divide the colour by alpha, and weigh it by alpha
+            const float alpha = channels == 4 ? part->alpha : 1.0f;
+            const auto whole = [&](std::size_t c) { return expose(part->color[c] / alpha, scale); };
+            const Rgb exposed = {whole(0), whole(1), whole(2)};
             const bool weighted = resolve == Resolve::weighted;
-            const float weight = static_cast<float>(part->samples) / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
+            const float weight = static_cast<float>(part->samples) * alpha / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
             const Rgb kept = weighted ? exposed : clipped(apply(tonemap, exposed));
             sum[0] += kept.r * weight, sum[1] += kept.g * weight, sum[2] += kept.b * weight;
             weights += weight;

@@ -24,14 +24,17 @@ struct PixelPart {
     std::uint32_t pixel;         // y * width + x
     std::uint8_t first, samples; // lowest sample, number of samples
     bool background;             // true for the sky behind the scene
-    std::array<float, 3> color;  // linear Rec.709
+    std::array<float, 3> color;  // linear Rec.709, multiplied by alpha
+    float alpha;                 // share of the background that the part hides, (0,1]; counts in images with alpha
 };
 
 // Makes a part from a sample mask, one bit for each sample.
-inline PixelPart pixel_part(std::uint32_t pixel, std::uint32_t samples, bool background, const std::array<float, 3>& color)
+inline PixelPart pixel_part(std::uint32_t pixel, std::uint32_t samples, bool background, const std::array<float, 3>& color,
+                            float alpha = 1.0f)
 {
-    return {pixel, static_cast<std::uint8_t>(std::countr_zero(samples)), static_cast<std::uint8_t>(std::popcount(samples)), background,
-            color};
+    return {
+        pixel, static_cast<std::uint8_t>(std::countr_zero(samples)), static_cast<std::uint8_t>(std::popcount(samples)), background, color,
+        alpha};
 }
 
 // Quantity that a pixel averages over its samples. linear: radiance. display: each sample tonemapped and clipped.

@@ -162,8 +162,8 @@ Status check_image(const Image& image, std::size_t i, const Limits& limits)
     for (const auto& [side, name] : {std::pair(image.width, "width"), std::pair(image.height, "height")})
         if (side < 1 || side > limits.image_side)
             return scene_fault(at("images", i, name), fmt::format("{} pixels lie outside 1 to {}", side, limits.image_side));
-    if (image.channels < 1)
-        return scene_fault(at("images", i, "channels"), fmt::format("{} channels, an image has one at least", image.channels));
+    if (image.channels < 1 || image.channels > 4)
+        return scene_fault(at("images", i, "channels"), fmt::format("{} channels, a texture's image has 1 to 4", image.channels));
     if (image.type > PixelType::f32)
         return scene_fault(at("images", i, "type"), fmt::format("{} is no type of pixels", static_cast<int>(image.type)));
     const std::uint64_t row = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height); // below 2^62

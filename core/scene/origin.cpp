@@ -107,7 +107,7 @@ void settle_origin(Scene& scene)
 
 void warn_of_steps(Scene& scene)
 {
-    CoarsePlace vertices, nodes;
+    CoarsePlace vertices, nodes, lights;
     each_box(scene, [&](std::size_t i, const Box& box) {
         if (box.empty())
             return;
@@ -117,6 +117,20 @@ void warn_of_steps(Scene& scene)
         const Box placed = moved(box, world);
         nodes.worst(i, placed.farthest(), placed.extent(), 1.0);
     });
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].area_light == kNone)
+            continue;
+        // Give a sphere or a line its radius
+        const AreaLight& light = scene.area_lights[static_cast<std::size_t>(scene.nodes[i].area_light)];
+        Box box;
+        for (const glm::vec3& p : light.points)
+            box.add(glm::dvec3(p) - glm::dvec3(light.radius)), box.add(glm::dvec3(p) + glm::dvec3(light.radius));
+        if (!box.empty())
+            lights.worst(i, box.farthest(), box.extent(), 1.0);
+    }
+    if (lights.step > 0.0)
+        scene.warnings.push_back(fmt::format("points of area light '{}' are floats {:.6g} m from its node: they lie on steps of {:.3g} m",
+                                             scene.nodes[lights.node].name, lights.away, lights.step));
     if (vertices.step > 0.0)
         scene.warnings.push_back(fmt::format("vertices of node '{}' are floats {:.6g} m from the node: they lie on steps of {:.3g} m",
                                              scene.nodes[vertices.node].name, vertices.away, vertices.step));

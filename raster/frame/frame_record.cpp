@@ -127,10 +127,10 @@ void FrameMaker::bake(const FrameDesc& desc)
 
 namespace {
 
-// Returns true if the material's technique follows the light that the material transmits. An index of 0 reflects all light.
+// Returns true if the material transmits light. An index of 0 reflects all light.
 bool refracts(const MaterialRecord& m, int lobe)
 {
-    return (m.technique_traits & kRefracts) && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe) & kPunctualOnly);
+    return !m.unlit && m.transmission > 0.0f && m.ior > 0.0f && !(lobe_traits_of(lobe) & kPunctualOnly);
 }
 
 } // namespace

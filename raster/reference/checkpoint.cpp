@@ -63,6 +63,8 @@ Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumul
     std::error_code ignored;
     if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored)))
         return false;
+    if (links == Links::follow && std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found)
+        return false; // a link to a file that is not there yet
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::uint64_t{1} << 40, links);
     BN_TRY(bytes);
     BN_TRY(parse_checkpoint(bytes->data(), bytes->size(), path, key, into));

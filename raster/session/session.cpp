@@ -1,5 +1,6 @@
 #include "raster/session/session.h"
 
+#include <algorithm>
 #include <exception>
 #include <fmt/format.h>
 #include <new>
@@ -35,6 +36,9 @@ template <class Body> auto guarded(const std::string& what, const Body& body) ->
 
 Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const SessionOptions& options)
 {
+    const std::vector<Isa>& known = program_isas();
+    if (std::find(known.begin(), known.end(), options.isa) == known.end() || !isa_available(options.isa))
+        return Error{ExitCode::unavailable, "", "SessionOptions::isa", "this processor or this program has no such instruction set"};
     switch (options.backend) {
     case Backend::reference: {
         ReferenceOptions reference = options.reference;

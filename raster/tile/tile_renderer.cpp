@@ -186,8 +186,10 @@ void collect_blended_parts(const FrameParams& f, int x, int y, std::uint32_t i, 
         const std::uint32_t sample = rest & -rest;
         const int at = (block * f.msaa + std::countr_zero(sample)) * kBlockPixels + in_block;
         const float through = p.through[at];
-        part = pixel_part(part.pixel, sample, s.fragment_triangle[i] < 0 && through == 1.0f,
-                          {p.red[at] + behind[0] * through, p.green[at] + behind[1] * through, p.blue[at] + behind[2] * through});
+        const bool open = s.fragment_triangle[i] < 0; // no opaque surface lies behind
+        part = pixel_part(part.pixel, sample, open && through == 1.0f,
+                          {p.red[at] + behind[0] * through, p.green[at] + behind[1] * through, p.blue[at] + behind[2] * through},
+                          open ? 1.0f - through : 1.0f);
         to.push_back(part);
     }
 }

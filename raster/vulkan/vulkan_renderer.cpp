@@ -451,9 +451,10 @@ void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame
             if (!frame.through.empty())
                 frame.through[(first + p) * msaa + s] = at.through;
             const auto color = [&](int c) { return at.over[c] + at.behind[c] * at.through; };
+            const bool open = at.solid_id == kGpuNoTriangle; // no opaque surface lies behind
             if (desc.parts && msaa > 1)
-                frame.parts.push_back(pixel_part(static_cast<std::uint32_t>(first + p), 1u << s,
-                                                 at.solid_id == kGpuNoTriangle && at.through == 1.0f, {color(0), color(1), color(2)}));
+                frame.parts.push_back(pixel_part(static_cast<std::uint32_t>(first + p), 1u << s, open && at.through == 1.0f,
+                                                 {color(0), color(1), color(2)}, open ? 1.0f - at.through : 1.0f));
         }
     }
     std::sort(frame.parts.begin(), frame.parts.end(),

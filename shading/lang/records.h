@@ -39,7 +39,7 @@ const int kSharesSamples = 32;  // shares samples within a 2x2 quad of fragments
 const int kAutoRound = 64;      // `auto` takes this technique for materials without a grain
 const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
 
-const int kRefracts = 256;  // follows light through transmissive materials; other techniques draw them opaque
+const int kSamplesInterface = 256; // samples both sides of transmissive surfaces; others fetch transmitted light once
 const int kPhongGrid = 512; // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
@@ -199,7 +199,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int conductor;                   // has its own complex index: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
-    int refracts;                    // transmits light, and its technique follows transmitted light
+    int refracts;                    // transmits light
     int coatings;                    // bit i: has coating i of shading/coatings.def in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
     float anisotropy_blend; // anisotropy_blend_of() of its factors where the technique shares samples; 1 elsewhere and where slopes widen

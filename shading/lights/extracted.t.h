@@ -13,7 +13,7 @@ BN_KERNELS_BEGIN
 // Returns true where `mc` samples the extracted lights with the environment: for interfaces and lobes without GGX normals.
 BN_FN bool extracted_lights_are_sampled(BN_IN(shaded_point) x, lobe_layer layer)
 {
-    return layer_has(layer, kNormals_own) || x.refracts;
+    return layer_has(layer, kNormals_own) || interface_is_sampled(x);
 }
 
 struct extracted_light_lobe { // the lobe under extracted lights
@@ -108,6 +108,61 @@ BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_I
     return r;
 }
 
+// Returns transmitted radiance from extracted light number `light` over the light's radiance, with tint. The lobe's masking is
+// the reflected one's at the same angle.
+BN_FN real3 extracted_light_through(frame_ref f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe, int light)
+{
+    // Find the normal that refracts the light to the eye; its slopes change by side (w.xy - slope w.z) / h.z
+    real ior = x.through.parts.ior;
+    real side = select(ior >= lit(1.0), -ior, ior);
+    real towards = select(ior >= lit(1.0), lit(-1.0), lit(1.0));
+    real3 l = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].direction));
+    real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_u));
+    real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_v));
+    real3 h = lobe.eye * towards + l * side;
+    real eye_side = k_dot3(lobe.eye, h);
+    mask passes = both(both(l.z<lit(0.0), h.z> lit(0.0)), both(eye_side > lit(0.0), k_dot3(l, h) < lit(0.0)));
+    if (no_lane(passes))
+        return vec3_all(lit(0.0));
+    // Place the light's ellipse among slopes, in lobe widths
+    real up = lit(1.0) / max(h.z, lit(1e-4));
+    real slope_x = h.x * up;
+    real slope_y = h.y * up;
+    real over_x = side * up * lobe.inverse.x;
+    real over_y = side * up * lobe.inverse.y;
+    real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
+    real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
+    real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
+    real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up * side * side;
+    real parts = max(steep, lit(1.0));
+    // Integrate the lobe over the ellipse: D dl = share (v.h) / h.z, times the masking that reflection divides by 4 (n.v)
+    slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
+    real share = min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
+    real value = lit(4.0) * eye_side * up * share * bsdf_lobe_masking(lobe.bsdf, vec3_of(l.x, l.y, -l.z));
+    real3 passed = interface_passes(x.through, eye_side / sqrt(max(k_dot3(h, h), lit(1e-20))));
+    return select(passes, passed * value, vec3_all(lit(0.0)));
+}
+
+// Returns the extracted lights through clear glass: the picture with them minus the picture without.
+BN_FN real3 extracted_lights_clear(frame_ref f, BN_IN(shaded_point) x)
+{
+    refracted_ray ray = refracted_ray_of(x.s.n, x.s.v, x.s.n_dot_v, x.s.roughness * x.s.roughness, x.through.parts.ior);
+    real3 with = cube_sample_level(full_env(f), ray.direction, 0) * splat(the_frame(f).whole.scale);
+    real3 without = cube_sample_level(prefiltered_env(f), ray.direction, 0) * splat(the_frame(f).specular.scale);
+    return (with - without) * x.through.tint * diffuse_energy_share(f, x);
+}
+
+// Returns transmitted light from all extracted lights. mirror: share of a lobe without width, [0,1].
+BN_STAGE real3 extracted_lights_through(any_frame f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe, real mirror)
+{
+    real3 sum = vec3_all(lit(0.0));
+    for (int i = 0; i < the_frame(f).extracted_light_count; ++i)
+        sum = sum + splat3(the_frame(f).extracted_lights[i].radiance) * extracted_light_through(f, x, lobe, i);
+    if (any_lane(mirror > lit(0.0)))
+        sum = sum + (extracted_lights_clear(f, x) - sum) * mirror;
+    return sum;
+}
+
 // Returns the extracted lights in a mirror: the picture with them minus the picture without.
 BN_FN real3 extracted_lights_mirrored(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe)
 {
@@ -148,13 +203,15 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
     if (extracted_lights_are_sampled(x, layer)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;
         mirror = select(width <= lit(1e-6), lit(1.0), lit(0.0));
-        if (layer_has(layer, kPunctualOnly) || x.refracts)
+        if (layer_has(layer, kPunctualOnly) || interface_is_sampled(x))
             mirror = lit(0.0);
     }
     if (any_lane(mirror > lit(0.0)))
         specular = specular + (extracted_lights_mirrored(f, x, lobe.bsdf) - specular) * mirror;
-    // Apply gain and occlusion, and add the diffuse part
+    // Apply gain and occlusion; add transmitted light and the diffuse part
     real3 sum = specular * x.energy.gain;
+    if (x.refracts && !x.samples_interface)
+        sum = sum + extracted_lights_through(f, x, lobe, mirror);
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

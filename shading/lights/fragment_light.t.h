@@ -106,6 +106,21 @@ BN_FN real facet_share(BN_IN(shaded_point) x)
     return lit(0.5) + half_share;
 }
 
+// Returns one prefiltered fetch of a round facet's light. The part of its lobe above the surface's horizon has a higher mean direction
+// than the whole lobe, which is lifted as facet_share() falls.
+BN_FN real3 facet_fetch(frame_ref f, BN_IN(shaded_point) x)
+{
+    if (!x.has_surface_horizon)
+        return split_isotropic_specular(f, x);
+    real alpha = x.s.roughness * x.s.roughness;
+    real3 mirrored = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    real high = k_dot3(x.geometric_axes.n, mirrored);
+    real3 lifted = mirrored + x.geometric_axes.n * (lit(0.5) * (sqrt(high * high + alpha * alpha) - high));
+    cube_desc cube = prefiltered_env(f);
+    real lod = x.s.roughness * to_real(int_lit(cube.levels - 1));
+    return cube_sample(cube, lifted, lod) * x.energy.albedo;
+}
+
 // Adds extracted lights, lamps and area lights to `light`. position: of the surface, world space.
 BN_FN real3 plus_lights(frame_ref f, material_ref m, BN_IN(shaded_point) x, real3 position, real3 light)
 {
@@ -145,7 +160,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         if (met && !samples) {
             real share = words.weight * facet_share(x);
             shares = shares + share;
-            fetched = fetched + split_isotropic_specular(f, x) * x.energy.gain * (share * x.s.occlusion);
+            fetched = fetched + facet_fetch(f, x) * x.energy.gain * (share * x.s.occlusion);
             if (x.has_surface_horizon)
                 groups = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v)).groups;
         }

@@ -54,6 +54,7 @@ BN_FN void make_coating_point(frame_ref f, BN_IN(coating) layer, BN_IN(surface_f
     c.dielectric_f0 = layer.reflectance;
     c.dielectric_f90 = layer.share;
     c.refracts = false;
+    c.samples_interface = false;
 }
 
 BN_KERNELS_END

@@ -15,14 +15,16 @@
 
 BN_KERNELS_BEGIN
 
-// Makes the interface of a transmissive material: the interface takes a share of the diffuse part, and its own gain
-// replaces x.energy.gain.
+// Makes the interface of a transmissive material: the interface takes a share of the diffuse part. Where it is sampled, its
+// own gain replaces x.energy.gain.
 BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
 {
     x.through.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
     x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), front);
     x.through.tint = x.s.diffuse * at.transmission;
     x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
+    if (!x.samples_interface)
+        return;
     x.energy.gain = vec3_all(lit(1.0));
     if (the_frame(f).energy_compensation != 0)
         x.energy.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
@@ -86,8 +88,17 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
     x.anisotropy_blend = splat(the_material(m).anisotropy_blend);
-    find_energy(f, m, at, x);
+    // Reflect from within as a mirror does, with total reflection
     x.refracts = the_material(m).refracts != 0;
+    x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
+    if (x.refracts && !x.samples_interface) {
+        real ior = index_of_far_side(splat(the_material(m).ior), p.front);
+        real3 within = dielectric_reflectance(at.dielectric_f0, at.dielectric_f90, ior, x.s.n_dot_v);
+        x.s.f0 = select(p.front, x.s.f0, within);
+        x.s.f90 = select(p.front, x.s.f90, within);
+        x.s.parts.ior = ior;
+    }
+    find_energy(f, m, at, x);
     if (x.refracts)
         make_interface(f, m, at, p.front, x);
 }

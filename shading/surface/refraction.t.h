@@ -73,6 +73,38 @@ BN_FN real3 interface_value(BN_IN(rough_interface) g, real3 wi)
     return interface_reflects(g.at, s.o_dot_m) * value;
 }
 
+// Transmitted light of a lobe, as one direction with a width.
+struct refracted_ray {
+    real3 direction; // unit, away from the surface
+    real spread;     // change of the direction per change of the normal, across the plane of incidence; a reflected one has up to 2
+};
+
+// Returns the mean microfacet normal that the eye sees, unit: n turned towards the eye. alpha: the lobe's width. The turn is a fit
+// to means over visible GGX normals with alpha .09, .25 and .49, weighted by transmitted light, within 1.5 degrees from n.v = .1 on.
+BN_FN real3 mean_visible_normal(real3 n, real3 v, real n_dot_v, real alpha)
+{
+    real alpha2 = alpha * alpha;
+    real seen = sqrt(n_dot_v * n_dot_v + alpha2 * (lit(1.0) - n_dot_v * n_dot_v));
+    real turn = (alpha2 * lit(1.3) + alpha * lit(0.11)) / max(seen, lit(1e-4));
+    return k_normalize3(n + v * turn);
+}
+
+// Refracts the ray to the eye at the mean visible normal. n, v: unit; n_dot_v: their cosine; ior: the far side's index over the
+// eye side's. Under total reflection the direction lies in the surface.
+BN_FN refracted_ray refracted_ray_of(real3 n, real3 v, real n_dot_v, real alpha, real ior)
+{
+    real3 normal = mean_visible_normal(n, v, n_dot_v, alpha);
+    real c = k_saturate(k_dot3(normal, v));
+    real inverse = lit(1.0) / ior;
+    real sine2 = (lit(1.0) - c * c) * (inverse * inverse);
+    real cosine = sqrt(max(lit(1.0) - sine2, lit(0.0)));
+    real along = c * inverse - cosine;
+    refracted_ray r;
+    r.direction = normal * along - v * inverse;
+    r.spread = abs(along);
+    return r;
+}
+
 // Returns directional albedo without absorption, by samples on a Fibonacci lattice. Single scattering loses the rest.
 BN_STAGE real interface_albedo(BN_IN(rough_interface) g)
 {

@@ -38,7 +38,8 @@ struct shaded_point {
     real dielectric_f90;
     integer pixel_id; // y * width + x, for random numbers
     lobe_energy_terms energy;
-    bool refracts;            // transmits light, and its technique follows transmitted light
+    bool refracts;            // transmits light
+    bool samples_interface;   // then the technique samples both sides of the interface; others fetch transmitted light once
     interface_inputs through; // for transmissive surfaces
 };
 
@@ -46,6 +47,12 @@ struct shaded_point {
 BN_FN bsdf_lobe bsdf_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 {
     return make_bsdf_lobe(the_frame(f).lobe, x.lobe, x.s.n, x.s.v, x.geometric_axes);
+}
+
+// Returns true where samples of an interface replace the lobe.
+BN_FN bool interface_is_sampled(BN_IN(shaded_point) x)
+{
+    return x.refracts && x.samples_interface;
 }
 
 // Returns the transmissive surface's interface.

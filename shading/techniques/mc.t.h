@@ -91,7 +91,7 @@ BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
 
 BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    if (x.refracts)
+    if (interface_is_sampled(x))
         return mc_of_interface(f, x);
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         return vec3_all(lit(0.0));

@@ -142,6 +142,12 @@ def dangling_links(bench):
             check((bench.folder / place).read_bytes() == whole and not (bench.folder / place).is_symlink(), f"{to}: not written")
             (bench.folder / place).unlink()
         link.unlink()
+    # A checkpoint too
+    (bench.folder / "l.part").symlink_to("sub/c.part")
+    words = ("render", *SMALL, "-q", "--backend", "reference", "--samples", "2", "--checkpoint")
+    if bench.run(*words, "c.part", "-o", "r.pfm").code != 77: # without Embree there is no reference
+        bench.run(*words, "l.part", "-o", "r.pfm").expect(0)
+        check((bench.folder / "sub/c.part").exists() and (bench.folder / "l.part").is_symlink(), "no checkpoint where the link points")
     (bench.folder / "l.png").symlink_to("missing.png")
     bench.run("render", *SMALL, "-q", "-o", "l.png", "-o", "missing.png").expect(2).expect_one_line("missing.png", "given twice")
 

@@ -106,8 +106,8 @@ def rows(bench):
 @case("layers.resolve_changes_edges_of_shown_pictures_alone")
 def resolve(bench):
     drawn = ("render", "builtin:sphere", *DRAWN, "--env", "builtin:studio", "--exposure", "3", "--stats", "s.json")
-    bench.run(*drawn, "-o", "l.tif", "-o", "l.exr").expect(0)
-    bench.run(*drawn, "--resolve", "display", "-o", "d.tif", "-o", "d.exr").expect(0)
+    bench.run(*drawn, "--resolve", "linear", "-o", "l.tif", "-o", "l.exr").expect(0)
+    bench.run(*drawn, "-o", "d.tif", "-o", "d.exr").expect(0)
     check(json.loads((bench.folder / "s.json").read_text())["resolve"] == "display", "the figures do not say it")
     check((bench.folder / "l.exr").read_bytes() == (bench.folder / "d.exr").read_bytes(), "the EXR changed")
     linear, display = (bench.folder / "l.tif").read_bytes(), (bench.folder / "d.tif").read_bytes()
@@ -118,7 +118,7 @@ def resolve(bench):
     weighted = (bench.folder / "w.tif").read_bytes()
     less = [sum(a > b for a, b in zip(linear, weighted)), sum(a < b for a, b in zip(linear, weighted))]
     check(less[0] > 20 and less[0] > 5 * less[1] and weighted != display, f"{less}: weights do not darken bright edges")
-    bench.run(*drawn, "--msaa", "1", "-o", "l.tif").expect(0)
+    bench.run(*drawn, "--msaa", "1", "--resolve", "linear", "-o", "l.tif").expect(0)
     bench.run(*drawn, "--msaa", "1", "--resolve", "display", "-o", "d.tif").expect(0)
     check((bench.folder / "l.tif").read_bytes() == (bench.folder / "d.tif").read_bytes(), "one sample a pixel has nothing to resolve")
 

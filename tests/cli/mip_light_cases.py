@@ -196,3 +196,21 @@ def table_woven(bench):
 @case("mip.mean_light_of_scratched_metal_is_that_of_its_texels", tier="nightly")
 def table_scratched(bench):
     light_is_that_of_texels(bench, "scratched")
+
+
+@case("mip.mean_light_by_the_default_technique_is_near_that_of_texels", tier="nightly")
+def default_technique(bench):
+    """One round fetch stands for each group of normals, and lights smaller than its lobe are blurred: bounds hold what is known."""
+    needs_embree(bench)
+    far_off = []
+    for kind, most in (("hammered", 0.22), ("knurled", 0.13), ("woven", 0.15), ("scratched", 0.15)):
+        name = far_plate(bench, kind, KINDS[kind][1][0])
+        for light in ("builtin:studio", "builtin:sky"):
+            off = []
+            for elevation in VIEWS:
+                look = ("--env", light, *eye_at(elevation), "--size", "6x6")
+                off.append(mean_light(bench, name, *look, "--mip-filter", "kappa") / truth_of(bench, name, 1024, *look) - 1)
+            print(name, light, *(f"{by:+.3f}" for by in off))
+            if abs(sum(off) / len(off)) > most:
+                far_off.append(f"{name} {light} {off}")
+    check(not far_off, "\n".join(far_off))

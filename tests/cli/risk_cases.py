@@ -44,6 +44,9 @@ def angle(bench):
                      "--risks", "-").expect(0)
     check(re.search(r"bent_normal beyond an eye \d\d degrees above the surface \(", done.out), done.out)
     check(not re.search(r"beyond [^(]*\d,", done.out), done.out)
+    done = bench.run("render", "builtin:bumps", "--size", "48x32", "--env-size", "64", "--env-samples", "64", "--technique", "lobe_line",
+                     "--tilt", "0,60", "--roughness", "0.4", "--risks", "-").expect(0)
+    check(re.search(r"beyond a tilt of \d\d degrees \(", done.out) and not re.search(r"beyond [^(]*\d,", done.out), done.out)
 
 
 @case("risks.follow_inputs_and_surroundings")

@@ -77,8 +77,8 @@ Number read_index(std::string_view word, std::int64_t& value)
 
 Lines::Lines(std::string_view text) : rest_(text)
 {
-    constexpr std::string_view kMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kMark))
+    constexpr std::string_view kMark = "\xEF\xBB\xBF"; // twice where files were joined
+    while (rest_.starts_with(kMark))
         rest_.remove_prefix(kMark.size());
 }
 
@@ -92,7 +92,7 @@ std::string_view Lines::take_line()
     return line;
 }
 
-// Removes a comment or a trailing backslash. Returns true where the line continues; a backslash inside a comment does
+// Removes a comment, or a trailing backslash and blanks after it. Returns true where the line continues; a backslash inside a comment does
 // not count.
 bool Lines::without_comment(std::string_view& line)
 {
@@ -103,9 +103,10 @@ bool Lines::without_comment(std::string_view& line)
         line = line.substr(0, at);
         return false;
     }
-    if (!line.ends_with('\\'))
+    const std::size_t last = line.find_last_not_of(kBlanks);
+    if (last == std::string_view::npos || line[last] != '\\')
         return false;
-    line.remove_suffix(1);
+    line = line.substr(0, last);
     return true;
 }
 

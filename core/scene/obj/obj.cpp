@@ -254,6 +254,8 @@ void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
 
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
 {
+    if (text.find('\0') != std::string::npos)
+        return Error{ExitCode::bad_input, path, "", "holds bytes of 0: no text in UTF-8, perhaps UTF-16"};
     // Parse the text, and triangulate its polygons
     obj::Parsed parsed = obj::parse(path, text);
     if (parsed.wrong)

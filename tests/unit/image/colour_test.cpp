@@ -162,6 +162,26 @@ TEST(colour, parts_of_a_pixel_are_tonemapped_before_they_are_averaged)
     EXPECT_EQ(static_cast<int>(shown({kBright, kBright, kBright, 1.0f}, false).bytes[0]), mapped({0.5f})[0]);
 }
 
+// Two samples show a white sheet of alpha .25, two show nothing; then one sample shows an opaque surface. Colours of parts are multiplied
+// by alpha, colours of 8-bit pictures are not.
+TEST(colour, parts_that_shine_through_keep_their_colour)
+{
+    for (const Resolve resolve : {Resolve::display, Resolve::weighted}) {
+        const auto shown = [&](const std::vector<PixelPart>& parts, float alpha) {
+            const Image pixel = tonemap_to_srgb8(one_pixel({1.0f, 1.0f, 1.0f, alpha}), Tonemap::none, 0.0f, parts, resolve);
+            return std::pair(static_cast<int>(pixel.bytes[0]), static_cast<int>(pixel.bytes[3]));
+        };
+        const PixelPart sheet = pixel_part(0, 0b0011, false, {0.25f, 0.25f, 0.25f}, 0.25f);
+        EXPECT_EQ(shown({sheet, pixel_part(0, 0b1100, true, {0.0f, 0.0f, 0.0f})}, 0.125f), std::pair(255, 32));
+        EXPECT_EQ(shown({sheet, pixel_part(0, 0b1100, false, {1.0f, 1.0f, 1.0f})}, 0.625f), std::pair(255, 159));
+    }
+    // A black part hides four times as much as the sheet
+    const std::vector<PixelPart> parts = {pixel_part(0, 0b0011, false, {0.25f, 0.25f, 0.25f}, 0.25f),
+                                          pixel_part(0, 0b1100, false, {0.0f, 0.0f, 0.0f})};
+    const Image pixel = tonemap_to_srgb8(one_pixel({0.2f, 0.2f, 0.2f, 0.625f}), Tonemap::none, 0.0f, parts, Resolve::display);
+    EXPECT_EQ(static_cast<int>(pixel.bytes[0]), mapped({0.2f})[0]);
+}
+
 // Half of 100, half of 0: their weights are 1 / 101 and 1, and the mean 100 / 102. At two stops less, 25 weighs 1 / 26.
 TEST(colour, bright_parts_of_a_pixel_weigh_less)
 {

@@ -66,6 +66,7 @@ TEST(obj, lines_may_end_and_go_on_in_any_way)
 {
     const std::string quad = kHead + kFace;
     expect_same("\xEF\xBB\xBF" + quad, quad);
+    expect_same("\xEF\xBB\xBF\xEF\xBB\xBF" + quad, quad);
     expect_same(replaced(quad, "\n", "\r\n"), quad);
     expect_same(replaced(quad, "\n", "\r"), quad);
     expect_same(replaced(quad, " ", "\t "), quad);
@@ -74,6 +75,7 @@ TEST(obj, lines_may_end_and_go_on_in_any_way)
     expect_same(replaced(quad, "2/2/1 ", "2/2/1 \\\n"), quad);
     expect_same(replaced(quad, "2/2/1 ", "\\\r\n2/2/1 \\\r\n"), quad);
     expect_same(replaced(quad, "v 1 1 0", "v 1 \\\n1 \\\n0"), quad);
+    expect_same(replaced(quad, "2/2/1 ", "2/2/1 \\ \t\n"), quad);
     expect_same(quad + "\\", quad);
     expect_same(replaced(quad, "vt 0 0\n", "vt 0 0" + std::string(100000, ' ') + "\n"), quad);
 }
@@ -119,6 +121,9 @@ TEST(obj, what_is_no_number_is_refused_with_its_line)
         expect_refused(replaced(kHead, "vn 0 0 1", "vn " + std::string(word) + " 0 1") + kFace, "line 9", "normal 1: '");
     }
     expect_refused(replaced(kHead, "v 1 1 0", "v 0,75 1 0") + kFace, "line 3", "'0,75' is no number; decimals follow a point");
+    const Result<Scene> wide = load_obj_text(std::string("v\0 \0001\0", 6), "wide.obj", {});
+    ASSERT_FALSE(wide);
+    EXPECT_NE(wide.error().line().find("UTF-16"), std::string::npos) << wide.error().line();
     expect_refused(replaced(kHead, "v 1 1 0", "v \\\n1 oh 0") + kFace, "line 3", "'oh' is no number");
     for (const char* word : {"1e999", "-1e39", "3.5e38", "1e-999"})
         expect_refused(replaced(kHead, "v 1 1 0", "v " + std::string(word) + " 1 0") + kFace, "line 3", "no number that a float holds");
