@@ -1,4 +1,4 @@
-// The `burnish-lab` program: all of `burnish`, and the research subcommands that `burnish atlas`, `burnish plot` and `burnish train` start.
+// The `burnish-lab` program: all of `burnish`, and the research subcommands in commands.def.
 #include "apps/cli/command.h"
 #include "apps/cli/program.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shading/stages/lean/frame.glsl"
+#include "shading/lab/lean/frame.glsl"
 
 layout(location = 0) out vec3 ray;
 

@@ -2,9 +2,9 @@
 #ifndef BN_LEAN_SURFACE_GLSL
 #define BN_LEAN_SURFACE_GLSL
 
-#include "shading/stages/lean/frame.glsl"
+#include "shading/lab/lean/frame.glsl"
 
-layout(constant_id = 0) const int kTechnique = 0; // index in kLeanTechniques (raster/vulkan/lean.cpp)
+layout(constant_id = 0) const int kTechnique = 0; // index in kLeanTechniques (raster/vulkan/lab/lean.cpp)
 layout(constant_id = 1) const int kSamples = 1; // as many as the technique takes
 layout(constant_id = 2) const int kTextures = 0; // a bit per used slot (core/scene/material.def)
 layout(constant_id = 3) const int kTraits = 0; // the material's traits, see below

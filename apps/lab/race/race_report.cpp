@@ -1,4 +1,4 @@
-#include "apps/parity/race_report.h"
+#include "apps/lab/race/race_report.h"
 
 #include <algorithm>
 #include <cmath>

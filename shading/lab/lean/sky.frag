@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shading/stages/lean/frame.glsl"
+#include "shading/lab/lean/frame.glsl"
 
 layout(set = 1, binding = 0) uniform samplerCube cubes[4]; // specular, irradiance, box, the whole sky
 layout(location = 0) in vec3 ray;

@@ -1,12 +1,19 @@
-#include "raster/vulkan/lean.h"
+#include "raster/vulkan/lab/lean.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/glm.hpp>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "core/simd/half.h"
+#include "raster/vulkan/forward_shaders.h"
+#include "raster/vulkan/lab/shaders.h"
 #include "shading/surface/lobe_shape.t.h"
 
 namespace burnish {
@@ -33,7 +40,17 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 place[2 * kTextureSlots];
 };
 static_assert(kTextureSlots == 15 && sizeof(LeanMaterial) == 608);
+constexpr std::uint32_t kTableSamplers = 4;  // albedo tables of set 0
 constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
+
+// Vertex input: positions, then shading data.
+constexpr VkVertexInputBindingDescription kVertexBuffers[] = {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX},
+                                                              {1, sizeof(ShadingVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr VkVertexInputAttributeDescription kVertexAttributes[] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+                                                                   {1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(ShadingVertex, normal)},
+                                                                   {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, tangent)},
+                                                                   {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, uv0)},
+                                                                   {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, color)}};
 
 int lean_technique(int technique)
 {
@@ -93,8 +110,7 @@ const char* not_of_material(const MaterialRecord& m)
     return nullptr;
 }
 
-} // namespace
-
+// Checks that the lean stages can draw the frame. Errors: ExitCode::unavailable, naming the missing feature.
 Status check_lean(const FrameDesc& desc, const FrameRecord& record, const std::vector<MaterialRecord>& materials)
 {
     const char* missing = not_of_frame(desc, record);
@@ -105,7 +121,39 @@ Status check_lean(const FrameDesc& desc, const FrameRecord& record, const std::v
     return {};
 }
 
-LeanScene::LeanScene(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input)
+class LeanDrawer final : public ForwardDrawer {
+  public:
+    LeanDrawer(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input);
+    ~LeanDrawer() override;
+    LeanDrawer(const LeanDrawer&) = delete;
+    LeanDrawer& operator=(const LeanDrawer&) = delete;
+
+    void make_layouts();
+    void prepare(const FrameDesc& desc) override; // throws the error of check_lean()
+    void draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band) override;
+
+  private:
+    DeviceImage upload_table(const float* pairs, int width, int height, int depth);
+    const DeviceImage& slice(int first, int size); // size: texels along n.v
+    void fill_materials(const FrameDesc& desc);
+    void make_sets();
+
+    Context& context_;
+    Pipelines& pipelines_;
+    GpuScene& scene_;
+    RenderInput input_;
+    Buffer positions_, shading_, frame_, materials_, grid_;
+    DeviceImage round_albedo_, width_albedo_;
+    std::map<int, DeviceImage> slices_;     // by MaterialRecord::albedo_slice
+    std::vector<Specialization> constants_; // by material
+    VkSampler sampler_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> sets_; // for set 0, by material
+};
+
+LeanDrawer::LeanDrawer(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input)
     : context_(context), pipelines_(pipelines), scene_(scene), input_(input)
 {
     const DrawTables& t = input.tables;
@@ -123,14 +171,39 @@ LeanScene::LeanScene(Context& context, Pipelines& pipelines, GpuScene& scene, co
     BN_VK(vkCreateSampler(context.device(), &sampler, nullptr, &sampler_));
 }
 
-LeanScene::~LeanScene()
+// Makes set 0: frame, material, grid, albedo tables. Set 1 is that of native samplers.
+void LeanDrawer::make_layouts()
+{
+    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    const VkDescriptorSetLayoutBinding bindings[] = {
+        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kBoth, nullptr},
+        {1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+    auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set.bindingCount = static_cast<std::uint32_t>(std::size(bindings)), set.pBindings = bindings;
+    BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &set_layout_));
+    const VkDescriptorSetLayout sets[] = {set_layout_, pipelines_.native_layout()};
+    const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::int32_t)};
+    auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    layout.setLayoutCount = 2, layout.pSetLayouts = sets;
+    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
+    BN_VK(vkCreatePipelineLayout(context_.device(), &layout, nullptr, &layout_));
+}
+
+LeanDrawer::~LeanDrawer()
 {
     vkDestroySampler(context_.device(), sampler_, nullptr);
     vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
+    vkDestroyPipelineLayout(context_.device(), layout_, nullptr);
+    vkDestroyDescriptorSetLayout(context_.device(), set_layout_, nullptr);
 }
 
 // Uploads pairs as halves, which keep three digits.
-DeviceImage LeanScene::upload_table(const float* pairs, int width, int height, int depth)
+DeviceImage LeanDrawer::upload_table(const float* pairs, int width, int height, int depth)
 {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(depth);
     std::vector<std::uint16_t> two(2 * count);
@@ -154,7 +227,7 @@ DeviceImage LeanScene::upload_table(const float* pairs, int width, int height, i
     return image;
 }
 
-const DeviceImage& LeanScene::slice(int first, int size)
+const DeviceImage& LeanDrawer::slice(int first, int size)
 {
     const auto known = slices_.find(first);
     if (known != slices_.end())
@@ -162,8 +235,6 @@ const DeviceImage& LeanScene::slice(int first, int size)
     const float* const pairs = scene_.lobe_slices().data() + 2 * static_cast<std::size_t>(first);
     return slices_[first] = upload_table(pairs, size, size / 2, 1);
 }
-
-namespace {
 
 // Returns the matrix to clip space with y down, with the rows of View; see clip_position (shading/kernels/vertex.k.h).
 glm::mat4 clip_matrix(const ViewRecord& v)
@@ -236,9 +307,7 @@ LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const
     return r;
 }
 
-} // namespace
-
-void LeanScene::fill_materials(const FrameDesc& desc)
+void LeanDrawer::fill_materials(const FrameDesc& desc)
 {
     const std::vector<MaterialRecord>& all = scene_.materials_of_frame();
     const FrameRecord& f = scene_.record();
@@ -271,7 +340,7 @@ void LeanScene::fill_materials(const FrameDesc& desc)
     }
 }
 
-void LeanScene::prepare(const FrameDesc& desc)
+void LeanDrawer::prepare(const FrameDesc& desc)
 {
     if (const Status drawn = check_lean(desc, scene_.record(), scene_.materials_of_frame()); !drawn)
         throw VulkanError{drawn.error()};
@@ -286,7 +355,7 @@ void LeanScene::prepare(const FrameDesc& desc)
     make_sets();
 }
 
-void LeanScene::make_sets()
+void LeanDrawer::make_sets()
 {
     const std::vector<MaterialRecord>& all = scene_.materials_of_frame();
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(all.size(), 1)); // at least one, for the sky, which has no material
@@ -294,11 +363,11 @@ void LeanScene::make_sets()
     pool_ = VK_NULL_HANDLE;
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * count},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * count}};
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTableSamplers * count}};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = count, pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes)), pool.pPoolSizes = sizes;
     BN_VK(vkCreateDescriptorPool(context_.device(), &pool, nullptr, &pool_));
-    const std::vector<VkDescriptorSetLayout> layouts(count, pipelines_.lean_layout());
+    const std::vector<VkDescriptorSetLayout> layouts(count, set_layout_);
     sets_.resize(count);
     auto allocate = vk_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_, allocate.descriptorSetCount = count, allocate.pSetLayouts = layouts.data();
@@ -312,9 +381,9 @@ void LeanScene::make_sets()
                                                    material ? VkDeviceSize{kMaterialStride} : VK_WHOLE_SIZE},
                                                   {grid_.handle(), 0, VK_WHOLE_SIZE}};
         const DeviceImage& phong = material && all[m].phong_slice >= 0 ? slice(all[m].phong_slice, kLobeAlbedoSize) : round_albedo_;
-        VkDescriptorImageInfo images[4];
+        VkDescriptorImageInfo images[kTableSamplers];
         const DeviceImage* const tables[] = {&round_albedo_, &own, &width_albedo_, &phong};
-        for (int i = 0; i < 4; ++i)
+        for (std::uint32_t i = 0; i < kTableSamplers; ++i)
             images[i] = {sampler_, tables[i]->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         VkWriteDescriptorSet writes[7];
         for (std::uint32_t b = 0; b < 7; ++b) {
@@ -332,13 +401,17 @@ void LeanScene::make_sets()
     }
 }
 
-void LeanScene::draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band)
+void LeanDrawer::draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band)
 {
-    const VkPipelineLayout layout = pipelines_.lean_pipeline_layout();
+    auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(std::size(kVertexBuffers)),
+    input.pVertexBindingDescriptions = kVertexBuffers;
+    input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(std::size(kVertexAttributes));
+    input.pVertexAttributeDescriptions = kVertexAttributes;
     const auto use = [&](const GraphicsState& state, const Specialization& constants, std::size_t material, bool culled) {
         vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.graphics(state, constants));
         const VkDescriptorSet both[] = {sets_[material], native.set(material)};
-        vkCmdBindDescriptorSets(c, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, both, 0, nullptr);
+        vkCmdBindDescriptorSets(c, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, both, 0, nullptr);
         vkCmdSetCullMode(c, culled ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
     };
     const VkBuffer vertices[] = {positions_.handle(), shading_.handle()};
@@ -346,15 +419,37 @@ void LeanScene::draw(VkCommandBuffer c, const NativeImages& native, VkSampleCoun
     vkCmdBindVertexBuffers(c, 0, 2, vertices, offsets);
     vkCmdBindIndexBuffer(c, scene_.ints().handle(), static_cast<VkDeviceSize>(scene_.places().index_base) * sizeof(std::uint32_t),
                          VK_INDEX_TYPE_UINT32);
-    vkCmdPushConstants(c, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof band.first_row, &band.first_row);
+    vkCmdPushConstants(c, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof band.first_row, &band.first_row);
     for (const Draw& draw : input_.tables.draws) {
         const auto material = static_cast<std::size_t>(draw.material);
-        use({"lean_vert", "lean", color, samples, VK_COMPARE_OP_GREATER, true}, constants_[material], material,
+        use({"lean_vert", "lean", color, samples, VK_COMPARE_OP_GREATER, layout_, &input}, constants_[material], material,
             scene_.materials_of_frame()[material].double_sided == 0);
         vkCmdDrawIndexed(c, 3 * draw.triangle_count, 1, 3 * draw.first_triangle, 0, 0);
     }
-    use({"lean_sky_vert", "lean_sky", color, samples, VK_COMPARE_OP_GREATER_OR_EQUAL, true}, {}, 0, false); // where nothing was drawn
+    use({"lean_sky_vert", "lean_sky", color, samples, VK_COMPARE_OP_GREATER_OR_EQUAL, layout_, &input}, {}, 0,
+        false); // where nothing was drawn
     vkCmdDraw(c, 3, 1, 0, 0);
+}
+
+std::unique_ptr<ForwardDrawer> make_drawer(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input)
+{
+    auto made = std::make_unique<LeanDrawer>(context, pipelines, scene, input);
+    made->make_layouts();
+    return made;
+}
+
+} // namespace
+
+const ForwardShaders* lean_shaders()
+{
+    static const ForwardShaders shaders = {{
+#define BN_STAGE_ROW(NAME) {#NAME, &stage_##NAME},
+                                               BN_LAB_STAGES(BN_STAGE_ROW)
+#undef BN_STAGE_ROW
+                                           },
+                                           kTableSamplers,
+                                           make_drawer};
+    return &shaders;
 }
 
 } // namespace burnish

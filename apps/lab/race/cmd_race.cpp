@@ -9,8 +9,8 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/lab/race/race_report.h"
 #include "apps/options/scene_with_view.h"
-#include "apps/parity/race_report.h"
 #include "apps/render/stats.h"
 #include "core/base/clock.h"
 #include "core/base/text.h"
@@ -18,6 +18,7 @@
 #include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
 #include "raster/tile/tile_renderer.h"
+#include "raster/vulkan/lab/lean.h"
 
 namespace burnish {
 namespace {
@@ -148,7 +149,7 @@ std::vector<Opponent> open_devices(const RacePlan& plan, RaceReport& report, Err
         for (const std::string& shader : plan.shaders) {
             VulkanOptions options = plan.frames.front().vulkan;
             options.device = name, options.centroid = true; // the device's cheapest mode
-            options.pipeline = shader == "lean" ? VulkanPipeline::lean : VulkanPipeline::forward;
+            options.shaders = shader == "lean" ? lean_shaders() : nullptr;
             const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
             if (!device) {
                 last = device.error();

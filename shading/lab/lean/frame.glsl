@@ -1,4 +1,4 @@
-// Uniforms of the lean stages: the frame and the drawn material. raster/vulkan/lean.cpp fills them, in vec4s, which std140
+// Uniforms of the lean stages: the frame and the drawn material. raster/vulkan/lab/lean.cpp fills them, in vec4s, which std140
 // and C++ lay out alike. The lean stages draw the same picture as forward.frag, written as in an engine: GLSL's own
 // functions, native samplers, folded material constants, no code for unused features. `burnish race` times them. They share
 // no text with the kernels.

@@ -1,8 +1,8 @@
 // Shades a fragment under the environment as an engine does: see frame.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shading/stages/lean/surface.glsl"
-#include "shading/stages/lean/techniques.glsl"
+#include "shading/lab/lean/surface.glsl"
+#include "shading/lab/lean/techniques.glsl"
 
 layout(location = 0) out vec4 radiance;
 

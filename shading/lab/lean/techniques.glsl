@@ -3,7 +3,7 @@
 #ifndef BN_LEAN_TECHNIQUES_GLSL
 #define BN_LEAN_TECHNIQUES_GLSL
 
-#include "shading/stages/lean/surface.glsl"
+#include "shading/lab/lean/surface.glsl"
 
 layout(std430, set = 0, binding = 2) readonly buffer LeanGrid { float grid[]; }; // slopes and density, three per sample
 
