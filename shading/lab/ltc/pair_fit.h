@@ -1,6 +1,6 @@
 // Fits the sum of two transformed cosines to one lobe, by L1. This measures the gain from a second cosine where one alone is inaccurate.
 #pragma once
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
 

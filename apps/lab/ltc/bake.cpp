@@ -1,4 +1,4 @@
-#include "apps/bake/ltc.h"
+#include "apps/lab/ltc/bake.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,19 +6,18 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "apps/bake/preview.h"
-#include "apps/bake/report.h"
-#include "apps/bake/resolutions.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
-#include "apps/cli/values.h"
+#include "apps/lab/ltc/preview.h"
+#include "apps/lab/ltc/report.h"
+#include "apps/lab/ltc/resolutions.h"
 #include "apps/report/chart_style.h"
 #include "apps/report/svg.h"
 #include "core/base/file.h"
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"
-#include "shading/bake/ltc/bake_ltc.h"
+#include "shading/lab/ltc/bake_ltc.h"
 
 namespace burnish {
 namespace {
@@ -28,7 +27,20 @@ namespace fs = std::filesystem;
 // True for the reference fit: each node fitted independently, as other LTC implementations do.
 bool others_path(const LtcArguments& a)
 {
-    return a.norm != ltc::Norm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
+    return a.norm != LtcNorm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;
+}
+
+ltc::Norm norm_of(const LtcArguments& a)
+{
+    switch (a.norm) {
+    case LtcNorm::l3:
+        return ltc::Norm::l3;
+    case LtcNorm::sliced:
+        return ltc::Norm::sliced;
+    case LtcNorm::l1:
+        break;
+    }
+    return ltc::Norm::l1;
 }
 
 // Returns the model with this lobe, or none if --brdf names a lobe without an LTC fit.
@@ -105,7 +117,7 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
     if (given.given("--resolution"))
         options.grid.size = a.resolution;
     options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
-    options.model = *model_of(b.brdf), options.norm = a.norm, options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
+    options.model = *model_of(b.brdf), options.norm = norm_of(a), options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
     if (a.interpolate != "mirror") {
         options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
         options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
@@ -130,26 +142,6 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
 }
 
 } // namespace
-
-std::vector<Option> ltc_options(LtcArguments& to)
-{
-    return {{"--resolution", "N", "Nodes along each axis of the table, {}", integer(to.resolution, 3, 128), "8, isotropic 64"},
-            {"--isotropic", "", "Make a table for round lobes alone, with nodes along theta and alpha", flag(to.isotropic)},
-            {"--steps", "N", "Steps of the fit of all entries together, {}; 0 fits each node alone", integer(to.steps, 0, 100)},
-            {"--samples", "N", "Lobes in each cell for the fit of all entries, {}", integer(to.samples, 1, 64)},
-            {"--fit", "NAME", "Distance that each node's fit minimizes: {} (sliced Wasserstein)", choice(to.norm, {"l1", "l3", "sw"})},
-            {"--interpolate", "NAME",
-             "Entries to store and interpolate: mirror (matrix relative to the mirror direction), matrix, or inverse",
-             choice(to.interpolate, {"mirror", "matrix", "inverse"})},
-            {"--no-align", "", "Leave each matrix's rotation as its fit found it, without alignment to its neighbours", flag(to.unaligned)},
-            {"--no-symmetry", "", "Fit every node without symmetry constraints", flag(to.unsymmetric)},
-            {"--lobes", "N", "Cosines fitted to a lobe in --report, {}; 2 also fits the sum of two where one errs by 0.3 or more",
-             choice(to.cosines, std::vector<int>{1, 2})},
-            {"--half", "", "Store entries as half floats", flag(to.half)},
-            {"--table", "FILE", "Table to measure, instead of making one", file(to.table)},
-            {"--report", "FOLDER", "Folder for measurements of the table: quality.json, and charts of quality and resolutions",
-             folder(to.report)}};
-}
 
 int run_ltc(const LtcBake& b, const OptionTable& given)
 {

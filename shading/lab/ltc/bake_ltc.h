@@ -7,6 +7,7 @@
 
 #include "core/jobs/jobs.h"
 #include "shading/bake/ltc/table.h"
+#include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
 

@@ -6,7 +6,7 @@
 #include "apps/report/drawing.h"
 #include "apps/report/json.h"
 #include "core/jobs/jobs.h"
-#include "shading/bake/ltc/quality.h"
+#include "shading/lab/ltc/quality.h"
 
 namespace burnish {
 

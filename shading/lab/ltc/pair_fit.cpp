@@ -1,10 +1,10 @@
-#include "shading/bake/ltc/pair_fit.h"
+#include "shading/lab/ltc/pair_fit.h"
 
 #include <algorithm>
 #include <array>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/levenberg_marquardt.h"
+#include "shading/lab/ltc/levenberg_marquardt.h"
 
 namespace burnish::ltc {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/interpolant_fit.h"
 
 namespace burnish::ltc {
 

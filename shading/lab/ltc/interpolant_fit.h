@@ -4,6 +4,7 @@
 
 #include "core/jobs/jobs.h"
 #include "shading/bake/ltc/grid.h"
+#include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
 

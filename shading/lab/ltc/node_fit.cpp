@@ -1,9 +1,9 @@
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/lab/ltc/node_fit.h"
 
 #include <algorithm>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/levenberg_marquardt.h"
+#include "shading/lab/ltc/levenberg_marquardt.h"
 
 namespace burnish::ltc {
 namespace {

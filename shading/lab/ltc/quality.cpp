@@ -1,11 +1,11 @@
-#include "shading/bake/ltc/quality.h"
+#include "shading/lab/ltc/quality.h"
 
 #include <algorithm>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/interpolant_fit.h"
-#include "shading/bake/ltc/pair_fit.h"
-#include "shading/bake/ltc/polygon.h"
+#include "shading/lab/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/pair_fit.h"
+#include "shading/lab/ltc/polygon.h"
 
 namespace burnish::ltc {
 namespace {

@@ -1,17 +1,19 @@
-// `burnish bake ltc`: makes or measures an LTC table (linearly transformed cosines).
+// Options of `burnish bake ltc`, which makes or measures an LTC table (linearly transformed cosines) in burnish-lab.
 #pragma once
 #include <string>
 #include <vector>
 
+#include "apps/cli/lab.h"
 #include "apps/cli/option.h"
-#include "shading/bake/ltc/node_fit.h"
 
 namespace burnish {
+
+enum class LtcNorm { l1, l3, sliced }; // as ltc::Norm
 
 struct LtcArguments {
     std::string table, report;
     int resolution = 8, steps = 12, samples = 8, cosines = 1;
-    ltc::Norm norm = ltc::Norm::l1;
+    LtcNorm norm = LtcNorm::l1;
     std::string interpolate = "mirror";
     bool unaligned = false, unsymmetric = false, half = false, isotropic = false;
 };
@@ -24,6 +26,6 @@ struct LtcBake { // with the options common to `burnish bake`
     int threads, verbosity;
     bool quiet;
 };
-int run_ltc(const LtcBake& bake, const OptionTable& given); // returns the exit code; given: the options present on the command line
+inline LabPart<LtcBake, OptionTable> bake_ltc; // with the options present on the command line
 
 } // namespace burnish

@@ -5,6 +5,7 @@
 
 #include "core/jobs/jobs.h"
 #include "shading/bake/ltc/table.h"
+#include "shading/lab/ltc/lobe.h"
 
 namespace burnish::ltc {
 

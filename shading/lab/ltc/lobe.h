@@ -5,19 +5,9 @@
 #pragma once
 #include <vector>
 
-#include "shading/bake/ltc/matrix.h"
+#include "shading/bake/ltc/place.h"
 
 namespace burnish::ltc {
-
-// A lobe's position in a table. theta, phi: of the eye, rad, from the normal and about it from x, in [0, pi/2]. alpha: the greater width,
-// along x. lambda: the smaller width, along y, over alpha, in [0,1].
-struct Place {
-    double theta, phi, alpha, lambda;
-};
-
-// Lobe models, as in shading/models. Files store their numbers.
-enum class Model { ggx, beckmann, ashikhmin_shirley, ward };
-inline constexpr const char* kModelNames[] = {"ggx_aniso", "beckmann", "ashikhmin_shirley", "ward"};
 
 // A lobe. Widths are greater than 0 and the eye is above the horizon.
 struct Lobe {
@@ -49,18 +39,11 @@ struct Rule {
 
 Vec mirrored_normal(const Lobe& lobe, const Rule::Point& point); // a direction with the density `visible`
 
-struct Albedo {
-    double all, grazing; // reflected share of white light with Fresnel 1, and with Fresnel (1 - v.h)^5
-};
 Albedo albedo(const Lobe& lobe, const Rule& rule);
 Lobe normalised_lobe(const Place& place, const Rule& rule, Model model = Model::ggx); // with its albedo known
 
 // Returns the transformed cosine's density at l. n: the matrix' inverse.
 double transformed_cosine(const Matrix& n, const Vec& l);
-
-// Returns the first-order map from slopes to the mirrored direction. It is near the fit for small widths, a start for others, and the
-// gauge that neighbours share. Its third column is the mirror direction.
-Matrix natural_matrix(const Place& place);
 
 // Removes the ambiguity of a matrix: M and M Rz(a) are one density, as are M and M with its second column negated. Returns the equivalent
 // that is nearest to the natural matrix, with a positive determinant.

@@ -1,4 +1,6 @@
-#include "shading/bake/ltc/sparse_table.h"
+#include "shading/lab/ltc/sparse_table.h"
+
+#include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
 namespace {

@@ -1,10 +1,10 @@
-#include "shading/bake/ltc/albedo_fit.h"
+#include "shading/lab/ltc/albedo_fit.h"
 
 #include <algorithm>
 #include <array>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/interpolant_fit.h"
 
 namespace burnish::ltc {
 namespace {

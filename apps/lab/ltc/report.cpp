@@ -1,4 +1,4 @@
-#include "apps/bake/report.h"
+#include "apps/lab/ltc/report.h"
 
 #include <algorithm>
 #include <array>

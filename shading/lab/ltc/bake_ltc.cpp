@@ -1,4 +1,4 @@
-#include "shading/bake/ltc/bake_ltc.h"
+#include "shading/lab/ltc/bake_ltc.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,8 +6,8 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/albedo_fit.h"
-#include "shading/bake/ltc/bake_checkpoint.h"
+#include "shading/lab/ltc/albedo_fit.h"
+#include "shading/lab/ltc/bake_checkpoint.h"
 
 namespace burnish::ltc {
 namespace {

@@ -1,4 +1,4 @@
-#include "shading/bake/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/interpolant_fit.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "shading/bake/ltc/bake_checkpoint.h"
+#include "shading/lab/ltc/bake_checkpoint.h"
 
 #include <algorithm>
 #include <cmath>

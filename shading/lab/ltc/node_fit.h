@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "shading/bake/ltc/lobe.h"
+#include "shading/bake/ltc/grid.h"
+#include "shading/lab/ltc/lobe.h"
 
 namespace burnish::ltc {
 
@@ -34,11 +35,6 @@ enum class Norm { l1, l3, sliced };
 
 double l1_distance(const LobePoints& lobe, const Matrix& m);
 Sums sums_of(const LobePoints& lobe, const Matrix& m, Norm norm = Norm::l1); // l1: by the norm, which must not be the sliced one
-
-// Elements of M and E that are zero by symmetry: bit 3 row + column.
-using Mask = std::uint32_t;
-inline constexpr Mask kMirrorY = 1u << 1 | 1u << 3 | 1u << 5 | 1u << 7; // the eye lies in the plane y = 0
-inline constexpr Mask kMirrorX = 1u << 1 | 1u << 2 | 1u << 3 | 1u << 6; // in x = 0
 
 struct NodeFit {
     Matrix m;

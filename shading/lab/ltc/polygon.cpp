@@ -1,4 +1,4 @@
-#include "shading/bake/ltc/polygon.h"
+#include "shading/lab/ltc/polygon.h"
 
 #include "core/math/scalar_math.h"
 

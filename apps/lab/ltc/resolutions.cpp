@@ -1,4 +1,4 @@
-#include "apps/bake/resolutions.h"
+#include "apps/lab/ltc/resolutions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/bake_ltc.h"
-#include "shading/bake/ltc/polygon.h"
-#include "shading/bake/ltc/sparse_table.h"
+#include "shading/lab/ltc/bake_ltc.h"
+#include "shading/lab/ltc/polygon.h"
+#include "shading/lab/ltc/sparse_table.h"
 
 namespace burnish {
 namespace {

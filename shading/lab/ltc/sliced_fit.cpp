@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
 namespace {
