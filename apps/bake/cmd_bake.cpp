@@ -7,7 +7,7 @@
 #include "apps/bake/direction.h"
 #include "apps/bake/direction_field.h"
 #include "apps/bake/displaced.h"
-#include "apps/bake/ltc.h"
+#include "apps/bake/ltc_options.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/mip.h"
 #include "apps/bake/phong_tables.h"
@@ -399,9 +399,9 @@ int run_bake(const BakeArguments& arguments, const OptionTable& given)
         return run_quaternion(arguments);
     if (arguments.what == "tpr")
         return run_tpr(arguments);
-    return run_ltc({arguments.ltc, arguments.mip.brdf, arguments.picture, arguments.output, arguments.preview, arguments.threads,
-                    arguments.verbosity, arguments.quiet},
-                   given);
+    return bake_ltc({arguments.ltc, arguments.mip.brdf, arguments.picture, arguments.output, arguments.preview, arguments.threads,
+                     arguments.verbosity, arguments.quiet},
+                    given);
 }
 
 } // namespace

@@ -33,23 +33,6 @@ std::size_t pixels_of(const Image& image)
     return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
 }
 
-// Draws each texel as a square of pixels.
-Image enlarged(const Image& image)
-{
-    const int times = std::max(kPreviewSide / std::max(image.width, image.height), 1);
-    Image out = make_image(image.width * times, image.height * times, image.channels, image.type);
-    const std::size_t bytes = static_cast<std::size_t>(image.channels) * pixel_type_bytes(image.type);
-    std::size_t at = 0;
-    for (int y = 0; y < out.height; ++y)
-        for (int x = 0; x < out.width; ++x, at += bytes) {
-            const std::size_t texel =
-                static_cast<std::size_t>(y / times) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x / times);
-            std::copy_n(image.bytes.begin() + static_cast<std::ptrdiff_t>(texel * bytes), bytes,
-                        out.bytes.begin() + static_cast<std::ptrdiff_t>(at));
-        }
-    return out;
-}
-
 Image in_8_bits(const Image& sixteen)
 {
     Image out = make_image(sixteen.width, sixteen.height, sixteen.channels, PixelType::u8);
@@ -125,6 +108,22 @@ Image all_around(const CubeMap& cube, int level)
 }
 
 } // namespace
+
+Image enlarged(const Image& image)
+{
+    const int times = std::max(kPreviewSide / std::max(image.width, image.height), 1);
+    Image out = make_image(image.width * times, image.height * times, image.channels, image.type);
+    const std::size_t bytes = static_cast<std::size_t>(image.channels) * pixel_type_bytes(image.type);
+    std::size_t at = 0;
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x, at += bytes) {
+            const std::size_t texel =
+                static_cast<std::size_t>(y / times) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x / times);
+            std::copy_n(image.bytes.begin() + static_cast<std::ptrdiff_t>(texel * bytes), bytes,
+                        out.bytes.begin() + static_cast<std::ptrdiff_t>(at));
+        }
+    return out;
+}
 
 Status check_preview(const std::string& folder, const Preview& pictures, const std::vector<std::string>& files)
 {
@@ -241,35 +240,6 @@ Preview preview_of_heights(const Image& heights, double depth)
             normals[3 * i + 2] = static_cast<float>(1.0 / length);
         }
     return {{"heights", enlarged(grey)}, {"normals", enlarged(colours_of_vectors(heights.width, heights.height, normals.data(), 3))}};
-}
-
-Preview names_of_ltc()
-{
-    Preview pictures;
-    for (std::size_t channel = 0; channel < ltc::kChannels; ++channel)
-        pictures.push_back({channel < 9 ? fmt::format("m{}{}", channel / 3, channel % 3) : channel == 9 ? "nD" : "fD", {}});
-    return pictures;
-}
-
-Preview preview_of_ltc(const ltc::Table& table)
-{
-    const auto [thetas, phis, alphas, lambdas] = table.grid.sizes();
-    const int width = alphas * lambdas;
-    Preview pictures = names_of_ltc();
-    for (std::size_t channel = 0; channel < ltc::kChannels; ++channel) {
-        Image values = make_image(width, thetas * phis, 1, PixelType::f32);
-        const std::size_t count = pixels_of(values);
-        float least = table.entries[channel], most = least;
-        for (std::size_t i = 0; i < count; ++i) {
-            const float value = table.entries[ltc::kChannels * i + channel];
-            values.f32()[i] = value;
-            least = std::min(least, value), most = std::max(most, value);
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            values.f32()[i] = most > least ? (values.f32()[i] - least) / (most - least) : 0.0f;
-        pictures[channel].image = enlarged(magma_map(values));
-    }
-    return pictures;
 }
 
 } // namespace burnish

@@ -8,7 +8,6 @@
 #include "core/image/image.h"
 #include "core/scene/surface_maps.h"
 #include "shading/bake/environment/environment.h"
-#include "shading/bake/ltc/table.h"
 
 namespace burnish {
 
@@ -17,6 +16,8 @@ struct PreviewPicture {
     Image image;
 };
 using Preview = std::vector<PreviewPicture>;
+
+Image enlarged(const Image& image); // draws each texel as a square of pixels
 
 // Returns success for an empty `folder`. files: paths that the command reads and writes; a picture must not overwrite them.
 Status check_preview(const std::string& folder, const Preview& pictures, const std::vector<std::string>& files);
@@ -37,9 +38,5 @@ Preview preview_of_albedo(const Image& table);
 Preview preview_of_environment(const Environment& environment);
 // Draws "heights" as they repeat, and "normals" for heights scaled by `depth`, in units of texture coordinates.
 Preview preview_of_heights(const Image& heights, double depth);
-// Draws "m00" to "m22", "nD", "fD": each entry from its minimum to its maximum. Rows are theta and, within theta, phi; columns are alpha
-// and, within alpha, lambda.
-Preview preview_of_ltc(const ltc::Table& table);
-Preview names_of_ltc(); // names of preview_of_ltc() without pictures, before a table exists
 
 } // namespace burnish

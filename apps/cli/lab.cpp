@@ -11,6 +11,20 @@
 
 namespace burnish {
 
+namespace {
+std::vector<std::string> kept;
+}
+
+void keep_words(const std::vector<std::string>& words)
+{
+    kept = words;
+}
+
+int start_lab()
+{
+    return start_lab(kept);
+}
+
 int start_lab(const std::vector<std::string>& words)
 {
     std::error_code failed;

@@ -1,6 +1,7 @@
-// The `burnish-lab` program: all of `burnish`, and the research subcommands that `burnish atlas`, `burnish plot` and `burnish train` start.
+// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`.
 #include "apps/cli/command.h"
 #include "apps/cli/program.h"
+#include "apps/lab/ltc/bake.h"
 
 namespace burnish {
 #define BN_LAB_COMMAND(name, summary) Command name##_command();
@@ -22,5 +23,6 @@ std::vector<Command> lab_commands()
 int main(int argc, char** argv)
 {
     burnish::add_lab_commands(burnish::lab_commands);
+    burnish::bake_ltc.set(burnish::run_ltc);
     return burnish::run_program(argc, argv);
 }

@@ -7,7 +7,7 @@ import shlex
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr"}  # placeholder: file below tests/data
-LAB = ("atlas", "plot", "train")  # run by burnish-lab
+LAB = ("atlas", "race", "plot", "train")  # run by burnish-lab
 
 
 def pages():

@@ -201,10 +201,8 @@ std::vector<Option> vulkan_rows(VulkanOptions& to)
         {"--sampler", "NAME",
          "Texture sampler: exact (the tile renderer's bits) or native (the device's samplers, with --pipeline forward)",
          choice(to.sampler, {"exact", "native"})},
-        {"--pipeline", "NAME",
-         "Pipeline: ids (visibility first, one shading for each visible triangle and pixel), forward (classical) or lean (forward with "
-         "reduced shaders)",
-         choice(to.pipeline, {"ids", "forward", "lean"})},
+        {"--pipeline", "NAME", "Pipeline: ids (visibility first, one shading for each visible triangle and pixel) or forward (classical)",
+         choice(to.pipeline, {"ids", "forward"})},
         {"--validate", "", "Run the Khronos validation layer, and fail on its complaints", flag(to.validate)},
     };
 }

@@ -26,8 +26,8 @@ void ForwardPass::prepare(const FrameDesc& desc, std::size_t band_bytes)
         native_.reset();
         native_.emplace(context_, pipelines_.native_layout(), input_, scene_);
     }
-    if (lean_)
-        lean_->prepare(desc);
+    if (drawer_)
+        drawer_->prepare(desc);
     make_targets(desc, band_bytes);
     if (!desc.stages)
         return;
@@ -165,8 +165,8 @@ void ForwardPass::draw(VkCommandBuffer c, const Specialization& technique, const
 {
     const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0, 0};
     begin(c, band, targets_.msaa > 1);
-    if (lean_)
-        lean_->draw(c, *native_, static_cast<VkSampleCountFlagBits>(targets_.msaa), kColorFormat, band);
+    if (drawer_)
+        drawer_->draw(c, *native_, static_cast<VkSampleCountFlagBits>(targets_.msaa), kColorFormat, band);
     else {
         draw_scene(c, technique, pass, false);
         draw_backdrop(c, pass);

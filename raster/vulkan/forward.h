@@ -1,11 +1,12 @@
 // The forward pipeline: shades fragments during rasterization, with multisampling, resolved by the device. A triangle that covers only
 // some samples of a pixel is shaded at their mean, as in the tile renderer. Here hidden samples count too.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "raster/vulkan/bands.h"
+#include "raster/vulkan/forward_shaders.h"
 #include "raster/vulkan/gpu_scene.h"
-#include "raster/vulkan/lean.h"
 #include "raster/vulkan/native_images.h"
 #include "raster/vulkan/pipelines.h"
 
@@ -14,11 +15,10 @@ namespace burnish {
 class ForwardPass {
   public:
     ForwardPass(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input, const VulkanOptions& options)
-        : context_(context), pipelines_(pipelines), scene_(scene), input_(input),
-          sampler_(options.pipeline == VulkanPipeline::lean ? VulkanSampler::native : options.sampler), centroid_(options.centroid)
+        : context_(context), pipelines_(pipelines), scene_(scene), input_(input), sampler_(options.sampler), centroid_(options.centroid)
     {
-        if (options.pipeline == VulkanPipeline::lean)
-            lean_.emplace(context, pipelines, scene, input);
+        if (options.shaders)
+            drawer_ = options.shaders->make(context, pipelines, scene, input);
     }
     // Makes images and pipelines; ExitCode::unavailable if the device lacks this sample count.
     void prepare(const FrameDesc& desc, std::size_t band_bytes);
@@ -53,7 +53,7 @@ class ForwardPass {
     VulkanSampler sampler_;
     bool centroid_;
     std::optional<NativeImages> native_;
-    std::optional<LeanScene> lean_;
+    std::unique_ptr<ForwardDrawer> drawer_; // null: forward.frag draws
     Targets targets_;
 };
 

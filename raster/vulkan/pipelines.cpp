@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/jobs/activity.h"
-#include "core/scene/draw_tables.h"
 #include "raster/vulkan/bands.h"
+#include "raster/vulkan/forward_shaders.h"
 #include "raster/vulkan/prune.h"
-#include "raster/vulkan/shaders.h"
 
 namespace burnish {
 
@@ -37,15 +36,6 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     return info;
 }
 
-// Vertex input of the lean stages: positions, then shading data.
-constexpr VkVertexInputBindingDescription kLeanBuffers[] = {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX},
-                                                            {1, sizeof(ShadingVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
-constexpr VkVertexInputAttributeDescription kLeanAttributes[] = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-                                                                 {1, 1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(ShadingVertex, normal)},
-                                                                 {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, tangent)},
-                                                                 {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, uv0)},
-                                                                 {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(ShadingVertex, color)}};
-
 std::string key_of(const std::string& name, const Specialization& constants)
 {
     std::string key = name;
@@ -58,9 +48,9 @@ std::string key_of(const std::string& name, const Specialization& constants)
 
 Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines(context)
 {
-    folder_ = options.shader_folder;
+    folder_ = options.shader_folder, shaders_ = options.shaders;
     const VkDevice device = context.device();
-    const bool lean = options.pipeline == VulkanPipeline::lean, native = lean || options.sampler == VulkanSampler::native;
+    const bool native = options.sampler == VulkanSampler::native;
     require_limit(context, "VulkanOptions::device", "maxPerStageDescriptorStorageBuffers", kBufferBindings, context.features().max_buffers);
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < kBindings; ++i)
@@ -73,15 +63,13 @@ Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines
     set.bindingCount = static_cast<std::uint32_t>(bindings.size()), set.pBindings = bindings.data();
     BN_VK(vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout_));
     if (native)
-        make_native_layout(lean);
+        make_native_layout(shaders_ ? shaders_->samplers : 0);
     const VkDescriptorSetLayout set_layouts[] = {set_layout_, native_layout_};
     const VkPushConstantRange range = {kStages, 0, sizeof(GpuPass)};
     auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     layout.setLayoutCount = native ? 2 : 1, layout.pSetLayouts = set_layouts;
     layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
     BN_VK(vkCreatePipelineLayout(device, &layout, nullptr, &layout_));
-    if (lean)
-        make_lean_layout();
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kBindings - kBufferBindings}};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -104,21 +92,17 @@ Pipelines::~Pipelines()
     vkDestroySampler(device, sampler_, nullptr);
     vkDestroyDescriptorPool(device, pool_, nullptr);
     vkDestroyPipelineLayout(device, layout_, nullptr);
-    vkDestroyPipelineLayout(device, lean_pipeline_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, lean_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, native_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
 }
 
 // Makes set 1, for one material: cubes of the environment and the material's textures. One stage binds them all; every device allows 16.
-void Pipelines::make_native_layout(bool lean)
+void Pipelines::make_native_layout(std::uint32_t more_samplers)
 {
     const Features& f = context_.features();
-    const char* const field = lean ? "VulkanOptions::pipeline" : "VulkanOptions::sampler";
-    constexpr std::uint32_t kOfLean = 4; // make_lean_layout()
-    const std::uint32_t bound = kGpuCubes + kTextureSlots + (lean ? kOfLean : 0);
-    require_limit(context_, field, "maxPerStageDescriptorSamplers", bound, f.max_samplers);
-    require_limit(context_, field, "maxPerStageDescriptorSampledImages", bound, f.max_sampled_images);
+    const std::uint32_t bound = kGpuCubes + kTextureSlots + more_samplers;
+    require_limit(context_, "VulkanOptions::sampler", "maxPerStageDescriptorSamplers", bound, f.max_samplers);
+    require_limit(context_, "VulkanOptions::sampler", "maxPerStageDescriptorSampledImages", bound, f.max_sampled_images);
     const VkDescriptorSetLayoutBinding native[] = {
         {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kGpuCubes, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTextureSlots, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
@@ -127,36 +111,14 @@ void Pipelines::make_native_layout(bool lean)
     BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &native_layout_));
 }
 
-// Makes set 0: frame, material, grid, albedo tables. Set 1 is that of native samplers.
-void Pipelines::make_lean_layout()
-{
-    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    const VkDescriptorSetLayoutBinding bindings[] = {
-        {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kBoth, nullptr},
-        {1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
-    auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set.bindingCount = static_cast<std::uint32_t>(std::size(bindings)), set.pBindings = bindings;
-    BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &lean_layout_));
-    const VkDescriptorSetLayout sets[] = {lean_layout_, native_layout_};
-    const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(std::int32_t)};
-    auto layout = vk_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.setLayoutCount = 2, layout.pSetLayouts = sets;
-    layout.pushConstantRangeCount = 1, layout.pPushConstantRanges = &range;
-    BN_VK(vkCreatePipelineLayout(context_.device(), &layout, nullptr, &lean_pipeline_layout_));
-}
-
 VkShaderModule Pipelines::module(const std::string& shader, const Specialization& constants)
 {
     const std::string key = key_of(shader, constants);
     const auto known = modules_.find(key);
     if (known != modules_.end())
         return known->second;
-    const Result<std::vector<std::uint32_t>> words = shader_words(shader, folder_);
+    const Result<std::vector<std::uint32_t>> words =
+        shader_words(shader, folder_, shaders_ ? shaders_->files : std::vector<EmbeddedShader>());
     if (!words)
         throw VulkanError{words.error()};
     const std::vector<std::uint32_t> code = pruned(*words, constants);
@@ -195,14 +157,7 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     const VkPipelineShaderStageCreateInfo stages[] = {
         stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex, {}), nullptr),
         stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment, constants), &specialization.info)};
-    auto input = vk_struct<VkPipelineVertexInputStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO); // stages fetch vertices themselves
-    if (state.lean) {
-        input.vertexBindingDescriptionCount = static_cast<std::uint32_t>(std::size(kLeanBuffers)),
-        input.pVertexBindingDescriptions = kLeanBuffers;
-        input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(std::size(kLeanAttributes));
-        input.pVertexAttributeDescriptions = kLeanAttributes;
-    }
+    const auto none = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     auto viewport = vk_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
@@ -225,10 +180,10 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     rendering.depthAttachmentFormat = VK_FORMAT_D32_SFLOAT;
     auto info = vk_struct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering);
     info.stageCount = 2, info.pStages = stages;
-    info.pVertexInputState = &input, info.pInputAssemblyState = &assembly, info.pViewportState = &viewport;
+    info.pVertexInputState = state.vertices ? state.vertices : &none, info.pInputAssemblyState = &assembly, info.pViewportState = &viewport;
     info.pRasterizationState = &raster, info.pMultisampleState = &multisample, info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend, info.pDynamicState = &dynamic;
-    info.layout = state.lean ? lean_pipeline_layout_ : layout_;
+    info.layout = state.layout ? state.layout : layout_;
     VkPipeline made = VK_NULL_HANDLE;
     const Activity activity("compiling " + state.fragment);
     BN_VK(vkCreateGraphicsPipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));

@@ -42,7 +42,9 @@ struct GraphicsState {
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCompareOp compare = VK_COMPARE_OP_GREATER;
-    bool lean = false; // uses lean_pipeline_layout(), with vertices from buffers
+    // Of shaders that a caller brings, the same for equal names. Null: the layout of all stages, which fetch vertices themselves.
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    const VkPipelineVertexInputStateCreateInfo* vertices = nullptr;
 };
 
 class Pipelines {
@@ -55,8 +57,6 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
-    VkDescriptorSetLayout lean_layout() const { return lean_layout_; }     // of set 0 in the lean stages, beside set 1: see lean.cpp
-    VkPipelineLayout lean_pipeline_layout() const { return lean_pipeline_layout_; }
     // Return a pipeline, made on first use and then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
@@ -70,13 +70,13 @@ class Pipelines {
   private:
     Pipelines(Context& context) : context_(context) {}
     VkShaderModule module(const std::string& shader, const Specialization& constants);
-    void make_native_layout(bool lean);
-    void make_lean_layout();
+    void make_native_layout(std::uint32_t more_samplers);
 
     Context& context_;
     std::string folder_;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE, lean_layout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE, lean_pipeline_layout_ = VK_NULL_HANDLE;
+    const ForwardShaders* shaders_ = nullptr;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;

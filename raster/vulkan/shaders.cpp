@@ -1,7 +1,9 @@
 #include "raster/vulkan/shaders.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -10,16 +12,21 @@
 namespace burnish {
 namespace {
 
-struct Stage {
-    const char* name;
-    const EmbeddedFile* file;
-};
-
-const Stage kEmbedded[] = {
+const EmbeddedShader kEmbedded[] = {
 #define BN_STAGE_ROW(NAME) {#NAME, &stage_##NAME},
     BN_STAGES(BN_STAGE_ROW)
 #undef BN_STAGE_ROW
 };
+
+const EmbeddedFile* embedded(const std::string& name, const std::vector<EmbeddedShader>& more)
+{
+    const auto is_it = [&](const EmbeddedShader& shader) { return name == shader.name; };
+    const EmbeddedShader* const own = std::find_if(std::begin(kEmbedded), std::end(kEmbedded), is_it);
+    if (own != std::end(kEmbedded))
+        return own->file;
+    const auto other = std::find_if(more.begin(), more.end(), is_it);
+    return other == more.end() ? nullptr : other->file;
+}
 
 std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
 {
@@ -30,12 +37,11 @@ std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
 
 } // namespace
 
-Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder)
+Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder, const std::vector<EmbeddedShader>& more)
 {
     if (folder.empty()) {
-        for (const Stage& stage : kEmbedded)
-            if (name == stage.name)
-                return words_of(stage.file->bytes, stage.file->size);
+        if (const EmbeddedFile* const file = embedded(name, more))
+            return words_of(file->bytes, file->size);
         return Error{ExitCode::internal, "", "", "no shader '" + name + "' in the program"};
     }
     const std::string path = folder + "/" + name + ".spv";

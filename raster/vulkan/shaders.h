@@ -14,7 +14,13 @@ namespace burnish {
 BN_STAGES(BN_DECLARE_STAGE)
 #undef BN_DECLARE_STAGE
 
-// Returns a stage's words. name: as in stages.txt. folder: empty for built-in stages.
-Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder);
+struct EmbeddedShader {
+    const char* name;
+    const EmbeddedFile* file;
+};
+
+// Returns a stage's words. name: as in stages.txt, or of `more`. folder: empty for built-in stages.
+Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder,
+                                                const std::vector<EmbeddedShader>& more = {});
 
 } // namespace burnish

@@ -542,11 +542,12 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
 {
     BN_TRY(scene_.check(desc));
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
-    if (device_->options.pipeline == VulkanPipeline::lean && (desc.stages || desc.triangle_ids))
-        return Error{ExitCode::usage, "", "", "lean has neither stages nor triangle ids", "VulkanOptions::pipeline"};
+    const bool brought = forward && device_->options.shaders != nullptr;
+    if (brought && (desc.stages || desc.triangle_ids))
+        return Error{ExitCode::usage, "", "", "shaders of a caller have neither stages nor triangle ids", "VulkanOptions::shaders"};
     if (forward && (desc.layers || desc.parts))
         return Error{ExitCode::usage, "", "", "only ids has layers and parts of pixels", "VulkanOptions::pipeline"};
-    if (device_->options.pipeline == VulkanPipeline::forward && blends())
+    if (forward && !brought && blends())
         return Error{ExitCode::usage, "", "", "forward does not sort blended surfaces, which the scene has; ids does",
                      "VulkanOptions::pipeline"};
     if (forward && desc.triangle_ids && !desc.stages)

@@ -1,9 +1,7 @@
 // The Vulkan 1.3 renderer: the tile renderer's scene tables, frame description and kernels, on any device that the loader finds,
-// without a window. There are three pipelines:
+// without a window. There are two pipelines:
 //   ids      the rasterizer writes triangle ids and depths by sample; a compute stage shades each distinct (pixel, triangle) pair once
 //   forward  the classical pipeline: shades fragments during rasterization, multisampled, resolved by the device
-//   lean     forward with shaders that an engine would write (shading/stages/lean), for races: not the tile renderer's bits, and
-//            ExitCode::unavailable if a frame needs a missing feature
 // The exact sampler filters textures from buffers with the CPU's kernel. The native sampler lets the device filter.
 #pragma once
 #include <memory>
@@ -15,19 +13,21 @@
 namespace burnish {
 
 enum class VulkanSampler { exact, native };
-enum class VulkanPipeline { ids, forward, lean };
+enum class VulkanPipeline { ids, forward };
+struct ForwardShaders; // raster/vulkan/forward_shaders.h
 
 struct VulkanOptions {
     std::string device;      // "lavapipe", "swiftshader", "gpu", or a part of a device's name; empty: see prefer_cpu
     bool prefer_cpu = false; // without a name: takes the first CPU device (lavapipe before others), otherwise the first GPU, if any
     VulkanSampler sampler = VulkanSampler::exact;
     VulkanPipeline pipeline = VulkanPipeline::ids;
-    bool centroid = false;     // forward: the device chooses the shading point in partly covered pixels, which is cheaper; without stages
-    bool validate = false;     // uses the Khronos validation layer; its messages make rendering fail
-    std::string shader_folder; // folder of NAME.spv that replace built-in shaders, for tests; empty: none
-    bool use_cache = true;     // stores pipelines on disk
-    std::vector<FrameDesc> frames; // all pipelines include these frames' techniques and lobes, so that the frames share pipelines
-    std::size_t band_bytes = 0;    // size of a band's buffers, for tests; 0: the size that every device accepts
+    bool centroid = false; // forward: the device chooses the shading point in partly covered pixels, which is cheaper; without stages
+    const ForwardShaders* shaders = nullptr; // forward: drawn with these in place of the program's, with native samplers, without stages
+    bool validate = false;                   // uses the Khronos validation layer; its messages make rendering fail
+    std::string shader_folder;               // folder of NAME.spv that replace built-in shaders, for tests; empty: none
+    bool use_cache = true;                   // stores pipelines on disk
+    std::vector<FrameDesc> frames;           // all pipelines include these frames' techniques and lobes, so that the frames share pipelines
+    std::size_t band_bytes = 0;              // size of a band's buffers, for tests; 0: the size that every device accepts
 };
 
 struct VulkanDeviceInfo {     // the driver's names

@@ -6,7 +6,7 @@ import subprocess
 
 from harness import Skipped, case, check
 
-COMMANDS = ("render", "compare", "chart", "profile", "parity", "race", "list", "info", "manual")
+COMMANDS = ("render", "compare", "chart", "profile", "parity", "list", "info", "manual")
 
 
 def options_of(bench, command):

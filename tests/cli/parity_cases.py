@@ -399,14 +399,13 @@ def lean_with(bench, replaced, name):
     if not shutil.which("glslc"):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
-    shutil.copytree(ROOT / "shading/stages/lean", source / "shading/stages/lean")
+    shutil.copytree(ROOT / "shading/lab/lean", source / "shading/lab/lean")
     shaders.mkdir()
     for file, old, new in replaced:
-        path = source / "shading/stages/lean" / file
+        path = source / "shading/lab/lean" / file
         check(old in path.read_text(), f"{file} does not hold '{old}' any more")
         path.write_text(path.read_text().replace(old, new))
-    for stage in ("lean_vert", "lean", "lean_sky_vert", "lean_sky"):
-        compile_stages(source, shaders, stage)
+    compile_listed("raster/vulkan/lab/stages.txt", source, "shading/lab", shaders)
     return shaders
 
 
@@ -436,12 +435,6 @@ def lean_refuses(bench):
     check("punctual lights" in row["error"] and "ratio" not in row, f"{row}")
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("key lights" in row["error"], f"{row}")
-    refused = ("--backend", "vulkan", "--device", "lavapipe", "--pipeline", "lean", "--size", "32x24", "-q", *COARSE, "-o", "a.exr")
-    for words, needle in ((("builtin:spheres", "--tilt", "10,0"), "--tilt"), (("builtin:bumps", "--horizon", "off"), "heights"),
-                          (("builtin:spheres", "--fresnel", "dielectric"), "--fresnel")):
-        bench.run("render", *words, *refused).expect(77).expect_one_line(needle)
-        check(not (bench.folder / "a.exr").exists(), f"{words} made a picture")
-    bench.run("parity", "--pipeline", "lean").expect(2).expect_one_line("--pipeline")
 
 
 # Defects that `parity` must catch. Columns: edits (shading file, old text, new text), samples a pixel, stages that may differ first, and
@@ -475,13 +468,17 @@ AREA_DEFECTS = {"a_mirror_that_is_not_undone": (LTC_TABLE, "return vec3_of(p.sig
 
 def compile_stages(source, folder, only=None):
     """Compiles every shader of stages.txt, or one of them, from the shading text below `source`."""
-    for line in (ROOT / "raster/vulkan/stages.txt").read_text().splitlines():
+    compile_listed("raster/vulkan/stages.txt", source, "shading/stages", folder, only)
+
+
+def compile_listed(stages, source, texts, folder, only=None):
+    for line in (ROOT / stages).read_text().splitlines():
         if not re.match("[a-z]", line):
             continue
         name, file, *defines = line.split()
         if only not in (None, name):
             continue
-        subprocess.run(["glslc", "-w", "--target-env=vulkan1.3", f"-I{source}", *defines, source / "shading/stages" / file, "-o", folder / f"{name}.spv"],
+        subprocess.run(["glslc", "-w", "--target-env=vulkan1.3", f"-I{source}", *defines, source / texts / file, "-o", folder / f"{name}.spv"],
                        check=True)
 
 

@@ -18,10 +18,10 @@ RENDERERS = ("tile", "vulkan", "reference")                  # they meet in rast
 ROOMS = {
     "core": ("base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/gltf"),
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
-                "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip"),
-    "raster": ("frame", "tile", "vulkan", "reference", "session"), # renderers do not include each other, see RENDERERS
+                "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
+    "raster": ("frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
     "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "bake", "chart", "parity", "profile",
-             "lab/train", "lab/atlas", "lab/plot", "lab"),
+             "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab"),
 }
 # Known exceptions: a file, the room that it includes out of order, and why.
 GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"

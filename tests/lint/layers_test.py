@@ -20,6 +20,8 @@ GOOD = {
     "raster/session/s.h": '#pragma once\n#include "raster/tile/t.h"\n',
     "apps/cli/main.cpp": '#include <vector>\n#include "raster/tile/t.h"\n',
     "apps/lab/atlas/a.h": '#pragma once\n#include "raster/tile/t.h"\n',
+    "shading/lab/lean/l.frag": "#version 460\n",
+    "raster/vulkan/lab/l.h": "#pragma once\n",
     "core/simd/s.h": "#pragma once\n#include <immintrin.h>\n",
     "core/image/io/openimageio_module.cpp": "#include <OpenImageIO/imageio.h>\n",
     "core/image/io/i.cpp": "#include <png.h>\n",
@@ -37,6 +39,8 @@ GOOD = {
     "CMakeLists.txt": "add_compile_options(-ffp-contract=off)\n",
 }
 BAD = {
+    "raster/vulkan/drawn_by_lab.cpp": '#include "raster/vulkan/lab/l.h"\n',
+    "shading/stages/of_lab.vert": '#include "shading/lab/lean/l.frag"\n',
     "apps/cli/lab.cpp": '#include "apps/lab/atlas/a.h"\n',
     "core/base/up.h": '#pragma once\n#include "raster/frame/f.h"\n',
     "core/base/absent.h": '#pragma once\n#include "core/base/absent_too.h"\n',

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "apps/bake/phong_tables.h"
-#include "shading/bake/ltc/bake_ltc.h"
+#include "shading/lab/ltc/bake_ltc.h"
 
 namespace burnish {
 namespace {

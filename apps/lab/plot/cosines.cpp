@@ -7,9 +7,9 @@
 
 #include "apps/lab/plot/panel.h"
 #include "apps/lab/plot/plot.h"
-#include "shading/bake/ltc/pair_fit.h"
-#include "shading/bake/ltc/quality.h"
 #include "shading/bake/ltc/table.h"
+#include "shading/lab/ltc/pair_fit.h"
+#include "shading/lab/ltc/quality.h"
 
 namespace burnish {
 namespace {

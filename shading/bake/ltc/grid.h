@@ -1,12 +1,18 @@
 // Node positions in a table of transformed cosines, and interpolation between them.
 #pragma once
 #include <array>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "shading/bake/ltc/lobe.h"
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/bake/ltc/place.h"
 
 namespace burnish::ltc {
+
+// Elements of a matrix that are zero by symmetry: bit 3 row + column.
+using Mask = std::uint32_t;
+inline constexpr Mask kMirrorY = 1u << 1 | 1u << 3 | 1u << 5 | 1u << 7; // the eye lies in the plane y = 0
+inline constexpr Mask kMirrorX = 1u << 1 | 1u << 2 | 1u << 3 | 1u << 6; // in x = 0
 
 struct Corner {
     std::size_t node;

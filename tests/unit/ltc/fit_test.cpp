@@ -7,9 +7,9 @@
 
 #include "core/base/file.h"
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/bake_ltc.h"
-#include "shading/bake/ltc/interpolant_fit.h"
-#include "shading/bake/ltc/quality.h"
+#include "shading/lab/ltc/bake_ltc.h"
+#include "shading/lab/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/quality.h"
 
 namespace burnish::ltc {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/polygon.h"
+#include "shading/lab/ltc/polygon.h"
 #include "tests/unit/ltc/lit.h"
 
 namespace burnish::ltc {

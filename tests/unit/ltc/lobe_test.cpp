@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/interpolant_fit.h"
-#include "shading/bake/ltc/node_fit.h"
-#include "shading/bake/ltc/pair_fit.h"
+#include "shading/lab/ltc/interpolant_fit.h"
+#include "shading/lab/ltc/node_fit.h"
+#include "shading/lab/ltc/pair_fit.h"
 
 namespace burnish::ltc {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/lab/ltc/node_fit.h"
 #include "tests/unit/ltc/lit.h"
 
 namespace burnish::ltc {

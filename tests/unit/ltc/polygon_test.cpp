@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/lobe.h"
-#include "shading/bake/ltc/polygon.h"
+#include "shading/lab/ltc/lobe.h"
+#include "shading/lab/ltc/polygon.h"
 
 namespace burnish::ltc {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/polygon.h"
+#include "shading/lab/ltc/polygon.h"
 #include "tests/unit/ltc/lit.h"
 
 namespace burnish::ltc {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/node_fit.h"
+#include "shading/lab/ltc/node_fit.h"
 #include "tests/unit/ltc/lit.h"
 
 namespace burnish::ltc {

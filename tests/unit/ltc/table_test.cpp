@@ -7,8 +7,8 @@
 
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
-#include "shading/bake/ltc/bake_ltc.h"
-#include "shading/bake/ltc/quality.h"
+#include "shading/lab/ltc/bake_ltc.h"
+#include "shading/lab/ltc/quality.h"
 
 namespace burnish::ltc {
 namespace {

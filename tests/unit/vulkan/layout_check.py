@@ -66,7 +66,7 @@ def main():
     root, folder, compiler = sys.argv[1:4]
     structures = members(root, compiler)
     expected, seen, bad = cpp_layout(root, compiler, structures), set(), 0
-    for name, _ in stages.lines(root):
+    for name in stages.names(root):
         for key, offset in spirv_layout(stages.assembly(folder, name)).items():
             if key[0].startswith("Bn") and offset != 0 and key[1]:  # a block with one structure, or an array of structures
                 print(f"{name}: {'.'.join(key)} begins at {offset}")

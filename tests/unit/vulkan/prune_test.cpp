@@ -8,8 +8,9 @@
 #include <unistd.h>
 
 #include "raster/frame/frame.h"
+#include "raster/vulkan/forward_shaders.h"
+#include "raster/vulkan/lab/lean.h"
 #include "raster/vulkan/prune.h"
-#include "raster/vulkan/shaders.h"
 
 namespace burnish::test {
 namespace {
@@ -18,7 +19,7 @@ using Words = std::vector<std::uint32_t>;
 
 Words stage(const char* name)
 {
-    return *shader_words(name, "");
+    return *shader_words(name, "", lean_shaders()->files);
 }
 
 // Searches like a debugger: "NAME(" begins glslc's name for a function.

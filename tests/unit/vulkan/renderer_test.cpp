@@ -12,6 +12,7 @@
 
 #include "core/scene/builtin/builtin.h"
 #include "raster/vulkan/bands.h"
+#include "raster/vulkan/forward_shaders.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "tests/unit/raster/fixture.h"
 
@@ -163,13 +164,16 @@ TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
         void (*lower)(VkPhysicalDeviceLimits&);
         VulkanPipeline pipeline;
         VulkanSampler sampler;
+        const ForwardShaders* shaders = nullptr;
     };
+    const ForwardShaders of_caller = {{}, 4, nullptr}; // four samplers more
     const auto samplers = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSamplers = 16; };
     const auto images = [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSampledImages = 16; };
     const Low lows[] = {
         {"VulkanOptions::sampler", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::forward, VulkanSampler::native},
         {"VulkanOptions::sampler", "maxPerStageDescriptorSampledImages", images, VulkanPipeline::forward, VulkanSampler::native},
-        {"VulkanOptions::pipeline", "maxPerStageDescriptorSamplers", samplers, VulkanPipeline::lean, VulkanSampler::exact},
+        {"VulkanOptions::sampler", "maxPerStageDescriptorSamplers", [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorSamplers = 20; },
+         VulkanPipeline::forward, VulkanSampler::native, &of_caller},
         {"VulkanOptions::device", "maxPerStageDescriptorStorageBuffers",
          [](VkPhysicalDeviceLimits& l) { l.maxPerStageDescriptorStorageBuffers = 4; }, VulkanPipeline::ids, VulkanSampler::exact},
         {nullptr, nullptr, samplers, VulkanPipeline::ids, VulkanSampler::exact},
@@ -178,7 +182,9 @@ TEST(vulkan, a_device_of_few_samplers_or_buffers_is_refused_by_what_binds_more)
         GTEST_SKIP() << there.error().line();
     for (const Low& low : lows) {
         lowered = low.lower;
-        const Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(lavapipe(low.pipeline, low.sampler));
+        VulkanOptions options = lavapipe(low.pipeline, low.sampler);
+        options.shaders = low.shaders;
+        const Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(options);
         lowered = nullptr;
         ASSERT_EQ(static_cast<bool>(opened), low.limit == nullptr) << (opened ? "nothing was said" : opened.error().line());
         if (opened)

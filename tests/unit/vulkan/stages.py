@@ -1,4 +1,4 @@
-"""The built program's shaders from raster/vulkan/stages.txt, disassembled."""
+"""The built program's shaders from raster/vulkan/stages.txt, disassembled; those of raster/vulkan/lab are the laboratory's."""
 import array
 import re
 import subprocess
@@ -9,10 +9,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "kernels"))
 import glslc_check  # noqa: E402
 
 
-def lines(root):
-    for line in (Path(root) / "raster/vulkan/stages.txt").read_text().splitlines():
-        if re.match("[a-z]", line):
-            yield line.split()[:2]  # name, file
+LAB = "lab/"
+
+
+def names(root):
+    """Names of all shaders, with their folder below raster/vulkan."""
+    for folder in ("", LAB):
+        for line in (Path(root) / "raster/vulkan" / folder / "stages.txt").read_text().splitlines():
+            if re.match("[a-z]", line):
+                yield folder + line.split()[0]
 
 
 def without_names(module):

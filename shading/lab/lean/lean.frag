@@ -1,0 +1,52 @@
+// Shades a fragment under the environment as an engine does: see frame.glsl.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shading/lab/lean/surface.glsl"
+#include "shading/lab/lean/techniques.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+vec3 specular_of(Surface s)
+{
+    switch (kTechnique) {
+    case 0: return split_isotropic(s);
+    case 1: return bent_normal(s);
+    case 2: return major_axis(s);
+    case 3: return major_axis_adaptive(s);
+    case 4: return major_axis_weighted(s);
+    case 5: return lobe_line(s);
+    case 6: return filtered_is(s, false);
+    case 7: return filtered_is(s, true);
+    case 8: return mc(s);
+    default: return as_mc(s);
+    }
+}
+
+void main()
+{
+    // Evaluate base colour and the alpha test
+    vec4 base = material.base;
+    if (textured(kBaseColorTex))
+        base *= fetch(textures[kBaseColorTex], kBaseColorTex);
+    if (has(kVertexColors))
+        base *= color;
+    if (has(kAlphaTest) && base.a < material.diffuse.w)
+        discard;
+    if (has(kUnlit)) {
+        radiance = vec4(base.rgb, 1.0);
+        return;
+    }
+    // Add the specular and the diffuse environment light
+    Surface s = surface_of(base);
+    vec3 light = specular_of(s) * frame.scale.x;
+    if (has(kDiffuse)) {
+        vec3 kept = s.dielectric_f0 * s.dfg.x + s.dielectric_f90 * s.dfg.y;
+        float passed = 1.0 - max(kept.r, max(kept.g, kept.b));
+        light += s.diffuse * (passed * frame.scale.y) * textureLod(cubes[1], s.n, 0.0).rgb;
+    }
+    // Apply occlusion, then add emission
+    light *= s.occlusion;
+    if (has(kEmits))
+        light += s.emissive;
+    radiance = vec4(light, 1.0);
+}
