@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/chart/plan.h"
+#include "apps/cli/lab.h"
 #include "apps/options/options.h"
 
 namespace burnish {
@@ -33,6 +34,8 @@ struct ChartArguments {
     PictureSize error_size; // 0x0: the default size
     ChartOptions plain;
 };
+
+inline LabPart<ChartArguments, OptionTable> chart_mips; // --mip, with the options present on the command line
 
 OptionTable chart_option_table(ChartArguments& to);
 

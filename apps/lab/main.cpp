@@ -1,7 +1,8 @@
-// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`.
+// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`, `chart --mip`.
 #include "apps/cli/command.h"
 #include "apps/cli/program.h"
 #include "apps/lab/ltc/bake.h"
+#include "apps/lab/mip/chart.h"
 
 namespace burnish {
 #define BN_LAB_COMMAND(name, summary) Command name##_command();
@@ -24,5 +25,6 @@ int main(int argc, char** argv)
 {
     burnish::add_lab_commands(burnish::lab_commands);
     burnish::bake_ltc.set(burnish::run_ltc);
+    burnish::chart_mips.set(burnish::run_mip_chart);
     return burnish::run_program(argc, argv);
 }

@@ -67,7 +67,8 @@ def without_module(bench):
     with tempfile.TemporaryDirectory(prefix="burnish-alone-") as folder:
         program = pathlib.Path(shutil.copy(bench.program, folder))
         bench.run("render", *SMALL, "-o", "a.png", "-o", "a.tif", "-o", "a.pfm", program=program).expect(0)
-        for words in (("atlas", "--list"), ("help", "train"), ("race", "builtin:plate"), ("bake", "ltc", "-o", "t.ltc")):
+        for words in (("atlas", "--list"), ("help", "train"), ("race", "builtin:plate"), ("bake", "ltc", "-o", "t.ltc"),
+                      ("chart", "--mip", "-o", "r")):
             bench.run(*words, program=program).expect(77).expect_one_line("burnish-lab", "target burnish-lab")
         written = bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77)
         written.expect_one_line("b.exr", MODULE, folder)

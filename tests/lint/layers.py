@@ -21,7 +21,7 @@ ROOMS = {
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
     "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "bake", "chart", "parity", "profile",
-             "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab"),
+             "lab/mip", "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab"),
 }
 # Known exceptions: a file, the room that it includes out of order, and why.
 GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"

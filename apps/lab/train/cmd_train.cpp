@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/chart/real_maps.h"
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
+#include "apps/lab/mip/real_maps.h"
 #include "apps/report/json.h"
 #include "core/base/clock.h"
 #include "shading/bake/mip/evaluate.h"

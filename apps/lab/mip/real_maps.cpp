@@ -1,4 +1,4 @@
-#include "apps/chart/real_maps.h"
+#include "apps/lab/mip/real_maps.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "apps/chart/mip_rows.h"
+#include "apps/lab/mip/mip_rows.h"
 
 #include <algorithm>
 #include <array>
