@@ -25,6 +25,12 @@ const std::atomic<bool>& watch_stop_signals()
     return stop;
 }
 
+void stop_at_signals()
+{
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
 int stop_signal()
 {
     return came.load();

@@ -31,14 +31,14 @@ struct RenderOptions {
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
     std::vector<std::string> outputs;
-    std::vector<std::string> aov;      // layers of .exr outputs
-    Shown show = Shown::light;         // false colour of 8-bit outputs
-    std::string risks;                 // picture of the atlas's risks for the technique; "-": text only; empty: none
-    bool shadow_ratio = false;         // area lights cast shadows, by ray-traced samples
-    int shadow_samples = 64;           // a pixel
+    std::vector<std::string> aov;       // layers of .exr outputs
+    Shown show = Shown::light;          // false colour of 8-bit outputs
+    std::string risks;                  // picture of the atlas's risks for the technique; "-": text only; empty: none
+    bool shadow_ratio = false;          // area lights cast shadows, by ray-traced samples
+    int shadow_samples = 64;            // a pixel
     Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
-    std::string stats_file;            // empty: none; "-": standard output
-    std::string trace_file;            // empty: none
+    std::string stats_file;             // empty: none; "-": standard output
+    std::string trace_file;             // empty: none
 
     std::string env = "builtin:studio";
     bool env_given = false; // otherwise the scene's own light, if any

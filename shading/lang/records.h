@@ -40,7 +40,7 @@ const int kAutoRound = 64;      // `auto` takes this technique for materials wit
 const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
 
 const int kSamplesInterface = 256; // samples both sides of transmissive surfaces; others fetch transmitted light once
-const int kPhongGrid = 512; // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
+const int kPhongGrid = 512;        // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
 const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric

@@ -44,6 +44,14 @@ def killed(bench):
     check(bench.left_behind() == ["straight.ltc", "t.ltc"], f"left {bench.left_behind()}")
 
 
+@case("bake.a_report_that_cannot_be_written_is_told_at_once")
+def report_path(bench):
+    scratch(bench, "file", b"x")
+    for folder in ("file", "file/in", "x" * 300):
+        done = bench.run("bake", "ltc", "--resolution", "16", "--steps", "100", "-o", "t.ltc", "--report", folder, timeout=20)
+        check(done.code == 7, done.describe())
+
+
 @case("bake.a_report_holds_figures_and_a_drawing", tier="nightly")
 def report(bench):
     said = bench.run("bake", "ltc", "--table", SHIPPED, "--report", "quality", timeout=600).expect(0)

@@ -78,6 +78,8 @@ Status check_arguments(const LtcBake& b, const OptionTable& given)
                 return usage_error(option, "is of tables of all lobes, and this one is of --isotropic");
     if (!a.isotropic && a.table.empty() && a.resolution > 16)
         return usage_error("--resolution", fmt::format("{} is more than 16, which only a table of --isotropic may have", a.resolution));
+    if (!a.report.empty())
+        BN_TRY(check_folder_path(a.report));
     if (b.output == "-")
         return usage_error("-o", "the table is no text for standard output");
     if (b.output.empty())
@@ -157,6 +159,9 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
     if (!table)
         return fail(table.error());
     report.release();
+    stop_at_signals();
+    if (*table && stop_signal() != 0)
+        return 128 + stop_signal();
     if (!*table) {
         report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", b.output));
         return 128 + stop_signal(); // as a shell reports a process ended by a signal

@@ -185,6 +185,8 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
             advance(kStepUnits);
         }
         entries = p.state.entries;
+        if (stopped())
+            return std::optional<Baked>();
         // Repair flat matrices
         baked.probes = kProbesANode * grid.nodes();
         fit.guard(entries, p.nodes, 0.2, baked.probes);
@@ -193,9 +195,13 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
         for (std::size_t node = 0; node < grid.nodes(); ++node)
             natural.push_back(grid.held(natural_matrix(grid.place(node)), grid.place(node)));
         make_equal(grid, natural);
+        if (stopped())
+            return std::optional<Baked>();
         baked.weak_lookups = fit.guard(entries, natural, 0.005, baked.probes);
         baked.fit_l1_before = p.cost_before, baked.fit_l1 = p.state.cost;
     }
+    if (stopped())
+        return std::optional<Baked>();
     const std::uint32_t made = static_cast<std::uint32_t>(options.norm) << kNormShift | (options.align ? 0u : kUnaligned) |
                                // Bake albedos
                                (options.symmetry ? 0u : kUnsymmetric) | static_cast<std::uint32_t>(options.model) << kLobeShift;
