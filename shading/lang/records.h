@@ -39,8 +39,9 @@ const int kSharesSamples = 32;  // shares samples within a 2x2 quad of fragments
 const int kAutoRound = 64;      // `auto` takes this technique for materials without a grain
 const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
 
-const int kSamplesInterface = 256; // samples both sides of transmissive surfaces; others fetch transmitted light once
-const int kPhongGrid = 512;        // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
+const int kFetchesTransmitted = 8192; // of a call, not of a technique: the material transmits light that one fetch stands for
+const int kSamplesInterface = 256;    // samples both sides of transmissive surfaces; others fetch transmitted light once
+const int kPhongGrid = 512;           // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
 const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric

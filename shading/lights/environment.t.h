@@ -96,7 +96,7 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
     real passed = diffuse_energy_share(f, x);
     real3 irradiance = irradiance_at(f, x);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
-    if (x.refracts && !x.samples_interface)
+    if ((traits & kFetchesTransmitted) != 0)
         sum = sum + transmitted_environment(f, x) * x.s.occlusion;
     return sum;
 }

@@ -165,7 +165,7 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
                 groups = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v)).groups;
         }
         // Add the lights, weighted by the group's share of the map
-        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
+        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon + (traits & kFetchesTransmitted), specular);
         light = plus_lights(f, m, x, p.position, light);
         sum = sum + light * words.weight;
     }
@@ -188,6 +188,8 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
     make_shaded_point(f, m, at, shape, p, py * int_lit(the_frame(f).width) + px, x);
     // Add environment light and lights
     int traits = technique_traits(m, t);
+    if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
+        traits = traits + kFetchesTransmitted;
     if (!shares)
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
     light = plus_lights(f, m, x, p.position, light);

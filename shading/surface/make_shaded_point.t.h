@@ -91,7 +91,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     // Reflect from within as a mirror does, with total reflection
     x.refracts = the_material(m).refracts != 0;
     x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
-    if (x.refracts && !x.samples_interface) {
+    if (the_material(m).refracts != 0 && (the_material(m).technique_traits & kSamplesInterface) == 0) {
         real ior = index_of_far_side(splat(the_material(m).ior), p.front);
         real3 within = dielectric_reflectance(at.dielectric_f0, at.dielectric_f90, ior, x.s.n_dot_v);
         x.s.f0 = select(p.front, x.s.f0, within);
