@@ -50,6 +50,27 @@ BN_FN extracted_light_lobe extracted_light_lobe_of(BN_IN(shaded_point) x, int mo
     return r;
 }
 
+// Returns a light's share of the lobe: the integral of the density of slopes over the light's ellipse. h: half vector of its centre, any
+// length, h.z above 0; up: 1 / h.z; u, v: changes of h along the light's half axes; all in the lobe's frame.
+BN_FN real share_of_slopes(BN_IN(extracted_light_lobe) lobe, real3 h, real up, real3 u, real3 v)
+{
+    // Find the light's centre among slopes, in lobe widths
+    real slope_x = h.x * up;
+    real slope_y = h.y * up;
+    real over_x = up * lobe.inverse.x;
+    real over_y = up * lobe.inverse.y;
+    real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
+    // Slopes change by (w.xy - slope w.z) / h.z as h moves by w
+    real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
+    real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
+    // Keep the ellipse within a quarter of the way to level half vectors, where slopes become infinite
+    real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up;
+    real parts = max(steep, lit(1.0));
+    // Integrate the lobe over the ellipse
+    slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
+    return min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
+}
+
 struct extracted_light_reflection {
     real lobe;    // specular radiance over the light's radiance, without Fresnel
     real cosine;  // the light's cosine at the surface, for the diffuse part
@@ -84,23 +105,10 @@ BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_I
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_v));
     real3 h = l + lobe.eye; // twice as long as the cosine between eye and half vector
-    // Find the light's centre among slopes, in lobe widths
     real h2 = k_dot3(h, h);
     real up = lit(1.0) / max(h.z, lit(1e-4));
-    real slope_x = h.x * up;
-    real slope_y = h.y * up;
-    real over_x = up * lobe.inverse.x;
-    real over_y = up * lobe.inverse.y;
-    real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
-    // Slopes change by (w.xy - slope w.z) / h.z as the light moves by w
-    real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
-    real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
-    // Keep the ellipse within a quarter of the way to level half vectors, where slopes become infinite
-    real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up;
-    real parts = max(steep, lit(1.0));
-    // Integrate the lobe over the ellipse
-    slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
-    real share = min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
+    // Integrate the lobe over the light
+    real share = share_of_slopes(lobe, h, up, u, v);
     real value = lit(2.0) * h2 * up * share * bsdf_lobe_masking(lobe.bsdf, in_place); // D dl = share 4 (v.h) / h.z, for the unit h
     r.lobe = select(risen, value, lit(0.0));
     real half_length = lit(0.5) * sqrt(h2);
@@ -112,32 +120,22 @@ BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_I
 // the reflected one's at the same angle.
 BN_FN real3 extracted_light_through(frame_ref f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe, int light)
 {
-    // Find the normal that refracts the light to the eye; its slopes change by side (w.xy - slope w.z) / h.z
+    // Find the normal that refracts the light to the eye
     real ior = x.through.parts.ior;
-    real side = select(ior >= lit(1.0), -ior, ior);
+    real side = select(ior >= lit(1.0), -ior, ior); // changes of that normal per change of the light's direction
     real towards = select(ior >= lit(1.0), lit(-1.0), lit(1.0));
     real3 l = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].direction));
-    real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_u));
-    real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_v));
     real3 h = lobe.eye * towards + l * side;
     real eye_side = k_dot3(lobe.eye, h);
-    mask passes = both(both(l.z<lit(0.0), h.z> lit(0.0)), both(eye_side > lit(0.0), k_dot3(l, h) < lit(0.0)));
+    mask below = both(l.z < lit(0.0), k_dot3(l, h) < lit(0.0));
+    mask passes = both(both(below, h.z > lit(0.0)), eye_side > lit(0.0));
     if (no_lane(passes))
         return vec3_all(lit(0.0));
-    // Place the light's ellipse among slopes, in lobe widths
+    // Integrate the lobe over the light: D dl = share (v.h) / h.z, times the masking that reflection divides by 4 (n.v)
+    real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_u)) * side;
+    real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_v)) * side;
     real up = lit(1.0) / max(h.z, lit(1e-4));
-    real slope_x = h.x * up;
-    real slope_y = h.y * up;
-    real over_x = side * up * lobe.inverse.x;
-    real over_y = side * up * lobe.inverse.y;
-    real2 centre = vec2_of(slope_x * lobe.inverse.x, slope_y * lobe.inverse.y);
-    real2 at_u = vec2_of((u.x - slope_x * u.z) * over_x, (u.y - slope_y * u.z) * over_y);
-    real2 at_v = vec2_of((v.x - slope_x * v.z) * over_x, (v.y - slope_y * v.z) * over_y);
-    real steep = lit(16.0) * (u.z * u.z + v.z * v.z) * up * up * side * side;
-    real parts = max(steep, lit(1.0));
-    // Integrate the lobe over the ellipse: D dl = share (v.h) / h.z, times the masking that reflection divides by 4 (n.v)
-    slope_ellipse ellipse = slope_ellipse_of(centre, at_u, at_v, lit(1.0) / parts);
-    real share = min(ggx_share_of_ellipse(ellipse) * parts, lit(1.0));
+    real share = share_of_slopes(lobe, h, up, u, v);
     real value = lit(4.0) * eye_side * up * share * bsdf_lobe_masking(lobe.bsdf, vec3_of(l.x, l.y, -l.z));
     real3 passed = interface_passes(x.through, eye_side / sqrt(max(k_dot3(h, h), lit(1e-20))));
     return select(passes, passed * value, vec3_all(lit(0.0)));

@@ -99,7 +99,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.parts.ior = ior;
     }
     find_energy(f, m, at, x);
-    if (x.refracts)
+    if (the_material(m).refracts != 0) // x.refracts would not fold away here, and x would leave registers
         make_interface(f, m, at, p.front, x);
 }
 

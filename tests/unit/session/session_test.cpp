@@ -142,6 +142,19 @@ TEST(session, says_what_is_wrong)
         ASSERT_FALSE(partial);
         EXPECT_EQ(partial.error().code, ExitCode::usage);
     }
+    // Instruction sets that the processor or the program lacks
+    for (const int isa : {99, -1}) {
+        SessionOptions options;
+        options.isa = static_cast<Isa>(isa);
+        const Result<Session> unknown = Session::make(session->parts(), options);
+        ASSERT_FALSE(unknown);
+        EXPECT_EQ(unknown.error().code, ExitCode::unavailable);
+    }
+    for (const Isa isa : program_isas()) {
+        SessionOptions options;
+        options.isa = isa;
+        EXPECT_EQ(static_cast<bool>(Session::make(session->parts(), options)), isa_available(isa)) << isa_name(isa);
+    }
     OpenOptions picture = small_open();
     picture.environment.picture_only = true;
     picture.environment.use_cache = false;
