@@ -143,7 +143,7 @@ int fail_by(const std::system_error& error)
 {
     const bool refused = error.code() == std::errc::resource_unavailable_try_again;
     const std::string reason = refused ? "the system gives no further thread: " : "internal error: ";
-    return fail(Error{refused ? ExitCode::unavailable : ExitCode::internal, "", "", reason + error.what()});
+    return fail(Error{refused ? ExitCode::bad_input : ExitCode::internal, "", "", reason + error.what()});
 }
 
 // Handles exceptions that no frame can catch, such as those thrown while a library is loaded.

@@ -96,7 +96,7 @@ Status expect_threads(int count, const std::string& who)
     const auto [given, code] = given_threads(count);
     if (code == 0)
         return {};
-    return Error{ExitCode::unavailable, "", "",
+    return Error{ExitCode::bad_input, "", "",
                  fmt::format("{} starts {} threads, and the system gives {} ({})", who, count, given, std::strerror(code))};
 }
 

@@ -150,9 +150,11 @@ BN_FN real3 extracted_lights_clear(frame_ref f, BN_IN(shaded_point) x)
     return (with - without) * x.through.tint * diffuse_energy_share(f, x);
 }
 
-// Returns transmitted light from all extracted lights. mirror: share of a lobe without width, [0,1].
-BN_STAGE real3 extracted_lights_through(any_frame f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe, real mirror)
+// Returns transmitted light from all extracted lights. model, layer: see light_from_extracted_lights(); mirror: share of a lobe
+// without width, [0,1]. Makes its own lobe, so that the caller's stays in registers.
+BN_STAGE real3 extracted_lights_through(any_frame f, BN_IN(shaded_point) x, int model, lobe_layer layer, real mirror)
 {
+    extracted_light_lobe lobe = extracted_light_lobe_of(x, model, layer);
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).extracted_light_count; ++i)
         sum = sum + splat3(the_frame(f).extracted_lights[i].radiance) * extracted_light_through(f, x, lobe, i);
@@ -209,7 +211,7 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
     // Apply gain and occlusion; add transmitted light and the diffuse part
     real3 sum = specular * x.energy.gain;
     if (x.refracts && !x.samples_interface)
-        sum = sum + extracted_lights_through(f, x, lobe, mirror);
+        sum = sum + extracted_lights_through(f, x, model, layer, mirror);
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

@@ -108,13 +108,13 @@ FEW_THREADS = {
     "o.png": ((*PLATE, "--threads", "4"), (0,)),
     "o.pfm": ((*PLATE, "--mip-filter", "mipnet", "--threads", "3"), (0,)),
     "r.pfm": ((*PLATE, "--backend", "reference", "--samples", "4", "--threads", "4"), (0,)),
-    "v.pfm": ((*PLATE, "--backend", "vulkan", "--threads", "2"), (0, 77)),
-    "o.exr": ((*PLATE, "--threads", "2"), (0, 77)),
+    "v.pfm": ((*PLATE, "--backend", "vulkan", "--threads", "2"), (0, 4)),
+    "o.exr": ((*PLATE, "--threads", "2"), (0, 4)),
     "o.mip": (("bake", "mip", "builtin:roofs=1", "-q"), (0,)),
     "levels": (("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "--threads", "4", "-q"), (0,)),
-    "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 77)),
+    "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 4)),
     "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
-    "report": (("chart", "builtin:plate", *CHART[1:]), (0, 77)),
+    "report": (("chart", "builtin:plate", *CHART[1:]), (0, 4)),
 }
 
 

@@ -85,7 +85,7 @@ Result<const ImageLibrary*> open_library()
                                      bytes ? "is damaged or belongs to another build" : "cannot be read: " + bytes.error().reason)};
         // Check that memory and threads suffice
         if (!has_room())
-            return Error{ExitCode::unavailable, "", "",
+            return Error{ExitCode::bad_input, "", "",
                          fmt::format("the image library needs {} MiB of address space, and there is no memory for it", kRoomBytes >> 20)};
         BN_TRY(expect_threads(kLoadThreads, "the image library"));
         // Never closed: some of the module's libraries leave threads and exit handlers.
