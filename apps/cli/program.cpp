@@ -6,9 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fmt/core.h>
-#include <new>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "apps/cli/command_line.h"
@@ -16,6 +14,7 @@
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
 #include "core/base/cgroup.h"
+#include "core/base/exception.h"
 #include "core/base/version.h"
 #include "core/jobs/activity.h"
 #include "core/jobs/cores.h"
@@ -138,26 +137,21 @@ void warn_of_missing_threads(int code, const std::vector<std::string>& words)
     report.release();
 }
 
-// Reports a thread that the system refused. Pools of burnish work without the thread; libraries may throw.
-int fail_by(const std::system_error& error)
+// Reports the exception that a catch block handles. Returns the exit code.
+int fail_by_exception()
 {
-    const bool refused = error.code() == std::errc::resource_unavailable_try_again;
-    const std::string reason = refused ? "the system gives no further thread: " : "internal error: ";
-    return fail(Error{refused ? ExitCode::bad_input : ExitCode::internal, "", "", reason + error.what()});
+    return fail(error_of_exception(Error{ExitCode::internal, "", "", "internal error"}));
 }
 
 // Handles exceptions that no frame can catch, such as those thrown while a library is loaded.
 [[noreturn]] void terminate()
 {
-    try {
-        if (const std::exception_ptr thrown = std::current_exception())
+    if (const std::exception_ptr thrown = std::current_exception())
+        try {
             std::rethrow_exception(thrown);
-    } catch (const std::bad_alloc&) {
-        std::_Exit(fail(Error{ExitCode::bad_input, "", "", "out of memory"}));
-    } catch (const std::system_error& error) {
-        std::_Exit(fail_by(error));
-    } catch (...) {
-    }
+        } catch (...) {
+            std::_Exit(fail_by_exception());
+        }
     std::abort();
 }
 
@@ -174,12 +168,8 @@ int run_program(int argc, char** argv)
         const int code = flush_stdout(run(words));
         warn_of_missing_threads(code, words);
         return code;
-    } catch (const std::bad_alloc&) {
-        return fail(Error{ExitCode::bad_input, "", "", "out of memory"});
-    } catch (const std::system_error& error) {
-        return fail_by(error);
-    } catch (const std::exception& error) {
-        return fail(Error{ExitCode::internal, "", "", std::string("internal error: ") + error.what()});
+    } catch (...) {
+        return fail_by_exception();
     }
 }
 

@@ -12,6 +12,15 @@ std::string printable(const std::string& text, std::size_t most_bytes = std::str
 // Returns printable text of several lines: line feeds stay.
 std::string printable_lines(const std::string& text);
 
+// Returns the first line of a library's message, without its full stop.
+inline std::string first_line(const std::string& text)
+{
+    std::string line = text.substr(0, text.find_first_of("\r\n"));
+    while (!line.empty() && (line.back() == ' ' || line.back() == '.'))
+        line.pop_back();
+    return line;
+}
+
 // Returns the number with the float's shortest decimal: 0.4 for 0.4f, where a conversion gives 0.4000000059604645.
 double shortest_decimal(float value);
 

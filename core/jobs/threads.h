@@ -16,7 +16,7 @@ struct GivenThreads {
 // Tries to start `count` threads at once. All of them have ended on return.
 GivenThreads given_threads(int count);
 
-// Returns an Error with ExitCode::unavailable unless the system gives `count` threads at once beside the running ones.
+// Returns an Error with ExitCode::bad_input unless the system gives `count` threads at once beside the running ones.
 // All of them have ended on return. Call before libraries that hang or end the process on a refused thread. `who`
 // begins the sentence.
 Status expect_threads(int count, const std::string& who);

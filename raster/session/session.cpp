@@ -1,12 +1,11 @@
 #include "raster/session/session.h"
 
 #include <algorithm>
-#include <exception>
 #include <fmt/format.h>
-#include <new>
 #include <optional>
 #include <utility>
 
+#include "core/base/exception.h"
 #include "core/jobs/activity.h"
 #include "core/scene/check_scene.h"
 #include "core/scene/directional_roughness.h"
@@ -27,10 +26,8 @@ template <class Body> auto guarded(const std::string& what, const Body& body) ->
 {
     try {
         return body();
-    } catch (const std::bad_alloc&) {
-        return Error{ExitCode::bad_input, what, "", "out of memory"};
-    } catch (const std::exception& error) {
-        return Error{ExitCode::internal, what, "", error.what()};
+    } catch (...) {
+        return error_of_exception(Error{ExitCode::internal, what, "", "internal error"});
     }
 }
 

@@ -147,7 +147,7 @@ def with_few_threads(bench, names, counts, user):
             if done.code == 0:
                 check(name == "report" or bytes_of(path) == whole, f"{name} by {count}: other bytes")
             else:
-                done.expect_one_line("threads")
+                done.expect_one_line("thread")
                 check(name == "report" or not path.exists(), f"{name} by {count}: something is left")
             if not path.exists():
                 continue

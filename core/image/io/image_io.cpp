@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 
 #include <fmt/format.h>
 
+#include "core/base/exception.h"
 #include "core/base/file.h"
 #include "core/image/io/guard.h"
 #include "core/image/io/image_library.h"
@@ -203,11 +203,8 @@ Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, con
 {
     try {
         return decode(file, probe, limits, notes);
-    } catch (const std::bad_alloc&) {
-        return file.error("", "not enough memory for the pixels");
-    } catch (const std::exception& exception) {
-        const std::string reason = first_line(exception.what());
-        return file.error("", "the image is damaged" + (reason.empty() ? "" : ": " + reason));
+    } catch (...) {
+        return error_of_exception(file.error("", "the image is damaged"));
     }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/text.h"
 #include "core/image/image.h"
 #include "core/image/io/guard.h"
 
@@ -52,17 +53,8 @@ struct ImageLibrary {
 constexpr const char* kImageLibrarySymbol = "burnish_image_library";
 
 // Opens the module at the first call: beside the program, in ../lib/burnish from there, or, for programs in a build
-// tree, at the tree's root. Never returns null. On failure returns an Error with ExitCode::unavailable; `file` is the
-// image that needs the module.
+// tree, at the tree's root. Never returns null. Returns an Error with ExitCode::unavailable where the
+// module is missing, and ExitCode::bad_input where memory or threads are. `file` is the image that needs the module.
 Result<const ImageLibrary*> image_library(const std::string& file);
-
-// Returns the first line of a library message, without its full stop.
-inline std::string first_line(const std::string& text)
-{
-    std::string line = text.substr(0, text.find_first_of("\r\n"));
-    while (!line.empty() && (line.back() == ' ' || line.back() == '.'))
-        line.pop_back();
-    return line;
-}
 
 } // namespace burnish

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <exception>
 
 #include <fmt/format.h>
 
 #include "core/base/check.h"
+#include "core/base/exception.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/image/io/image_library.h"
@@ -135,8 +135,8 @@ Status write_image(const std::string& path, const Image& image)
         const Result<Bytes> bytes = encode_image(path, image, format);
         BN_TRY(bytes);
         return write_file_atomic(path, bytes->data(), bytes->size());
-    } catch (const std::exception& exception) {
-        return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
+    } catch (...) {
+        return error_of_exception(output_error(path, "the image cannot be encoded"));
     }
 }
 
@@ -152,8 +152,8 @@ Status write_channels(const std::string& path, const Image& image, const std::ve
         const Result<Bytes> bytes = (*library)->encode(path, image, format_of(path).name, names);
         BN_TRY(bytes);
         return write_file_atomic(path, bytes->data(), bytes->size());
-    } catch (const std::exception& exception) {
-        return output_error(path, "the image cannot be encoded: " + first_line(exception.what()));
+    } catch (...) {
+        return error_of_exception(output_error(path, "the image cannot be encoded"));
     }
 }
 
@@ -164,8 +164,8 @@ Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, con
         const Result<const ImageLibrary*> library = image_library(path);
         BN_TRY(library);
         return (*library)->encode_levels(path, levels);
-    } catch (const std::exception& exception) {
-        return output_error(path, "the levels cannot be encoded: " + first_line(exception.what()));
+    } catch (...) {
+        return error_of_exception(output_error(path, "the levels cannot be encoded"));
     }
 }
 
@@ -177,8 +177,8 @@ Result<std::string> encode_png(const Image& image)
         const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"));
         BN_TRY(bytes);
         return std::string(bytes->begin(), bytes->end());
-    } catch (const std::exception& exception) {
-        return output_error("picture.png", "the image cannot be encoded: " + first_line(exception.what()));
+    } catch (...) {
+        return error_of_exception(output_error("picture.png", "the image cannot be encoded"));
     }
 }
 

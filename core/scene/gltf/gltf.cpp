@@ -1,12 +1,11 @@
 #include "core/scene/gltf/gltf.h"
 
-#include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <new>
 #include <string_view>
 
+#include "core/base/exception.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/accessors.h"
 #include "core/scene/gltf/buffers.h"
@@ -82,10 +81,8 @@ template <class F> auto guarded(const std::string& file, F&& read) -> decltype(r
         return read();
     } catch (const gltf::Failure& failure) {
         return error(failure.place, failure.reason);
-    } catch (const std::bad_alloc&) {
-        return error("", "not enough memory to read the file");
-    } catch (const std::exception& e) {
-        return error("", "cannot read the file: " + gltf::printable(e.what()));
+    } catch (...) {
+        return error_of_exception(error("", "cannot read the file"));
     }
 }
 
