@@ -57,6 +57,7 @@ BN_INLINE std::uint32_t compose_pass(const FrameParams& f, const TileScratch& la
 BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelScratch& p)
 {
     const TileScratch& layer = *p.layer;
+    real nearest = lit(-1.0);
     for (int block = 0; block < (f.tile_size / kBlock) * (f.tile_size / kBlock); ++block)
         p.done[block] = true;
     for_each_register(f, width, height, layer, [&](int block, int v, int passes, const std::uint32_t* lanes, std::uint32_t at) {
@@ -75,12 +76,17 @@ BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelSc
             const int to = first + s * kBlockPixels;
             const integer id = load_int(reinterpret_cast<const std::int32_t*>(layer.ids) + to);
             const mask open = both(id >= int_lit(0), load(p.through + to) > lit(0.0));
-            store(p.depth + to, select(open, load(layer.depth + to), lit(-1.0)));
+            const real depth = select(open, load(layer.depth + to), lit(-1.0));
+            store(p.depth + to, depth);
+            nearest = max(nearest, depth);
             store_int(p.id + to, id);
             more = any(open) || more;
         }
         p.done[block] = p.done[block] && !more;
     });
+    float of_lane[kLanes];
+    store(of_lane, reduce_max(nearest));
+    p.nearest_open = of_lane[0];
     p.fragment_count += layer.fragment_count - layer.background_pixels;
 }
 

@@ -33,38 +33,17 @@ BN_INLINE float covered_pixels(const TriangleSetup& t, const SubPixelBox& b, con
     return width > 0.0f && height > 0.0f ? width * height * (0.5f / (kSubpixel * kSubpixel)) * (area / box) : 0.0f;
 }
 
-// Sorts the first n singly drawn triangles from near to far. Then blocks, and under alpha test samples, hide later surfaces before a texel
-// is fetched. Equal depths keep their order (merge sort, runs doubling). Returns false, and keeps the list's order, if sorting would not
-// pay: too many or mostly small triangles, little overlap, or sorted already.
-BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int tile_x, int tile_y)
+// Returns the depth of a triangle's nearest vertex.
+BN_INLINE float nearest_depth(const TriangleSetup& t)
 {
-    constexpr float kLayers = 1.5f; // below this overlap, few samples are hidden
-    // Reuse memory that fragments need only later
-    const std::uint32_t room = static_cast<std::uint32_t>(f.tile_size * f.tile_size);
-    if (n < 2 || n > room)
-        return false;
-    float* const nearest = s.red; // by index in the list
-    std::uint32_t *from = reinterpret_cast<std::uint32_t*>(s.order), *to = reinterpret_cast<std::uint32_t*>(s.fragment_pixel);
-    std::uint32_t large = 0, tested = 0;
-    float covered = 0.0f;
-    const std::int32_t side = f.tile_size * kSubpixel, left = tile_x * side - f.center_x, top = tile_y * side - f.center_y;
-    const SubPixelBox tile = {left, top, left + side, top + side};
-    bool in_order = true;
-    // Find each triangle's nearest depth, and judge the gain
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const TriangleSetup& t = s.triangles[s.drawn_singly[i]];
-        const float key = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
-        nearest[i] = t.z[2] > key ? t.z[2] : key;
-        from[i] = i;
-        in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
-        const SubPixelBox box = box_of(t);
-        large += larger_than_a_block(box);
-        covered += covered_pixels(t, box, tile);
-        tested += f.materials[t.info >> 2].alpha_mode != kAlpha_opaque;
-    }
-    if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n || covered < kLayers * static_cast<float>(room))))
-        return false;
-    // Merge sort
+    const float z = t.z[0] > t.z[1] ? t.z[0] : t.z[1];
+    return t.z[2] > z ? t.z[2] : z;
+}
+
+// Sorts the n numbers in `from` by nearest[number], the nearest first. Equal depths keep their order (merge sort, runs doubling). `to` has
+// room for n. Returns the sorted one of the two arrays.
+BN_INLINE std::uint32_t* sort_by_depth(const float* nearest, std::uint32_t n, std::uint32_t* from, std::uint32_t* to)
+{
     for (std::uint32_t run = 1; run < n; run *= 2) {
         for (std::uint32_t begin = 0; begin < n; begin += 2 * run) {
             const std::uint32_t middle = begin + run < n ? begin + run : n, end = begin + 2 * run < n ? begin + 2 * run : n;
@@ -74,8 +53,44 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
         std::uint32_t* const swapped = from;
         from = to, to = swapped;
     }
+    return from;
+}
+
+// Sorts the first n singly drawn triangles from near to far. Then blocks, and under alpha test samples, hide later surfaces before a texel
+// is fetched. Returns false, and keeps the list's order, if sorting would not pay: too many or mostly small triangles, little overlap, or
+// sorted already.
+BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int tile_x, int tile_y)
+{
+    constexpr float kLayers = 1.5f; // below this overlap, few samples are hidden
+    // Reuse memory that fragments need only later
+    const std::uint32_t room = static_cast<std::uint32_t>(f.tile_size * f.tile_size);
+    if (n < 2 || n > room)
+        return false;
+    float* const nearest = s.red; // by index in the list
+    std::uint32_t *order = reinterpret_cast<std::uint32_t*>(s.order), *other = reinterpret_cast<std::uint32_t*>(s.fragment_pixel);
+    std::uint32_t large = 0, tested = 0;
+    float covered = 0.0f;
+    const std::int32_t side = f.tile_size * kSubpixel, left = tile_x * side - f.center_x, top = tile_y * side - f.center_y;
+    const SubPixelBox tile = {left, top, left + side, top + side};
+    bool in_order = true;
+    // Find each triangle's nearest depth, and judge the gain
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const TriangleSetup& t = s.triangles[s.drawn_singly[i]];
+        nearest[i] = nearest_depth(t);
+        order[i] = i;
+        in_order = in_order && (i == 0 || nearest[i - 1] >= nearest[i]);
+        const SubPixelBox box = box_of(t);
+        large += larger_than_a_block(box);
+        covered += covered_pixels(t, box, tile);
+        tested += f.materials[t.info >> 2].alpha_mode != kAlpha_opaque;
+    }
+    if (in_order || (2 * tested < n && (n > kSortedTriangles || 2 * large < n || covered < kLayers * static_cast<float>(room))))
+        return false;
+    // Sort
+    const std::uint32_t* const sorted = sort_by_depth(nearest, n, order, other);
+    std::uint32_t* const to = sorted == order ? other : order;
     for (std::uint32_t i = 0; i < n; ++i)
-        to[i] = s.drawn_singly[from[i]];
+        to[i] = s.drawn_singly[sorted[i]];
     __builtin_memcpy(s.drawn_singly, to, n * sizeof *to);
     return true;
 }

@@ -54,7 +54,7 @@ BN_INLINE bool cover_block(const FrameParams& f, const TileTriangle& t, const Ed
     return wrote;
 }
 
-// Clears a layer: its samples start at the solid depths. Blocks without a further layer accept no triangle.
+// Clears a layer: its samples start at the solid depths. Samples and blocks without a further layer accept no triangle.
 BN_INLINE void begin_layer(const FrameParams& f, const TileScratch& solid, TileScratch& layer)
 {
     const int blocks = (f.tile_size / kBlock) * (f.tile_size / kBlock), samples = f.msaa * kBlockPixels;
@@ -63,12 +63,27 @@ BN_INLINE void begin_layer(const FrameParams& f, const TileScratch& solid, TileS
         const bool done = solid.peel->done[block];
         layer.block_state[block] = done ? BlockState::empty : BlockState::drawn;
         layer.block_far[block] = done ? 2.0f : 0.0f; // a lower bound beyond any triangle's depth
-        layer.block_dirty[block] = done ? 0 : 255;
+        layer.block_dirty[block] = 0;
         for (int i = block * samples; i < (block + 1) * samples && !done; i += kLanes) {
-            store(layer.depth + i, load(solid.depth + i));
+            store(layer.depth + i, select(load(solid.peel->depth + i) >= lit(0.0), load(solid.depth + i), lit(2.0)));
             store_int(reinterpret_cast<std::int32_t*>(layer.ids) + i, int_lit(-1));
         }
     }
+}
+
+// Returns the farthest depth among all samples of a layer.
+BN_INLINE float farthest_of_layer(const FrameParams& f, TileScratch& layer)
+{
+    const int blocks = (f.tile_size / kBlock) * (f.tile_size / kBlock), samples = f.msaa * kBlockPixels;
+    float farthest = 2.0f;
+    for (int block = 0; block < blocks; ++block) {
+        if (layer.block_dirty[block] > 0) {
+            layer.block_far[block] = farthest_depth(f, layer.depth + block * samples);
+            layer.block_dirty[block] = 0;
+        }
+        farthest = layer.block_far[block] < farthest ? layer.block_far[block] : farthest;
+    }
+    return farthest;
 }
 
 } // namespace BN_ISA_NS

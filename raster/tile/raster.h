@@ -105,6 +105,21 @@ BN_INLINE void add_edge(const TileTriangle& t, int edge, int bx, int by, BlockEd
                                                 static_cast<std::int64_t>(t.step_y[edge]) * (by * kBlock * 16));
 }
 
+// Returns the farthest depth among a block's samples.
+BN_INLINE float farthest_depth(const FrameParams& f, const float* depth)
+{
+    constexpr int kChains = 4; // independent chains of minima
+    real far[kChains];
+    for (int k = 0; k < kChains; ++k)
+        far[k] = load(depth + k * kLanes);
+    for (int i = kChains * kLanes; i < f.msaa * kBlockPixels; i += kChains * kLanes)
+        for (int k = 0; k < kChains; ++k)
+            far[k] = min(far[k], load(depth + i + k * kLanes));
+    float farthest[kLanes];
+    store(farthest, reduce_min(min(min(far[0], far[1]), min(far[2], far[3]))));
+    return farthest[0];
+}
+
 // Returns true if the triangle's greatest depth in the block lies behind the block's farthest sample. The bound on that sample is updated
 // only from time to time. It may be too low but never too high, so it cannot change the picture.
 template <bool kAnyOrder>
@@ -116,18 +131,9 @@ BN_INLINE bool block_hidden(const FrameParams& f, const TileTriangle& t, float n
     // Recompute the farthest depth after enough writes
     if (scratch.block_dirty[block] < t.refresh_writes)
         return false;
-    constexpr int kChains = 4; // independent chains of minima
-    real far[kChains];
-    for (int k = 0; k < kChains; ++k)
-        far[k] = load(depth + k * kLanes);
-    for (int i = kChains * kLanes; i < f.msaa * kBlockPixels; i += kChains * kLanes)
-        for (int k = 0; k < kChains; ++k)
-            far[k] = min(far[k], load(depth + i + k * kLanes));
-    float farthest[kLanes];
-    store(farthest, reduce_min(min(min(far[0], far[1]), min(far[2], far[3]))));
-    scratch.block_far[block] = farthest[0];
+    scratch.block_far[block] = farthest_depth(f, depth);
     scratch.block_dirty[block] = 0;
-    return hidden(farthest[0]);
+    return hidden(scratch.block_far[block]);
 }
 
 struct NoAlpha {}; // opaque: every covered sample counts

@@ -28,7 +28,8 @@ struct WorkerPeel {
     Column<std::int32_t> id;
     Column<std::uint64_t> pixels;
     Column<bool> done;
-    Column<std::uint32_t> triangles;
+    Column<std::uint32_t> triangles, order;
+    Column<float> nearest;
 
     void prepare(std::size_t samples, std::size_t blocks)
     {
@@ -39,7 +40,7 @@ struct WorkerPeel {
     PeelScratch view(TileScratch& layer, float* output_through)
     {
         if (triangles.size() < layer.triangle_count)
-            triangles.resize(layer.triangle_count);
+            triangles.resize(layer.triangle_count), order.resize(layer.triangle_count), nearest.resize(layer.triangle_count);
         return {.layer = &layer,
                 .alpha = alpha.data(),
                 .depth = depth.data(),
@@ -51,7 +52,11 @@ struct WorkerPeel {
                 .pixels = pixels.data(),
                 .done = done.data(),
                 .triangles = triangles.data(),
+                .order = order.data(),
+                .nearest = nearest.data(),
                 .triangle_count = 0,
+                .passed = 0,
+                .nearest_open = 0.0f,
                 .fragment_count = 0,
                 .output_through = output_through};
     }

@@ -117,8 +117,12 @@ struct PeelScratch {
     float* through;            // [block][sample][64] blended_light::through
     std::uint64_t* pixels;     // [block] pixels with a blended surface
     bool* done;                // [block] no further layer
-    std::uint32_t* triangles;  // blended triangles in the tile's list
+    std::uint32_t* triangles;  // blended triangles in the tile's list; from begin_layers() on the nearest first
+    std::uint32_t* order;      // room for as many
+    float* nearest;            // by number in the tile's list: depth of the nearest vertex
     std::uint32_t triangle_count;
+    std::uint32_t passed;         // triangles at the front of the list that no further layer shows
+    float nearest_open;           // greatest of `depth`
     std::uint32_t fragment_count; // in all layers
     float* output_through;        // the frame's [pixel][sample], or null
 };

@@ -319,7 +319,13 @@ void begin_layers(const Tile& t)
     }
     for (int block = 0; block < blocks; ++block)
         peel.pixels[block] = 0, peel.done[block] = false;
-    peel.fragment_count = 0;
+    peel.fragment_count = 0, peel.passed = 0, peel.nearest_open = 2.0f;
+    // Sort the triangles
+    for (std::uint32_t k = 0; k < peel.triangle_count; ++k)
+        peel.nearest[peel.triangles[k]] = nearest_depth(peel.layer->triangles[peel.triangles[k]]);
+    std::uint32_t* const sorted = sort_by_depth(peel.nearest, peel.triangle_count, peel.triangles, peel.order);
+    peel.order = sorted == peel.triangles ? peel.order : peel.triangles;
+    peel.triangles = sorted;
 }
 
 int find_layer(const Tile& t)
@@ -327,12 +333,19 @@ int find_layer(const Tile& t)
     PeelScratch& peel = *t.s.peel;
     TileScratch& layer = *peel.layer;
     begin_layer(t.f, t.s, layer);
-    for (std::uint32_t k = 0; k < peel.triangle_count; ++k) {
+    float farthest = 0.0f;
+    std::uint32_t drawn = 0, bounded = 4; // number of triangles, doubled at each bound, so that bounds cost little
+    for (std::uint32_t k = peel.passed; k < peel.triangle_count && peel.nearest[peel.triangles[k]] >= farthest; ++k) {
         const std::uint32_t i = peel.triangles[k];
         TileTriangle triangle;
-        if (!begin_triangle(t.f, layer.triangles[i], t.index_x, t.index_y, triangle))
+        const bool touches = begin_triangle(t.f, layer.triangles[i], t.index_x, t.index_y, triangle);
+        if (!touches || triangle.z_min > peel.nearest_open) { // before the last layer everywhere
+            peel.passed += peel.passed == k;
             continue;
-        triangle.refresh_writes = 4;
+        }
+        if (++drawn > bounded)
+            farthest = farthest_of_layer(t.f, layer), bounded *= 2;
+        triangle.refresh_writes = 1;
         note_material(layer, layer.triangles[i].info >> 2);
         raster_triangle<true>(t.f, triangle, i, layer, PeelBlocks{t.f, peel});
     }

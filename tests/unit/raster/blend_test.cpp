@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <iterator>
 
 #include "core/scene/builtin/builtin.h"
@@ -118,6 +119,29 @@ TEST(blend, thin_and_many_sheets_are_exact)
             {0.01f + 0.006f * static_cast<float>(i * 67 % 150), {random.unit(), random.unit(), random.unit(), 0.1f * random.unit()}});
     many.push_back({0.001f, kBlue, AlphaMode::opaque});
     expect_near(middle(draw(many, 2)), over(many), 2e-5, 2);
+}
+
+// Returns the least CPU time of three frames with `count` sheets, in clock ticks.
+double time_of_sheets(int count)
+{
+    std::vector<Sheet> sheets;
+    for (int i = 0; i < count; ++i)
+        sheets.push_back({0.01f + 0.9f * static_cast<float>(i * 7 % count) / static_cast<float>(count), {1, 1, 1, 0.001f}});
+    const Stage stage(sheets_of(sheets, -4.0f), 0.0f);
+    double least = 1e30;
+    for (int k = 0; k < 3; ++k) {
+        const std::clock_t begin = std::clock();
+        const Frame frame = stage.render(desc_with(1), best_isa());
+        least = std::min(least, static_cast<double>(std::clock() - begin));
+        expect_near(middle(frame), glm::dvec3(1.0 - std::pow(0.999, count)), 1e-4, 1);
+    }
+    return least;
+}
+
+TEST(blend, time_grows_as_the_number_of_sheets)
+{
+    const double few = time_of_sheets(500), many = time_of_sheets(2000);
+    EXPECT_LT(many, 8.0 * few); // 4 by the number; 16 if each layer looks at all sheets
 }
 
 TEST(blend, what_is_solid_hides_what_lies_behind_it)
