@@ -29,6 +29,7 @@ Examples:
   burnish compare reference.png test.png --error-map error.png --html report.html
   burnish compare reference.exr test.exr --fail-flip 0.02 --fail-max 0.5
   burnish compare --sequence truth_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
+  burnish compare reference.exr test.exr --second-reference other_seed.exr
   burnish compare mean.exr test.exr --variance variance.exr --significance 0.01)";
 
 // Returns each output path with its option.
@@ -45,6 +46,8 @@ std::vector<std::pair<std::string, std::string>> outputs_of(const CompareOptions
 std::vector<std::string> inputs_of(const CompareOptions& options)
 {
     std::vector<std::string> inputs = {options.reference, options.test};
+    if (!options.second_reference.empty())
+        inputs.push_back(options.second_reference);
     inputs.insert(inputs.end(), options.variances.begin(), options.variances.end());
     return inputs;
 }
@@ -99,14 +102,15 @@ Status check_variance(const std::string& name, const Image& variance, const Comp
 Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
 {
     const std::vector<std::string> names = inputs_of(options);
+    const std::size_t colours = options.second_reference.empty() ? 2 : 3;
     std::vector<Result<Image>> images(names.size(), Result<Image>(Image{}));
     std::vector<PictureNotes> notes(names.size());
     jobs.parallel_for(names.size(), [&](std::size_t i, int) {
-        images[i] = i < 2 ? read_colours(names[i], options.limits, notes[i]) : read_image(names[i], options.limits, &notes[i]);
+        images[i] = i < colours ? read_colours(names[i], options.limits, notes[i]) : read_image(names[i], options.limits, &notes[i]);
     });
     for (const Result<Image>& image : images)
         BN_TRY(image);
-    if (images.size() > 2 && (notes[0].converted || notes[1].converted))
+    if (images.size() > colours && (notes[0].converted || notes[1].converted))
         return usage_error("--variance", fmt::format("{} has other primaries than Rec.709, and variances cannot be converted",
                                                      names[notes[0].converted ? 0 : 1]));
     Pictures pictures;
@@ -117,7 +121,15 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
     pictures.test = std::move(*images[1]);
     pictures.note = drop_lone_alpha(pictures.reference, options.reference, pictures.test, options.test);
     BN_TRY(check_match(options.test, pictures.test, options.reference, pictures.reference));
-    for (std::size_t i = 2; i < images.size(); ++i) {
+    if (colours > 2) {
+        Image& second = pictures.second_reference.emplace(std::move(*images[2]));
+        if (second.channels > pictures.reference.channels)
+            drop_lone_alpha(second, options.second_reference, pictures.reference, options.reference);
+        BN_TRY(check_match(options.second_reference, second, options.reference, pictures.reference));
+        if (const std::int64_t bad = not_finite_pixels(second, second))
+            return Error{ExitCode::not_finite, options.second_reference, "", fmt::format("{} pixels are NaN or Inf", bad)};
+    }
+    for (std::size_t i = colours; i < images.size(); ++i) {
         BN_TRY(check_variance(names[i], *images[i], options, pictures.reference));
         pictures.variances.push_back(std::move(*images[i]));
     }

@@ -13,10 +13,11 @@ namespace {
 // Returns the metrics for the pictures' format, and those that an output or a limit needs.
 Metrics wanted(const CompareOptions& options, bool floats)
 {
-    Metrics m = options.metrics.value_or(Metrics{!floats, floats, true, true, true, true, true});
+    Metrics m = options.metrics.value_or(Metrics{!floats, floats, true, true, true, true, true, false});
     if (options.fail_flip || !options.error_map.empty() || !options.html.empty())
         if (!m.flip && !m.flip_hdr)
             (floats ? m.flip_hdr : m.flip) = true;
+    m.pattern = m.pattern || options.fail_pattern || !options.second_reference.empty();
     m.max = m.max || options.fail_max || options.fail_fraction;
     return m;
 }
@@ -30,6 +31,11 @@ const char* flip_name(const Metrics& metrics)
 Json value_or_null(bool known, double value)
 {
     return known && std::isfinite(value) ? Json(value) : Json();
+}
+
+std::string ratio(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.2f}", value) : "unknown";
 }
 
 } // namespace
@@ -54,6 +60,10 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
         figures.pixels = pixel_figures(reference, test, jobs);
     if (asked.ssim)
         figures.ssim = ssim(reference, test, jobs);
+    if (asked.pattern) {
+        const TraceSpan span("pattern");
+        figures.pattern = pattern_figures(reference, pictures.second_reference ? &*pictures.second_reference : nullptr, test, jobs);
+    }
     if (!pictures.variances.empty())
         figures.z = z_test(reference, test, pictures.variances[0], pictures.variances.size() > 1 ? &pictures.variances[1] : nullptr,
                            options.significance, jobs);
@@ -92,6 +102,19 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures)
     put("ssim", asked.ssim, figures.ssim.has_value(), figures.ssim.value_or(0.0));
     put("max_abs", asked.max, pixels, p.max_abs);
     put("differing_fraction", asked.max, pixels, p.differing_fraction);
+    const PatternFigures t = figures.pattern.value_or(PatternFigures{});
+    const bool inside = t.pixels > 0;
+    if (asked.pattern)
+        json["pattern_pixels"] = figures.pattern ? Json(t.pixels) : Json();
+    put("pattern_rms", asked.pattern, inside, t.rms);
+    put("pattern_period", asked.pattern, inside, t.period);
+    put("pattern_period_rms", asked.pattern, inside, t.period_rms);
+    if (asked.pattern)
+        json["pattern_period_axis"] = inside ? Json(t.along_y ? "y" : "x") : Json();
+    put("quad_ratio_x", asked.pattern, inside, t.quad_ratio[0]);
+    put("quad_ratio_y", asked.pattern, inside, t.quad_ratio[1]);
+    put("tile_ratio_x", asked.pattern, inside, t.tile_ratio[0]);
+    put("tile_ratio_y", asked.pattern, inside, t.tile_ratio[1]);
     const ZTest z = figures.z.value_or(ZTest{});
     put("z_limit", !options.variances.empty(), figures.z.has_value(), z.limit);
     put("z_max", !options.variances.empty(), figures.z.has_value(), z.largest);
@@ -127,6 +150,16 @@ std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptio
         add("max", figures.pixels->max_abs);
         lines.emplace_back("differing", fmt::format("{:.4f} % of the pixels", 100.0 * figures.pixels->differing_fraction));
     }
+    if (figures.pattern && figures.pattern->pixels == 0)
+        lines.emplace_back("pattern", "no pixel lies inside a surface");
+    if (figures.pattern && figures.pattern->pixels > 0) {
+        const PatternFigures& p = *figures.pattern;
+        lines.emplace_back("pattern", fmt::format("{:.2f} % of luminance inside surfaces; period of {:.1f} pixels along {}: {:.2f} %",
+                                                  100.0 * p.rms, p.period, p.along_y ? "y" : "x", 100.0 * p.period_rms));
+        lines.emplace_back("steps",
+                           fmt::format("between quads over within: {} along x, {} along y; at tile borders over elsewhere: {}, {}",
+                                       ratio(p.quad_ratio[0]), ratio(p.quad_ratio[1]), ratio(p.tile_ratio[0]), ratio(p.tile_ratio[1])));
+    }
     if (figures.z)
         lines.emplace_back("z-test", fmt::format("largest |z| {:.3f}, limit {:.3f}, {} pixels rejected", figures.z->largest,
                                                  figures.z->limit, figures.z->rejected));
@@ -146,6 +179,9 @@ Status check_limits(const CompareOptions& options, const CompareFigures& figures
     if (options.fail_fraction && figures.pixels && figures.pixels->differing_fraction > *options.fail_fraction)
         return differ("--fail-fraction", fmt::format("{:.6g} of the pixels differ, more than {:.6g}", figures.pixels->differing_fraction,
                                                      *options.fail_fraction));
+    if (options.fail_pattern && figures.pattern && figures.pattern->rms > *options.fail_pattern)
+        return differ("--fail-pattern",
+                      fmt::format("pattern's RMS {:.6g} is more than {:.6g}", figures.pattern->rms, *options.fail_pattern));
     if (figures.z && figures.z->rejected_fraction > options.fail_z)
         return differ("--variance", fmt::format("the z-test rejects {:.6g} of the pixels, more than {:.6g}", figures.z->rejected_fraction,
                                                 options.fail_z));

@@ -9,12 +9,14 @@
 #include "apps/compare/options.h"
 #include "apps/report/json.h"
 #include "core/image/metrics/metrics.h"
+#include "core/image/metrics/pattern.h"
 #include "core/image/metrics/z_scores.h"
 
 namespace burnish {
 
 struct Pictures {
     Image reference, test;
+    std::optional<Image> second_reference;
     std::vector<Image> variances;
     std::vector<std::string> warnings; // guesses of the image readers
     std::string note;                  // on alpha, if only one of the two has alpha
@@ -28,6 +30,7 @@ struct CompareFigures {
     std::optional<ErrorSummary> errors; // summary for `flip`
     std::optional<PixelFigures> pixels;
     std::optional<double> ssim;
+    std::optional<PatternFigures> pattern;
     std::optional<ZTest> z;
 };
 

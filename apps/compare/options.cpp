@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::pair<const char*, bool Metrics::*> kMetrics[] = {
     {"flip", &Metrics::flip}, {"flip-hdr", &Metrics::flip_hdr}, {"mse", &Metrics::mse}, {"rel-mse", &Metrics::rel_mse},
-    {"psnr", &Metrics::psnr}, {"ssim", &Metrics::ssim},         {"max", &Metrics::max}};
+    {"psnr", &Metrics::psnr}, {"ssim", &Metrics::ssim},         {"max", &Metrics::max}, {"pattern", &Metrics::pattern}};
 
 std::vector<std::string> metric_names()
 {
@@ -28,8 +28,8 @@ std::vector<Option> figure_rows(CompareArguments& to)
 {
     CompareOptions& o = to.plain;
     return {
-        {"--metric", "NAMES", "Measures, separated by commas: flip or flip-hdr, mse, rel-mse, psnr, ssim, max",
-         choices(to.metrics, metric_names()), "all that suit the pictures"},
+        {"--metric", "NAMES", "Measures, separated by commas: flip or flip-hdr, mse, rel-mse, psnr, ssim, max, pattern",
+         choices(to.metrics, metric_names()), "all that suit the pictures, without pattern"},
         {"--ppd", "N", "FLIP: pixels per degree of the observer's visual field",
          number(o.flip.ppd, static_cast<double>(kMinPpd), static_cast<double>(kMaxPpd)), "67.02"},
         {"--tonemapper", "NAME", "HDR-FLIP: tone curve, {}", choice(o.flip.tonemap, {"aces", "reinhard", "hable"})},
@@ -38,6 +38,8 @@ std::vector<Option> figure_rows(CompareArguments& to)
         {"--stop-exposure", "EV", "HDR-FLIP: highest exposure", number(o.flip.stop_ev, -kMaxExposure, kMaxExposure),
          "found in the reference"},
         {"--exposures", "N", "HDR-FLIP: number of exposures", integer(o.flip.exposures, 1, kMaxFlipExposures), "one a stop"},
+        {"--second-reference", "FILE", "Independent second reference: takes the references' noise out of pattern",
+         file(o.second_reference)},
         {"--variance", "FILE", "Variance of the reference's pixel means, for a z-test of every pixel; a second one is the test's",
          files(o.variances)},
         {"--sequence", "", "Compare numbered files such as out_%04d.exr, and measure flicker", flag(o.sequence)},
@@ -53,6 +55,7 @@ std::vector<Option> failure_rows(CompareOptions& to)
          number(to.fail_flicker, 0.0, 1.0)},
         {"--fail-max", "V", "Fail if a channel differs by more than V", number(to.fail_max, 0.0, 1e38)},
         {"--fail-fraction", "F", "Fail if more than the fraction F of pixels differs", number(to.fail_fraction, 0.0, 1.0)},
+        {"--fail-pattern", "V", "Fail if pattern's RMS exceeds V", number(to.fail_pattern, 0.0, 1e6)},
         {"--fail-z", "F", "Fail if the z-test rejects more than the fraction F of pixels", number(to.fail_z, 0.0, 1.0)},
     };
 }
@@ -116,7 +119,8 @@ Result<CompareOptions> check_compare_options(const CompareArguments& in, const O
         for (const auto& [name, pattern] : {std::pair{"REFERENCE", out.reference}, {"TEST", out.test}})
             if (!has_number(pattern))
                 return usage_error(name, fmt::format("'{}' needs a number such as %04d with --sequence", pattern));
-        for (const char* option : {"--variance", "--html", "--error-map", "--fail-max", "--fail-fraction"})
+        for (const char* option :
+             {"--variance", "--second-reference", "--html", "--error-map", "--fail-max", "--fail-fraction", "--fail-pattern"})
             if (given.given(option))
                 return usage_error(option, "cannot be combined with --sequence");
         if (out.metrics && !out.metrics->flip && !out.metrics->flip_hdr)

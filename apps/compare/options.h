@@ -12,9 +12,9 @@
 
 namespace burnish {
 
-// The requested metrics. Without a choice by the user, the picture format selects LDR- or HDR-FLIP.
+// The requested metrics. Without a choice by the user, the picture format selects LDR- or HDR-FLIP, and `pattern` is left out.
 struct Metrics {
-    bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false, max = false;
+    bool flip = false, flip_hdr = false, mse = false, rel_mse = false, psnr = false, ssim = false, max = false, pattern = false;
 };
 
 struct CompareOptions {
@@ -22,7 +22,8 @@ struct CompareOptions {
     std::optional<Metrics> metrics; // none: all metrics for the pictures' format
     FlipOptions flip;
     std::string json, csv, html, error_map; // empty: no file; json, csv and html: "-" is standard output
-    std::optional<double> fail_flip, fail_max, fail_fraction;
+    std::optional<double> fail_flip, fail_max, fail_fraction, fail_pattern;
+    std::string second_reference;       // takes the reference's noise out of `pattern`; may be empty
     std::vector<std::string> variances; // the reference's, the test's
     double significance = 0.01, fail_z = 0.0;
     bool sequence = false; // reference and test are patterns of file sequences

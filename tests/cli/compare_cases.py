@@ -138,6 +138,34 @@ def limits(bench):
     check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
 
 
+@case("compare.patterns_are_measured_without_the_references_noise")
+def patterns(bench):
+    """A comb of 2 % under references with noise of 5 %; the noise is a fixed hash of the pixel."""
+    noisy = lambda seed: pfm(64, 48, lambda x, y: (1.0 + 0.05 * ((x * 7919 + y * 104729 + seed * 1299709) ** 3 % 1009 / 504 - 1),) * 3)
+    scratch(bench, "r.pfm", noisy(1))
+    scratch(bench, "r2.pfm", noisy(2))
+    scratch(bench, "t.pfm", pfm(64, 48, lambda x, y: (1.02 if x % 2 else 0.98,) * 3))
+    plain = figures(bench, "r.pfm", "t.pfm", "--metric", "pattern")
+    cleaned = figures(bench, "r.pfm", "t.pfm", "--second-reference", "r2.pfm")
+    check(plain["pattern_rms"] > 0.03 and "flip_mean" not in plain, str(plain))
+    check(abs(cleaned["pattern_rms"] - 0.02) < 0.002 and "flip_mean" in cleaned, str(cleaned))
+    check((cleaned["pattern_period"], cleaned["pattern_period_axis"]) == (2.0, "x"), str(cleaned))
+    check(cleaned["pattern_pixels"] == 60 * 44 and abs(cleaned["quad_ratio_x"] - 1) < 0.2, str(cleaned))
+    check("pattern_rms" not in figures(bench, "r.pfm", "t.pfm"), "pattern without being asked for")
+    words = ("compare", "r.pfm", "t.pfm", "--second-reference", "r2.pfm", "-q", "--fail-pattern")
+    bench.run(*words, "0.03").expect(0)
+    bench.run(*words, "0.01").expect(1).expect_one_line("--fail-pattern")
+    # a second reference of another size, or with NaN, is refused
+    scratch(bench, "small.pfm", pfm(8, 8, bright))
+    scratch(bench, "nan.pfm", pfm(64, 48, lambda x, y: (NAN if x == 3 else 1.0, 1.0, 1.0)))
+    bench.run("compare", "r.pfm", "t.pfm", "--second-reference", "small.pfm").expect(3).expect_one_line("small.pfm")
+    bench.run("compare", "r.pfm", "t.pfm", "--second-reference", "nan.pfm").expect(6).expect_one_line("nan.pfm")
+    # nothing inside a surface: no figures, and no failure
+    scratch(bench, "black.pfm", pfm(8, 8, lambda x, y: (0.0, 0.0, 0.0)))
+    none = figures(bench, "black.pfm", "black.pfm", "--metric", "pattern", "--fail-pattern", "0")
+    check(none["pattern_pixels"] == 0 and none["pattern_rms"] is None, str(none))
+
+
 @case("compare.sizes_and_channels_must_match", "input", tier="nightly")
 def mismatch(bench):
     pictures(bench)

@@ -1,0 +1,35 @@
+// Measures regular patterns that a technique leaves in a picture, such as combs and steps between 2x2 quads. FLIP blurs them away.
+//
+// The error is the difference of ln luminance, test minus reference. Only pixels inside surfaces count: alpha is 1 where there is alpha,
+// luminance is above 0 in all images, and the same holds for two pixels around.
+#pragma once
+#include <cstdint>
+
+#include "core/image/image.h"
+#include "core/jobs/jobs.h"
+
+namespace burnish {
+
+inline constexpr double kPatternSigma = 4.0;    // of the Gaussian that the high-pass filter subtracts, pixels
+inline constexpr int kPatternLags = 32;         // longest lag of the autocovariance, pixels
+inline constexpr double kLongestPeriod = 16.0;  // pixels; the shortest is 2
+inline constexpr double kCountedSteps = 0.99;   // share of the steps of a kind that count: the largest stand at edges
+inline constexpr int kPatternTile = 64;         // edge of the tiles whose borders are judged, pixels
+inline constexpr double kPatternFloor = 1.0e-3; // added to luminance before ln, by the reference's mean inside surfaces
+
+struct PatternFigures {
+    std::int64_t pixels = 0; // inside surfaces; 0: nothing else is known
+    double rms = 0.0;        // of the high-passed error of ln luminance (.05: 5 %)
+    double period = 0.0;     // strongest period, pixels, along one axis
+    bool along_y = false;    // the axis of `period`
+    double period_rms = 0.0; // RMS of the sinusoid with this period
+    // Mean squared step of the error between 2x2 quads over the mean inside quads, and across tile borders over all other steps; along
+    // x and y. 1: no pattern. NaN where there are no such steps.
+    double quad_ratio[2] = {}, tile_ratio[2] = {};
+};
+
+// Judges `test`. With an independent second reference, products of both errors take the references' noise out of every figure; it may be
+// null. Images have equal sizes and channel counts, and hold finite values; either all store floats (linear) or none does (sRGB).
+PatternFigures pattern_figures(const Image& reference, const Image* second, const Image& test, const Jobs& jobs);
+
+} // namespace burnish
