@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <utility>
 
 #include "apps/bake/direction.h"
 #include "apps/bake/direction_field.h"
@@ -34,11 +35,12 @@ namespace fs = std::filesystem;
 constexpr const char* kFooter =
     R"~(ltc: a table of linearly transformed cosines and albedos for anisotropic GGX lobes under area lights. Its axes are the eye's two angles,
 the greater width and the ratio of the widths. A stopped bake leaves TABLE.part, and the same command continues from it to the same bytes.
-direction: a map of the stretched highlight's direction, an angle from 0 to 180 degrees, from a picture's hue or luminance. Scratches
-run across it. See render --direction-map.
+direction: a map of the stretched highlight's direction, from a picture's hue or luminance: an angle from 0 to 180 degrees. The picture
+shows grooves, and the highlight runs across them, unless --strokes says highlights. See render --direction-map.
 quaternion: the shortest rotations to a normal map's normals. See render --quaternion-map.
 tpr: a map of the stretched highlight's direction in the tangent plane. Two expressions of u and v give its parts along tangent and
-bitangent, or --straighten lays it along one direction in space. See render --rotation-map.
+bitangent, or --straighten lays it along one direction in space. With --strokes grooves both give the grooves' direction, and the map still
+holds the highlight's. See render --rotation-map.
 half-vectors: half vectors that an Ashikhmin-Shirley lobe samples, over both random numbers; an .exr also holds their density.
 brdf-lut: directional albedo of that lobe, f0 red + green, over the eye's azimuth and the square root of its cosine. render --as-table reads
 both tables; exponents count to five digits.
@@ -69,6 +71,7 @@ Examples:
 struct BakeArguments {
     std::string what = "ltc", picture, heights, output, preview;
     DirectionFrom from = DirectionFrom::hue;
+    Strokes strokes = Strokes::grooves;
     double strength = 1.0;
     std::vector<std::string> expressions;
     std::string mesh;
@@ -113,6 +116,9 @@ OptionTable bake_option_table(BakeArguments& to)
                       {{"--from", "NAME", "Quantity that gives the direction, as an angle from 0 to 180 degrees: {}",
                         choice(to.from, {"hue", "luminance"})},
                        {"--strength", "S", "Anisotropy strength in the map, {}", number(to.strength, 0.0, 1.0)}});
+    table.add("Directions",
+              {{"--strokes", "NAME", "Direction that is given to direction and tpr: {}; the stretched highlight runs across grooves",
+                choice(to.strokes, {"grooves", "highlights"}), "grooves; tpr highlights"}});
     table.add_needing("WHAT", "tpr",
                       {{"--expr", "EXPR",
                         "Direction of the stretched highlight by u and v: its part along the tangent, then, given again or as PICTURE, "
@@ -175,6 +181,11 @@ Warnings repaired(const Image& picture, const std::string& path)
     return bad == 0 ? Warnings() : Warnings{fmt::format("{}: {} pixels are no numbers and are repaired", path, bad)};
 }
 
+bool has_strokes(const BakeArguments& a)
+{
+    return a.what == "direction" || a.what == "tpr";
+}
+
 // Writes baked data with `write`, and previews from `show` if --preview is given.
 template <class Write, class Show>
 int write_made(const BakeArguments& a, const std::string& path, const Warnings& warnings, Write write, Show show)
@@ -188,6 +199,9 @@ int write_made(const BakeArguments& a, const std::string& path, const Warnings& 
     report.release();
     for (const std::string& warning : warnings)
         report.warning(warning);
+    if (has_strokes(a))
+        report.event("strokes", a.strokes == Strokes::grooves ? "taken as grooves: highlights run across them"
+                                                              : "taken as highlights: grooves run across them");
     report.wrote(path);
     if (const Status written = write_preview(a.preview, preview, report); !written)
         return fail(written.error());
@@ -214,7 +228,8 @@ int run_direction(const BakeArguments& arguments)
     const Result<Image> picture = read_image(arguments.picture, arguments.limits);
     if (!picture)
         return fail(picture.error());
-    return write_map(arguments, direction_map(*picture, arguments.from, arguments.strength), repaired(*picture, arguments.picture),
+    return write_map(arguments, direction_map(*picture, arguments.from, arguments.strokes, arguments.strength),
+                     repaired(*picture, arguments.picture),
                      [](const Image& map) { return preview_of_rotations(map, RotationEncoding::direction); });
 }
 
@@ -250,8 +265,14 @@ int run_quaternion(const BakeArguments& a)
     return write_map(a, map.image, warnings, preview_of_quaternions);
 }
 
-int write_rotations(const BakeArguments& a, const Image& directions, PixelType type, const Warnings& warnings)
+// Writes directions (3 floats a texel). Grooves are turned by a quarter.
+int write_rotations(const BakeArguments& a, Image directions, PixelType type, const Warnings& warnings)
 {
+    const std::size_t texels = static_cast<std::size_t>(directions.width) * static_cast<std::size_t>(directions.height);
+    for (std::size_t i = 0; i < texels && a.strokes == Strokes::grooves; ++i) {
+        float* const d = directions.f32() + 3 * i;
+        d[0] = -std::exchange(d[1], d[0]);
+    }
     return write_map(a, encoded_rotations(directions, a.encoding, type), warnings,
                      [&](const Image& map) { return preview_of_rotations(map, a.encoding); });
 }
@@ -369,8 +390,13 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     return write_map(a, table, warnings, preview_of_half_vectors);
 }
 
-int run_bake(const BakeArguments& arguments, const OptionTable& given)
+int run_bake(const BakeArguments& usual, const OptionTable& given)
 {
+    BakeArguments arguments = usual;
+    if (!given.given("--strokes")) // a picture shows grooves
+        arguments.strokes = arguments.what == "direction" ? Strokes::grooves : Strokes::highlights;
+    else if (!has_strokes(arguments))
+        return fail(usage_error("--strokes", "is of direction and tpr"));
     if (arguments.what != "half-vectors" && arguments.what != "brdf-lut")
         for (const char* option : {"--nu", "--nv"})
             if (given.given(option))

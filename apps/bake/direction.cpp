@@ -51,13 +51,14 @@ std::byte byte_of(double value)
 
 } // namespace
 
-Image direction_map(const Image& picture, DirectionFrom from, double strength)
+Image direction_map(const Image& picture, DirectionFrom from, Strokes strokes, double strength)
 {
     Image map = make_image(picture.width, picture.height, 3, PixelType::u8);
     const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     for (std::size_t i = 0; i < pixels; ++i) {
         const Colour c = colour_at(picture, i);
-        const double angle = kPi * (from == DirectionFrom::hue ? hue(c) : luminance(c));
+        const double stroke = kPi * (from == DirectionFrom::hue ? hue(c) : luminance(c));
+        const double angle = strokes == Strokes::grooves ? stroke + 0.5 * kPi : stroke;
         map.bytes[3 * i] = byte_of(0.5 + 0.5 * det_cos(angle));
         map.bytes[3 * i + 1] = byte_of(0.5 + 0.5 * det_sin(angle));
         map.bytes[3 * i + 2] = byte_of(strength);

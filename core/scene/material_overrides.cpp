@@ -13,6 +13,7 @@
 
 #include "core/image/io/image_io.h"
 #include "core/image/io/stored_colour.h"
+#include "core/math/scalar_math.h"
 #include "core/scene/heights.h"
 #include "core/scene/texture.h"
 
@@ -195,6 +196,8 @@ Status put_maps(MapWriter& on, const MaterialOverrides& with)
         const Result<Image> image = on.read(with.rotation, 3);
         BN_TRY(image);
         on.put_directions(on.add(directions_of_rotations(*image, with.rotation_encoding), with.rotation, "rotations"));
+        if (with.strokes == Strokes::grooves)
+            on.each([](Material& m) { m.anisotropy_rotation += 0.5f * static_cast<float>(kPi); });
     }
     if (!with.roughness.empty()) {
         const Result<Image> image = on.read(with.roughness, 3);
@@ -298,8 +301,26 @@ Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with)
     MaterialOverrides maps;
     maps.height = found[kHeight];
     maps.normal = found[kNormal], maps.quaternion = found[kQuaternion], maps.rotation = found[kRotation];
-    maps.rotation_encoding = with.rotation_encoding;
+    maps.rotation_encoding = with.rotation_encoding, maps.strokes = with.strokes;
     return put_maps(on, maps);
+}
+
+// Checks that grooves are given by a map that does not say the contrary.
+Status check_strokes(const MaterialOverrides& with)
+{
+    if (with.strokes == Strokes::highlights)
+        return {};
+    const auto refuse = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason), "MaterialOverrides::strokes"}; };
+    if (!with.rotation.empty() || !with.material.empty()) {
+        if (with.rotation_encoding != RotationEncoding::direction)
+            return {};
+        return refuse(fmt::format("{}: the encoding of KHR_materials_anisotropy holds directions of highlights, not of grooves",
+                                  with.rotation.empty() ? with.material : with.rotation));
+    }
+    if (!with.direction.empty())
+        return refuse(
+            fmt::format("{}: a texture of KHR_materials_anisotropy holds directions of highlights, not of grooves", with.direction));
+    return refuse("there is no map of rotations that could hold grooves");
 }
 
 void put_f0(Material& m, const glm::vec3& f0)
@@ -322,6 +343,7 @@ bool MaterialOverrides::names(const std::string& path) const
 
 Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, const Limits& limits)
 {
+    BN_TRY(check_strokes(with));
     MapWriter on(scene, limits);
     if (!with.material.empty())
         if (Status put = put_material(on, scene, with); !put)

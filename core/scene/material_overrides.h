@@ -22,14 +22,16 @@ struct MaterialOverrides {  // empty: left as it is
     std::string roughness;  // roughness by direction
     RoughnessEncoding roughness_encoding = RoughnessEncoding::widths;
     RotationEncoding rotation_encoding = RotationEncoding::vector;
-    bool normal_y_down = false;  // all normal maps have green down
-    std::optional<glm::vec3> f0; // reflectance at normal incidence of all materials, which are dielectrics then
+    Strokes strokes = Strokes::highlights; // of `rotation`, and of the folder's
+    bool normal_y_down = false;            // all normal maps have green down
+    std::optional<glm::vec3> f0;           // reflectance at normal incidence of all materials, which are dielectrics then
 
     bool names(const std::string& path) const; // one of its pictures
 };
 
 // Pictures lie in the first set of texture coordinates, on every material that something with coordinates wears. Errors: what is no picture
-// of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part.
+// of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part, or
+// grooves where no map holds strokes: RotationEncoding::direction is that of highlights.
 Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits);
 
 } // namespace burnish

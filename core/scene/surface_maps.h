@@ -13,6 +13,9 @@ enum class RotationEncoding : std::uint8_t {
     direction     // KHR_materials_anisotropy: the direction in [0,1]^2, blue: strength
 };
 
+// The direction that strokes in a picture show. The stretched highlight runs across grooves.
+enum class Strokes : std::uint8_t { grooves, highlights };
+
 struct SurfaceMap {
     Image image;
     std::size_t repaired = 0; // texels that were invalid or not numbers

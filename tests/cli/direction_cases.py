@@ -35,7 +35,7 @@ def pixels(data):
 
 
 def angles(bench, colours, *words):
-    """Returns the degrees baked from a row of colours, and the blue channel."""
+    """Returns the degrees of highlights baked from a row of colours, and the blue channel."""
     scratch(bench, "p.png", png(len(colours), 1, lambda x, y: colours[x]))
     bench.run("bake", "direction", "p.png", *words, "-o", "d.png").expect(0)
     width, height, (row,) = pixels((bench.folder / "d.png").read_bytes())
@@ -48,7 +48,7 @@ def angles(bench, colours, *words):
 @case("bake.directions_are_half_the_hue")
 def hues(bench):
     colours = [(255, 0, 0), (255, 255, 0), (0, 255, 0), (0, 255, 255), (0, 0, 255), (255, 0, 255), (90, 90, 90), (200, 100, 150)]
-    found, blue = angles(bench, colours)
+    found, blue = angles(bench, colours, "--strokes", "highlights")
     check(all(abs(a - b) < 0.5 for a, b in zip(found, (0, 30, 60, 90, 120, 150, 0, 165))), f"{found}")
     check(set(blue) == {255}, f"{blue}")
     check(set(angles(bench, colours, "--strength", "0.4")[1]) == {102}, "another strength")
@@ -56,9 +56,49 @@ def hues(bench):
 
 @case("bake.directions_follow_luminance")
 def luminances(bench):
-    found, _ = angles(bench, [(0, 0, 0), (51, 51, 51), (128, 128, 128), (0, 255, 0), (0, 0, 255)], "--from", "luminance")
+    found, _ = angles(bench, [(0, 0, 0), (51, 51, 51), (128, 128, 128), (0, 255, 0), (0, 0, 255)], "--from", "luminance", "--strokes", "highlights")
     code = lambda y: 1.055 * y**(1 / 2.4) - 0.055
     check(all(abs(a - b) < 0.6 for a, b in zip(found, (0, 36, 180 * 128 / 255, 180 * code(0.7152), 180 * code(0.0722)))), f"{found}")
+
+
+@case("bake.highlights_run_across_the_strokes_of_a_picture")
+def strokes(bench):
+    """Red is a stroke along the tangent, cyan one across it."""
+    colours = [(255, 0, 0), (255, 255, 0), (0, 255, 255)]
+    for words, expected in (((), (90, 120, 180)), (("--strokes", "grooves"), (90, 120, 180)), (("--strokes", "highlights"), (0, 30, 90))):
+        found, _ = angles(bench, colours, *words)
+        apart = [abs((a - b + 90) % 180 - 90) for a, b in zip(found, expected)]
+        check(max(apart) < 0.5, f"{words}: {found}")
+        said = bench.run("bake", "direction", "p.png", *words, "-o", "d.png").expect(0).err
+        check(f"taken as {words[1] if words else 'grooves'}" in said, said)
+    for encoding in ("vector", "double-angle", "direction"):
+        maps = {}
+        for name, words in (("grooves", ("--strokes", "grooves")), ("highlights", ()), ("turned", ())):
+            expressions = ("cos(2*v)", "sin(2*v)") if name != "turned" else ("-sin(2*v)", "cos(2*v)")
+            bench.run("bake", "tpr", "--expr", *expressions, *words, "--encoding", encoding, "--size", "8x8", "-q", "-o", "m.exr").expect(0)
+            maps[name] = (bench.folder / "m.exr").read_bytes()
+        check(maps["grooves"] == maps["turned"] != maps["highlights"], f"{encoding}: grooves are not the highlights turned by a quarter")
+    bench.run("bake", "quaternion", "p.png", "--strokes", "grooves", "-o", "q.png").expect(2).expect_one_line("--strokes")
+
+
+@case("bake.maps_of_strokes_are_drawn_as_grooves_or_highlights")
+def drawn_strokes(bench):
+    """Grooves along a direction look as highlights across it."""
+    for name, expressions in (("along", ("cos(2*v)", "sin(2*v)")), ("across", ("-sin(2*v)", "cos(2*v)"))):
+        bench.run("bake", "tpr", "--expr", *expressions, "--size", "32x32", "-q", "-o", name + ".exr").expect(0)
+    words = ("render", "builtin:sphere", *SMALL, "--roughness", "0.3", "--anisotropy", "0.9", "-q")
+    for name, more in (("a", ("--rotation-map", "along.exr", "--strokes", "grooves")), ("b", ("--rotation-map", "across.exr")),
+                       ("c", ("--rotation-map", "along.exr"))):
+        bench.run(*words, *more, "-o", name + ".pfm").expect(0)
+    bench.run("compare", "a.pfm", "b.pfm", "--fail-flip", "0.002").expect(0)
+    bench.run("compare", "a.pfm", "c.pfm", "--fail-flip", "0.02").expect(1)
+    # maps that hold highlights by their format, and no map at all
+    scratch(bench, "d.png", png(2, 2, lambda x, y: (255, 128, 255)))
+    for more, needle in ((("--rotation-map", "d.png", "--rotation-encoding", "direction"), "d.png"), (("--direction-map", "d.png"), "d.png"),
+                         ((), "no map")):
+        done = bench.run(*words, *more, "--strokes", "grooves", "-o", "e.png").expect(2)
+        done.expect_one_line("--strokes")
+        check(needle in done.err, done.describe())
 
 
 def scene(with_map):
