@@ -34,7 +34,7 @@ std::vector<ExtractedLight> turned_extracted_lights(const Environment& environme
 void report_extracted_lights(const Environment& environment, Report& report)
 {
     for (const ExtractedLight& light : turned_extracted_lights(environment))
-        report.detail("key light", extracted_light_text(light));
+        report.detail("extracted light", extracted_light_text(light));
 }
 
 Json extracted_lights_json(const std::vector<ExtractedLight>& lights)

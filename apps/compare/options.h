@@ -37,7 +37,7 @@ struct CompareOptions {
 struct CompareArguments {
     CompareOptions plain;
     std::vector<std::string> metrics;
-    Isa isa = Isa::scalar;
+    Isa isa = {};
 };
 
 // With --sequence: compares each picture with its reference, and successive pictures with each other. Returns the exit code.

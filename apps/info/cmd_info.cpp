@@ -111,7 +111,7 @@ int print_text(const Info& info, const Environment* environment)
         for (const std::string& warning : environment->warnings)
             fmt::print("warning      {}\n", warning);
         for (const ExtractedLight& light : turned_extracted_lights(*environment))
-            fmt::print("key light    {}\n", extracted_light_text(light));
+            fmt::print("extracted light {}\n", extracted_light_text(light));
     }
     return 0;
 }

@@ -56,7 +56,7 @@ struct RenderOptions {
     ReferenceOptions reference; // for --backend reference
     std::string variance_file;  // empty: none
     VulkanOptions vulkan;       // for --backend vulkan
-    Isa isa = Isa::scalar;
+    Isa isa = {};
     int threads = 0; // 0: all cores open to the process
     int frames = 1;
     int turntable = 0; // pictures around the scene; 0: no turntable

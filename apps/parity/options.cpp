@@ -186,10 +186,7 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
     std::vector<std::string> inputs = {in.render.plain.env};
     for (const ParityPlace& place : out.places)
         inputs.push_back(place.scene);
-    if (const Status writable =
-            check_outputs({}, {{"--json", out.json}, {"--csv", out.csv}, {"--junit", out.junit}, {"--html", out.html}}, inputs);
-        !writable)
-        return writable.error();
+    BN_TRY(check_outputs({}, {{"--json", out.json}, {"--csv", out.csv}, {"--junit", out.junit}, {"--html", out.html}}, inputs));
     return out;
 }
 

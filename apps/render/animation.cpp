@@ -67,8 +67,7 @@ class Animation {
             row.scene_changes_ = row.scene_changes_ || changes_scene(option);
         }
         for (int i = 0; i < row.count_; ++i) // checks every step first: a bad value in the middle ends the run at once
-            if (const Result<Step> step = row.step(i); !step)
-                return step.error();
+            BN_TRY(row.step(i));
         return row;
     }
 

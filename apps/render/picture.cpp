@@ -139,8 +139,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     report_scene(*parts.scene, report);
     if (options.backend != "reference") // the reference bakes nothing, so it checks later
         BN_TRY(check_frame(parts.scene->scene, options.frame));
-    if (const Result<ChosenView> view = choose_view(options, parts.scene->scene, parts.scene->tables); !view)
-        return view.error();
+    BN_TRY(choose_view(options, parts.scene->scene, parts.scene->tables));
     if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
         report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")

@@ -8,7 +8,7 @@
 namespace burnish {
 
 struct SubjectOptions {
-    Isa isa = Isa::scalar;
+    Isa isa = {};
     int threads = 0;                 // for workloads without a thread count; 0: all cores
     bool coarse_environment = false; // a small environment, baked without the cache
 };

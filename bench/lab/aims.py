@@ -5,13 +5,13 @@ Usage: aims.py --program build/release/burnish [--instructions build/release/ben
                [--work FOLDER] [--short|--quick] [--json FILE]
 
 Mean HDR-FLIP of `burnish chart` over six environments, half of which no constant was ever chosen on, alpha_lin, eta and two scenes, with
-and without key lights:
+and without extracted lights:
 
   - lobe_line with as many samples as take no more time than major_axis_weighted with 16: by the instructions of frames of all eta, which
     do not depend on what else the machine does (--instructions), else by the CPU time of the frames, drawn in turn on one thread: the median
     over all places of its ratio.
   - major_axis_weighted as it was: of PROGRAM (--before: an older burnish), else with the overlap that it had (--axis-beta), which flatters
-    it, since levels narrower across the grain and the lobe's own albedo stay. Without key lights, which there were none of then.
+    it, since levels narrower across the grain and the lobe's own albedo stay. Without extracted lights, which there were none of then.
   - bent_normal and split_isotropic, and where they do better.
   - Key lights: places that they make worse, and the mean with them over the mean without where there are some and alpha_lin is at most 0.65.
   - The floor: mean FLIP that the references' own noise alone makes.
@@ -75,13 +75,13 @@ def verdict(name, reached, aim, met):
 
 
 def judge(on, off, before, line, lights):
-    """Prints a line an aim; on, off: places_of() with and without key lights, before: places; line: lobe_line's name; lights: by environment."""
+    """Prints a line an aim; on, off: places_of() with and without extracted lights, before: places; line: lobe_line's name; lights: by environment."""
     mine = on[line]
     of_before, of_bent = (mean(list(mine.values())) / max(mean([rows[p] for p in mine]), 1e-9) for rows in (before, on["bent_normal"]))
     results = [verdict("lobe_line to major_axis_weighted as it was, equal time", f"{of_before:.3f}", "0.55", of_before <= 0.55),
-               verdict("lobe_line to bent_normal, both with key lights", f"{of_bent:.3f}", "0.35", of_bent <= 0.35)]
+               verdict("lobe_line to bent_normal, both with extracted lights", f"{of_bent:.3f}", "0.35", of_bent <= 0.35)]
     bare = mean(list(mine.values())) / max(mean([off["bent_normal"][p] for p in mine]), 1e-9)
-    results.append(verdict("lobe_line to bent_normal without key lights", f"{bare:.3f}", "0.35", bare <= 0.35))
+    results.append(verdict("lobe_line to bent_normal without extracted lights", f"{bare:.3f}", "0.35", bare <= 0.35))
     for other in OTHERS:
         lost = sorted(((mine[p] - on[other][p], p) for p in mine if mine[p] >= on[other][p]), reverse=True)
         share = 1.0 - len(lost) / len(mine)
@@ -89,13 +89,13 @@ def judge(on, off, before, line, lights):
         for gap, (scene, env, roughness, eta) in lost:
             print(f"    not at {pathlib.Path(env).name} {scene} alpha_lin {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
     worse = sorted(((mine[p] - off[line][p], p) for p in mine if mine[p] > off[line][p] + key_lights.WORSE), reverse=True)
-    results.append(verdict(f"places that key lights make worse by more than {key_lights.WORSE}, of {len(mine)}", str(len(worse)), "0", not worse))
+    results.append(verdict(f"places that extracted lights make worse by more than {key_lights.WORSE}, of {len(mine)}", str(len(worse)), "0", not worse))
     for gap, (scene, env, roughness, eta) in worse:
         print(f"    worse at {pathlib.Path(env).name} {scene} alpha_lin {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
     sharp = [p for p in mine if lights[p[1]] and p[2] <= key_lights.SHARP + 1e-6]
     if sharp:
         ratio = mean([mine[p] for p in sharp]) / max(mean([off[line][p] for p in sharp]), 1e-9)
-        results.append(verdict(f"key lights on to off, {len(sharp)} places that have some, alpha_lin <= {key_lights.SHARP}", f"{ratio:.3f}", "0.5", ratio <= 0.5))
+        results.append(verdict(f"extracted lights on to off, {len(sharp)} places that have some, alpha_lin <= {key_lights.SHARP}", f"{ratio:.3f}", "0.5", ratio <= 0.5))
     return results
 
 
@@ -105,7 +105,7 @@ def table(on, off, before, noise, line, lights, environments):
     groups = [(pathlib.Path(e).name, [e]) for e in environments]
     groups += [("chosen on", [e for e in environments if e not in unseen]), ("never chosen on", unseen), ("all", environments)]
     columns = (line, "major_axis_weighted:16", *OTHERS)
-    print(f"{'mean HDR-FLIP, key lights on (off)':<24}  lights" + "".join(f"  {c:>22}" for c in columns) + "  weighted as it was   on/off   worse   floor")
+    print(f"{'mean HDR-FLIP, extracted lights on (off)':<24}  lights" + "".join(f"  {c:>22}" for c in columns) + "  weighted as it was   on/off   worse   floor")
     for name, members in groups:
         inside = [p for p in on[line] if p[1] in members]
         if not inside:

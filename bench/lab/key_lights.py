@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What key lights do to pictures: FLIP to the reference with and without them, by environment, roughness and anisotropy.
+"""What extracted lights do to pictures: FLIP to the reference with and without them, by environment, roughness and anisotropy.
 
 Usage: key_lights.py --program build/release/burnish [--env FILE|FOLDER]... [--technique NAME,...] [--scene SCENE]... [--work FOLDER]
                      [--quick] [--json FILE]
@@ -7,9 +7,9 @@ Usage: key_lights.py --program build/release/burnish [--env FILE|FOLDER]... [--t
 Under builtin:sky, three skies that it makes (a low sun, two suns, a sun behind thin cloud) and the environments given, or else those that
 lie beside the checkout, `burnish chart` measures every technique twice, with --key-lights auto and off, against one reference. What is
 stopped goes on where --work names the same folder. A line a place: mean FLIP without and with, and the ratio. At the end, by environment,
-how many key lights it has, the means, and what is aimed at:
+how many extracted lights it has, the means, and what is aimed at:
   - no place is worse by more than 0.002;
-  - where there are key lights and alpha_lin is at most 0.65, the mean is at most half.
+  - where there are extracted lights and alpha_lin is at most 0.65, the mean is at most half.
 
 Exit code: 0 nothing became worse; 1 a place did; 2 something could not be run.
 """
@@ -129,7 +129,7 @@ def mean(values):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="FLIP with and without key lights")
+    parser = argparse.ArgumentParser(description="FLIP with and without extracted lights")
     parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--env", action="append", default=[], help="further environments, or folders of them; several times (../shared/data/env)")
     parser.add_argument("--scene", action="append", default=[], help="builtin:spheres and builtin:teapot")
@@ -166,7 +166,7 @@ def main():
             sharp = [p for p in places if p[3] <= SHARP + 1e-6]
             ratio = mean([on[p] for p in sharp]) / max(mean([off[p] for p in sharp]), 1e-9)
             aim = "" if not lights[env] else ", at most half" if ratio <= 0.5 else ", not halved"
-            print(f"{pathlib.Path(env).name}, {technique}: {lights[env]} key lights, mean FLIP {mean([off[p] for p in places]):.4f} -> "
+            print(f"{pathlib.Path(env).name}, {technique}: {lights[env]} extracted lights, mean FLIP {mean([off[p] for p in places]):.4f} -> "
                   f"{mean([on[p] for p in places]):.4f}, up to alpha_lin {SHARP} by {ratio:.2f}{aim}")
     print(f"{worse} of {len(off)} places worse by more than {WORSE}")
     if given.json:

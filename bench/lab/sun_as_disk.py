@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Whether a sun is nearer to the reference as a key light or as an area light: mean HDR-FLIP of both, by place.
+"""Whether a sun is nearer to the reference as a extracted light or as an area light: mean HDR-FLIP of both, by place.
 
 Usage: sun_as_disk.py --program build/release/burnish [--size WxH] [--samples N] [--technique NAME] [--work FOLDER] [--json FILE]
 
 Skies that are dim but for an even disc, high or low, small or large, are drawn in three ways on builtin:spheres: by the reference; with the
-disc as the key light that baking finds in it; and without the disc, under a disk-shaped area light of that key light's direction, axes and
+disc as the extracted light that baking finds in it; and without the disc, under a disk-shaped area light of that extracted light's direction, axes and
 radiance, 200 metres away from balls of 0.7 metres across, by transformed cosines. Printed is a line a place, and means by roughness and by sky. Files in --work are not
 made again.
 
-Exit code: 0 key lights are nearer in the mean; 1 area lights are; 2 something could not be run.
+Exit code: 0 extracted lights are nearer in the mean; 1 area lights are; 2 something could not be run.
 """
 
 import itertools
@@ -39,10 +39,10 @@ def sky_of(radius_deg, elevation_deg, with_sun):
 
 
 def disk_light(run, sky):
-    """--light's words for the only key light of a sky."""
+    """--light's words for the only extracted light of a sky."""
     keys = json.loads(run("info", "--env", sky, "--json"))["environment"]["key_lights"]
     if len(keys) != 1:
-        print(f"{sky} has {len(keys)} key lights", file=sys.stderr)
+        print(f"{sky} has {len(keys)} extracted lights", file=sys.stderr)
         sys.exit(2)
     key = keys[0]
     u, v = key["axis_u"], key["axis_v"]
@@ -84,15 +84,15 @@ def measure(a, work):
             flip = {way: json.loads(run("compare", f"{name}_truth.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
                                         "-q"))["flip_mean"] for way in ("key", "area")}
             rows.append({"radius_deg": radius, "elevation_deg": elevation, "roughness": roughness, "anisotropy": eta, **flip})
-            print(f"disc of {radius:g} degrees at {elevation:g}, roughness {roughness:g}, anisotropy {eta:g}: key light {flip['key']:.4f}, area "
+            print(f"disc of {radius:g} degrees at {elevation:g}, roughness {roughness:g}, anisotropy {eta:g}: extracted light {flip['key']:.4f}, area "
                   f"light {flip['area']:.4f}", flush=True)
     for what, values in (("roughness", ROUGHNESS), ("anisotropy", ANISOTROPY), ("radius_deg", RADII_DEG), ("elevation_deg", ELEVATIONS_DEG)):
         for value in values:
             part = [r for r in rows if r[what] == value]
-            print(f"{what:14} {value:<5g} key light {mean([r['key'] for r in part]):.4f}, area light {mean([r['area'] for r in part]):.4f}, nearer at "
+            print(f"{what:14} {value:<5g} extracted light {mean([r['key'] for r in part]):.4f}, area light {mean([r['area'] for r in part]):.4f}, nearer at "
                   f"{sum(r['area'] < r['key'] for r in part)} of {len(part)}")
     key, area = mean([r["key"] for r in rows]), mean([r["area"] for r in rows])
-    print(f"all            key light {key:.4f}, area light {area:.4f}, nearer at {sum(r['area'] < r['key'] for r in rows)} of {len(rows)}")
+    print(f"all            extracted light {key:.4f}, area light {area:.4f}, nearer at {sum(r['area'] < r['key'] for r in rows)} of {len(rows)}")
     if a.json:
         pathlib.Path(a.json).write_text(json.dumps(rows, indent=1) + "\n")
     return 0 if key <= area else 1

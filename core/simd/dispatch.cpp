@@ -73,7 +73,7 @@ Isa best_isa()
     if (const char* forced = std::getenv("BN_FORCE_ISA"))
         if (const Result<Isa> isa = parse_isa(forced))
             cap = *isa;
-    Isa best = Isa::scalar;
+    Isa best = program_isas().front();
     for (const Isa isa : program_isas())
         if (isa <= cap && isa_available(isa))
             best = isa;

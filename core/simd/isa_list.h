@@ -1,15 +1,15 @@
 // Instruction sets for lane code, from narrow to wide. A new set is one line here and core/simd/lanes_<name>.h. C++
 // reads the list through BN_EACH_ISA; isa.cmake and lint.odr read its lines:
 //   BN_ON_<machine>(X(name, use, runs, flags, of))
-// machine: any, x86_64 or aarch64, the target of the build; x86_64_avx2 and x86_64_avx512 exist unless BN_ISA_SET
-// leaves them out. use: "program" compiles every file of bn_isa_objects; "tests" compiles only on a test's request, and
+// machine: any, x86_64 or aarch64, the target of the build; any_scalar, x86_64_avx2 and x86_64_avx512 exist unless
+// BN_ISA_SET leaves them out. use: "program" compiles every file of bn_isa_objects; "tests" compiles only on a test's request, and
 // options do not know the set. runs: true where this processor and its system can run the set (core/simd/cpu.h). flags:
 // follow the flags of the rest of the program; -O1 or -O2 where more optimisation only costs compile time.
 #pragma once
 
 // clang-format off
 #define BN_EACH_ISA(X, of)                                                                                   \
-    BN_ON_any(X(scalar, program, true, "-O1", of))                                                           \
+    BN_ON_any_scalar(X(scalar, program, true, "-O1", of))                                                    \
     BN_ON_x86_64_avx2(X(avx2, program, cpu_has_avx2(), "-march=x86-64-v3", of))                              \
     BN_ON_x86_64_avx512(X(avx512, program, cpu_has_avx512(), "-march=x86-64-v4 -mprefer-vector-width=512", of)) \
     BN_ON_x86_64(X(portable8, tests, true, "-O1", of))                                      \
@@ -23,6 +23,11 @@
 // clang-format on
 
 #define BN_ON_any(row) row
+#ifndef BN_WITHOUT_scalar
+#define BN_ON_any_scalar(row) row
+#else
+#define BN_ON_any_scalar(row)
+#endif
 #ifdef __x86_64__
 #define BN_ON_x86_64(row) row
 #else

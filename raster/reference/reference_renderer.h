@@ -33,7 +33,7 @@ struct ReferenceOptions {
     // Called if the picture is finished but its checkpoint cannot be written. Without this function the failure is the picture's error.
     std::function<void(const Error&)> lost_checkpoint;
     const std::atomic<bool>* stop = nullptr; // set by another thread or a signal: end soon, keep all work in the checkpoint
-    Isa isa = Isa::scalar;                   // never changes the picture on one machine
+    Isa isa = {};                            // never changes the picture on one machine
     bool quiet = true;                       // no progress bar
 };
 

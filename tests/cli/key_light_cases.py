@@ -46,10 +46,10 @@ def none_in_the_studio(bench):
 @case("key_lights.are_told")
 def are_told(bench):
     told = bench.run("render", "--env", "builtin:sky", *SMALL, "-v").expect(0).err
-    check("key light" in told and "% of the light" in told, told)
-    check("key light" not in bench.run("render", *SMALL, "-v").expect(0).err, "the studio's key lights are told of")
+    check("extracted light" in told and "% of the light" in told, told)
+    check("extracted light" not in bench.run("render", *SMALL, "-v").expect(0).err, "the studio's extracted lights are told of")
     text = bench.run("info", "--env", "builtin:sky").expect(0).out
-    check("environment  builtin:sky" in text and text.count("key light ") == 1, text)
+    check("environment  builtin:sky" in text and text.count("extracted light ") == 1, text)
     environment = json.loads(bench.run("info", "--json", "--env", "builtin:sky", "--key-lights", "off").expect(0).out)["environment"]
     check(environment["name"] == "builtin:sky" and environment["key_lights"] == [] and environment["warnings"] == [], f"{environment}")
     check("environment" not in json.loads(bench.run("info", "--json").expect(0).out), "info looks at an environment that was not asked for")
@@ -139,7 +139,7 @@ def lower_the_error(bench):
     print(done.stdout)
     if done.returncode not in (0, 1):
         raise Failed(done.stderr)
-    check(done.returncode == 0, "a place is worse with key lights than without")
+    check(done.returncode == 0, "a place is worse with extracted lights than without")
     for env in ("builtin:sky", "low_sun", "two_suns"):
         rows = [row for row in json.loads((bench.folder / "t.json").read_text()) if env in row["env"]]
         off, on = (sum(row[f"flip_{k}"] for row in rows) for k in ("off", "auto"))
@@ -187,4 +187,4 @@ def aims_are_measured(bench):
     check(len(found["places"]) == 4 and all(0.0 < place["noise"] < 0.1 for place in found["places"]), f"{found['places']}")
     reached = {result["aim"]: result["reached"] for result in found["aims"]}
     check(float(reached["lobe_line to major_axis_weighted as it was, equal time"]) < 0.9, f"{reached}")
-    check(float(reached["lobe_line to bent_normal, both with key lights"]) < 0.7, f"{reached}")
+    check(float(reached["lobe_line to bent_normal, both with extracted lights"]) < 0.7, f"{reached}")

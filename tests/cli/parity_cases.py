@@ -434,7 +434,7 @@ def lean_refuses(bench):
     row, = lean_rows(bench, "builtin:sphere", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("punctual lights" in row["error"] and "ratio" not in row, f"{row}")
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
-    check("key lights" in row["error"], f"{row}")
+    check("extracted lights" in row["error"], f"{row}")
 
 
 # Defects that `parity` must catch. Columns: edits (shading file, old text, new text), samples a pixel, stages that may differ first, and

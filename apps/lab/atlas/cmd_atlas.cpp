@@ -85,8 +85,8 @@ class Atlas {
     Atlas(const AtlasOptions& options, BlessedTable blessed, Report& report)
         : options_(options), entries_(options.entries()), blessed_(std::move(blessed)), compared_(blessed_.version == kTableVersion),
           report_(report),
-          room_({std::make_shared<const Jobs>(options.threads), options.isa, {options.use_cache, options.folder}, &watch_stop_signals()},
-                report)
+          cache_({std::make_shared<const Jobs>(options.threads), options.isa, {options.use_cache, options.folder}, &watch_stop_signals()},
+                 report)
     {
     }
     int run();
@@ -103,18 +103,18 @@ class Atlas {
     BlessedTable blessed_;
     bool compared_;
     Report& report_;
-    PictureCache room_;
+    PictureCache cache_;
     std::vector<AtlasResult> results_;
 };
 
 Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
 {
     if (options_.folder.empty())
-        return walk_entry(entry, options_.walk(), room_);
+        return walk_entry(entry, options_.walk(), cache_);
     const CachedFiles files = cached_files(options_, entry);
     if (std::optional<MeasuredEntry> kept = read_cached(files))
         return WalkedEntry{std::move(*kept), {}, false};
-    Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), room_);
+    Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), cache_);
     if (!walked || walked->stopped)
         return walked;
     BN_TRY(write_image(files.strip, walked->strip));

@@ -46,7 +46,7 @@ void take_more(FrameDesc& frame)
 // Walks the path of one entry.
 class Walker {
   public:
-    Walker(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room) : entry_(entry), walk_(walk), room_(room)
+    Walker(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& cache) : entry_(entry), walk_(walk), cache_(cache)
     {
         out_.measured.id = entry.id;
         out_.strip = make_image(walk.side * walk.steps, walk.side * kAtlasRows, 3, PixelType::u8);
@@ -66,7 +66,7 @@ class Walker {
 
     const AtlasEntry& entry_;
     const AtlasWalk& walk_;
-    PictureCache& room_;
+    PictureCache& cache_;
     WalkedEntry out_;
     std::optional<Picture> before_; // the tested picture
     std::shared_ptr<const Truth> truth_before_;
@@ -76,13 +76,13 @@ class Walker {
 double Walker::difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map)
 {
     FlipOptions flip;
-    flip.isa = room_.isa();
+    flip.isa = cache_.isa();
     if (b.color.type == PixelType::u8) {
-        map = flip_ldr(a.color, b.color, flip, room_.jobs()).error;
+        map = flip_ldr(a.color, b.color, flip, cache_.jobs()).error;
     } else {
-        const FlipExposures range = find_exposures(exposed_by.picture.color, flip, room_.jobs());
+        const FlipExposures range = find_exposures(exposed_by.picture.color, flip, cache_.jobs());
         flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
-        map = flip_hdr(a.color, b.color, flip, room_.jobs()).error;
+        map = flip_hdr(a.color, b.color, flip, cache_.jobs()).error;
     }
     return mean_of(map, covered);
 }
@@ -105,7 +105,7 @@ Status Walker::step(int i)
     // Render the truth
     const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
     BN_TRY(of_truth);
-    const Result<std::shared_ptr<const Truth>> truth = room_.truth(*of_truth);
+    const Result<std::shared_ptr<const Truth>> truth = cache_.truth(*of_truth);
     BN_TRY(truth);
     out_.stopped = !*truth;
     if (out_.stopped)
@@ -121,7 +121,7 @@ Status Walker::step(int i)
             continue;
         const Result<AtlasSetting> setting = setting_of(entry_, role, s.s, walk_.side, 0);
         BN_TRY(setting);
-        Result<Frame> frame = room_.draw(*setting);
+        Result<Frame> frame = cache_.draw(*setting);
         BN_TRY(frame);
         const bool test = role == AtlasRole::test;
         Picture now = picture_of(*setting, std::move(*frame));
@@ -148,7 +148,7 @@ Status Walker::step(int i)
 // Returns the error of a picture on the path against another entry's truth.
 Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more)
 {
-    Result<Frame> frame = room_.draw(test);
+    Result<Frame> frame = cache_.draw(test);
     BN_TRY(frame);
     return error_of(picture_of(test, std::move(*frame)), truth_of, step, more);
 }
@@ -159,7 +159,7 @@ Result<double> Walker::error_of(const Picture& now, const AtlasEntry& truth_of, 
     BN_TRY(setting);
     if (more && setting->options.backend != "reference")
         take_more(setting->options.frame);
-    const Result<std::shared_ptr<const Truth>> truth = room_.truth(*setting);
+    const Result<std::shared_ptr<const Truth>> truth = cache_.truth(*setting);
     BN_TRY(truth);
     out_.stopped = !*truth;
     if (out_.stopped)
@@ -185,7 +185,7 @@ Status Walker::find_kind()
     const int at = static_cast<int>(worst - m.steps.begin());
     const Result<AtlasSetting> setting = setting_of(entry_, AtlasRole::test, place(at), walk_.side, 0);
     BN_TRY(setting);
-    Result<std::optional<Frame>> in_double = room_.draw_in_double(*setting);
+    Result<std::optional<Frame>> in_double = cache_.draw_in_double(*setting);
     BN_TRY(in_double);
     if (*in_double) {
         const Result<double> error = error_of(picture_of(*setting, std::move(**in_double)), entry_, at);
@@ -247,9 +247,9 @@ void summarise(const AtlasEntry& entry, MeasuredEntry& m)
     }
 }
 
-Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room)
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& cache)
 {
-    return Walker(entry, walk, room).walk();
+    return Walker(entry, walk, cache).walk();
 }
 
 } // namespace burnish

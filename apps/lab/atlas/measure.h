@@ -47,6 +47,6 @@ struct WalkedEntry {
     Image strip;
     bool stopped = false; // by a signal; the results are unusable
 };
-Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& room);
+Result<WalkedEntry> walk_entry(const AtlasEntry& entry, const AtlasWalk& walk, PictureCache& cache);
 
 } // namespace burnish

@@ -16,7 +16,7 @@ struct AtlasOptions {
     std::string with;             // see AtlasEntry
     bool list = false, quick = false, bless = false, use_cache = true, quiet = false;
     int threads = 0, verbosity = 0;
-    Isa isa = Isa::scalar;
+    Isa isa = {};
 
     const AtlasWalk& walk() const { return quick ? kQuickWalk : kFullWalk; }
     std::vector<AtlasEntry> entries() const; // in the order of atlas.def

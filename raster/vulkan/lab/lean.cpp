@@ -73,7 +73,7 @@ glm::vec3 vec3(const float* v)
 const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
 {
     if (f.extracted_light_count > 0)
-        return "key lights (EnvironmentOptions::extracted_lights off leaves them in the environment)";
+        return "extracted lights (EnvironmentOptions::extracted_lights off leaves them in the environment)";
     if (f.light_count > 0)
         return "punctual lights";
     if (f.area_light_count > 0)

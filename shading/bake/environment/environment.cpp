@@ -133,7 +133,7 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
     if (o.levels < 0 || o.levels > 13 || (o.levels > 0 && (o.cube_size >> (o.levels - 1)) == 0))
         return bad_option("the environment's cube is too small for that many levels");
     if (o.extracted_lights < 0 || o.extracted_lights > kMaxExtractedLights)
-        return bad_option(fmt::format("the environment's key lights must be 0 to {}", kMaxExtractedLights));
+        return bad_option(fmt::format("the environment's extracted lights must be 0 to {}", kMaxExtractedLights));
     if (o.samples < 1 || o.samples > 65536)
         return bad_option("the samples of the environment must be 1 to 65536");
     if (!(std::fabs(o.exposure_ev) <= 32.0f))
