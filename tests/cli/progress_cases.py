@@ -4,14 +4,14 @@ import re
 
 from harness import Skipped, case, check
 
-OFTEN = {"BURNISH_PROGRESS_SECONDS": "0.02"}
+OFTEN = {"BURNISH_PROGRESS_SECONDS": "0.005"}
 TINY = ("--size", "24x16", "--env-size", "16", "--env-samples", "16")
 
 
 TOLD = (
     (r"^plot, drawing ltc: ", "plot", "ltc", "-o", "a.svg"),
-    (r"^render, .*levels of material '.*' by kappa: ", "render", "builtin:shaderballs", "--mip-filter", "kappa", *TINY),
-    (r"^bake, mip, ", "bake", "mip", "builtin:shaderballs", "--mip-filter", "kappa", "-o", "a.mip"),
+    (r"^render, .*levels of material '.*' by kappa: ", "render", "builtin:bumps", "--mip-filter", "kappa", *TINY),
+    (r"^bake, mip, ", "bake", "mip", "builtin:bumps", "--mip-filter", "kappa", "-o", "a.mip"),
     (r"^render, environment builtin:sky(, .*)?: |^baking builtin:sky: ", "render", "builtin:plate", "--env", "builtin:sky", "--env-size", "128", "--no-cache",
      "--size", "24x16"),
     (r"^render, drawing 64x48: ", "render", "builtin:plate", "--technique", "mc", "--samples", "4096", "--env-size", "16", "--size", "64x48"),
