@@ -37,6 +37,7 @@ const std::vector<std::pair<std::string, std::string>>& field_options()
             {"Limits::texture_bytes", "--limit-texture-bytes"},
             {"Limits::uris_outside", "--allow-outside-uris"},
             {"MaterialOverrides::material", "--material"},
+            {"MaterialOverrides::rotation", "--rotation-map"},
             {"MaterialOverrides::strokes", "--strokes"},
             {"MipSettings::brdf", "--brdf"},
             {"MipSettings::filter", "--mip-filter"},

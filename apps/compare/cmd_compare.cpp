@@ -61,6 +61,8 @@ Status check_paths(const CompareOptions& options)
         if (!status)
             return status;
     }
+    if (!options.second_reference.empty() && same_file(options.second_reference, options.reference))
+        return usage_error("--second-reference", "is the reference itself: take one with another seed");
     for (std::size_t i = 0; i < outputs.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (same_file(outputs[i].second, outputs[j].second))
@@ -124,10 +126,9 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
     if (colours > 2) {
         Image& second = pictures.second_reference.emplace(std::move(*images[2]));
         if (second.channels > pictures.reference.channels)
-            drop_lone_alpha(second, options.second_reference, pictures.reference, options.reference);
+            pictures.note += (pictures.note.empty() ? "" : "; ") +
+                             drop_lone_alpha(second, options.second_reference, pictures.reference, options.reference);
         BN_TRY(check_match(options.second_reference, second, options.reference, pictures.reference));
-        if (const std::int64_t bad = not_finite_pixels(second, second))
-            return Error{ExitCode::not_finite, options.second_reference, "", fmt::format("{} pixels are NaN or Inf", bad)};
     }
     for (std::size_t i = colours; i < images.size(); ++i) {
         BN_TRY(check_variance(names[i], *images[i], options, pictures.reference));
@@ -176,6 +177,9 @@ Error not_finite_error(const CompareOptions& options, const CompareFigures& figu
 {
     const bool in_reference = not_finite_pixels(pictures.reference, pictures.reference) != 0;
     const bool in_test = not_finite_pixels(pictures.test, pictures.test) != 0;
+    if (!in_reference && !in_test)
+        return Error{ExitCode::not_finite, options.second_reference, "",
+                     fmt::format("{} of {} pixels are NaN or Inf", figures.nan_pixels, std::int64_t{figures.width} * figures.height)};
     return Error{ExitCode::not_finite, in_test ? options.test : options.reference, "",
                  fmt::format("{} of {} pixels are NaN or Inf{}", figures.nan_pixels, std::int64_t{figures.width} * figures.height,
                              in_test && in_reference ? " here or in " + options.reference : std::string())};

@@ -48,6 +48,8 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
     figures.width = reference.width;
     figures.height = reference.height;
     figures.nan_pixels = not_finite_pixels(reference, test);
+    if (pictures.second_reference)
+        figures.nan_pixels += not_finite_pixels(*pictures.second_reference, *pictures.second_reference);
     if (figures.nan_pixels)
         return figures;
     const Metrics& asked = figures.asked;
@@ -107,10 +109,10 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures)
     if (asked.pattern)
         json["pattern_pixels"] = figures.pattern ? Json(t.pixels) : Json();
     put("pattern_rms", asked.pattern, inside, t.rms);
-    put("pattern_period", asked.pattern, inside, t.period);
+    put("pattern_period", asked.pattern, t.period > 0.0, t.period);
     put("pattern_period_rms", asked.pattern, inside, t.period_rms);
     if (asked.pattern)
-        json["pattern_period_axis"] = inside ? Json(t.along_y ? "y" : "x") : Json();
+        json["pattern_period_axis"] = t.period > 0.0 ? Json(t.along_y ? "y" : "x") : Json();
     put("quad_ratio_x", asked.pattern, inside, t.quad_ratio[0]);
     put("quad_ratio_y", asked.pattern, inside, t.quad_ratio[1]);
     put("tile_ratio_x", asked.pattern, inside, t.tile_ratio[0]);
@@ -154,8 +156,10 @@ std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptio
         lines.emplace_back("pattern", "no pixel lies inside a surface");
     if (figures.pattern && figures.pattern->pixels > 0) {
         const PatternFigures& p = *figures.pattern;
-        lines.emplace_back("pattern", fmt::format("{:.2f} % of luminance inside surfaces; period of {:.1f} pixels along {}: {:.2f} %",
-                                                  100.0 * p.rms, p.period, p.along_y ? "y" : "x", 100.0 * p.period_rms));
+        const std::string period = p.period > 0.0 ? fmt::format("period of {:.1f} pixels along {}: {:.2f} %", p.period,
+                                                                p.along_y ? "y" : "x", 100.0 * p.period_rms)
+                                                  : "no period";
+        lines.emplace_back("pattern", fmt::format("{:.2f} % of luminance inside surfaces; {}", 100.0 * p.rms, period));
         lines.emplace_back("steps",
                            fmt::format("between quads over within: {} along x, {} along y; at tile borders over elsewhere: {}, {}",
                                        ratio(p.quad_ratio[0]), ratio(p.quad_ratio[1]), ratio(p.tile_ratio[0]), ratio(p.tile_ratio[1])));
@@ -179,6 +183,8 @@ Status check_limits(const CompareOptions& options, const CompareFigures& figures
     if (options.fail_fraction && figures.pixels && figures.pixels->differing_fraction > *options.fail_fraction)
         return differ("--fail-fraction", fmt::format("{:.6g} of the pixels differ, more than {:.6g}", figures.pixels->differing_fraction,
                                                      *options.fail_fraction));
+    if (options.fail_pattern && figures.pattern && figures.pattern->pixels == 0)
+        return differ("--fail-pattern", "no pixel lies inside a surface");
     if (options.fail_pattern && figures.pattern && figures.pattern->rms > *options.fail_pattern)
         return differ("--fail-pattern",
                       fmt::format("pattern's RMS {:.6g} is more than {:.6g}", figures.pattern->rms, *options.fail_pattern));

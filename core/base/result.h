@@ -13,7 +13,7 @@ enum class ExitCode : int {
     differ = 1,         // images or results differ
     usage = 2,          // wrong option or configuration
     size_mismatch = 3,  // images differ in size or channels
-    bad_input = 4,      // unreadable, corrupt or refused input
+    bad_input = 4,      // unreadable, corrupt or refused input; too little memory or too few threads
     golden_missing = 5, // a reference is missing
     not_finite = 6,     // NaN or Inf in the picture
     output_failed = 7,  // an output could not be written (disk full, no permission)

@@ -185,6 +185,23 @@ class MapWriter {
     std::vector<bool> worn_; // by something with texture coordinates
 };
 
+// Checks that grooves are given by a map that does not say the contrary.
+Status check_strokes(const MaterialOverrides& with)
+{
+    if (with.strokes == Strokes::highlights)
+        return {};
+    const auto refuse = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason), "MaterialOverrides::strokes"}; };
+    if (!with.direction.empty())
+        return refuse(
+            fmt::format("{}: a texture of KHR_materials_anisotropy holds directions of highlights, not of grooves", with.direction));
+    if (with.rotation.empty())
+        return refuse("there is no map of rotations that could hold grooves");
+    if (with.rotation_encoding == RotationEncoding::direction)
+        return refuse(
+            fmt::format("{}: the encoding of KHR_materials_anisotropy holds directions of highlights, not of grooves", with.rotation));
+    return {};
+}
+
 Status put_maps(MapWriter& on, const MaterialOverrides& with)
 {
     if (!with.direction.empty()) {
@@ -301,26 +318,12 @@ Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with)
     MaterialOverrides maps;
     maps.height = found[kHeight];
     maps.normal = found[kNormal], maps.quaternion = found[kQuaternion], maps.rotation = found[kRotation];
-    maps.rotation_encoding = with.rotation_encoding, maps.strokes = with.strokes;
-    return put_maps(on, maps);
-}
-
-// Checks that grooves are given by a map that does not say the contrary.
-Status check_strokes(const MaterialOverrides& with)
-{
-    if (with.strokes == Strokes::highlights)
-        return {};
-    const auto refuse = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason), "MaterialOverrides::strokes"}; };
-    if (!with.rotation.empty() || !with.material.empty()) {
-        if (with.rotation_encoding != RotationEncoding::direction)
-            return {};
-        return refuse(fmt::format("{}: the encoding of KHR_materials_anisotropy holds directions of highlights, not of grooves",
-                                  with.rotation.empty() ? with.material : with.rotation));
+    maps.rotation_encoding = with.rotation_encoding;
+    if (with.rotation.empty()) { // else the other picture replaces the folder's, and turns once
+        maps.strokes = with.strokes;
+        BN_TRY(check_strokes(maps));
     }
-    if (!with.direction.empty())
-        return refuse(
-            fmt::format("{}: a texture of KHR_materials_anisotropy holds directions of highlights, not of grooves", with.direction));
-    return refuse("there is no map of rotations that could hold grooves");
+    return put_maps(on, maps);
 }
 
 void put_f0(Material& m, const glm::vec3& f0)
@@ -343,7 +346,12 @@ bool MaterialOverrides::names(const std::string& path) const
 
 Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, const Limits& limits)
 {
-    BN_TRY(check_strokes(with));
+    if (!with.direction.empty() && !with.rotation.empty())
+        return Error{ExitCode::usage, "", "",
+                     fmt::format("{} and {} are both for the directions of the material", with.direction, with.rotation),
+                     "MaterialOverrides::rotation"};
+    if (with.material.empty() || !with.rotation.empty() || !with.direction.empty()) // else the folder says it
+        BN_TRY(check_strokes(with));
     MapWriter on(scene, limits);
     if (!with.material.empty())
         if (Status put = put_material(on, scene, with); !put)

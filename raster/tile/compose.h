@@ -67,8 +67,11 @@ BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelSc
             shown |= compose_pass(f, layer, p, first, mask_from_bits(lanes[k]), at);
             at += static_cast<std::uint32_t>(__builtin_popcount(lanes[k]));
         }
-        if (!shown) // no further layer here
+        if (!shown) { // no further layer here
+            for (int s = 0; s < f.msaa; ++s)
+                store(p.depth + first + s * kBlockPixels, lit(-1.0));
             return;
+        }
         // Keep the layer's depths where light still passes
         p.pixels[block] |= static_cast<std::uint64_t>(shown) << (v * kLanes);
         bool more = false;

@@ -160,9 +160,14 @@ def patterns(bench):
     scratch(bench, "nan.pfm", pfm(64, 48, lambda x, y: (NAN if x == 3 else 1.0, 1.0, 1.0)))
     bench.run("compare", "r.pfm", "t.pfm", "--second-reference", "small.pfm").expect(3).expect_one_line("small.pfm")
     bench.run("compare", "r.pfm", "t.pfm", "--second-reference", "nan.pfm").expect(6).expect_one_line("nan.pfm")
-    # nothing inside a surface: no figures, and no failure
+    check(figures(bench, "r.pfm", "t.pfm", "--second-reference", "nan.pfm", code=6)["nan_pixels"] == 48, "NaN of a second reference")
+    bench.run("compare", "r.pfm", "t.pfm", "--second-reference", "r.pfm").expect(2).expect_one_line("--second-reference")
+    same = figures(bench, "t.pfm", "t.pfm", "--metric", "pattern")
+    check((same["pattern_rms"], same["pattern_period"], same["pattern_period_axis"], same["quad_ratio_x"]) == (0, None, None, None), str(same))
+    # nothing inside a surface: no figures, and a limit is not held
     scratch(bench, "black.pfm", pfm(8, 8, lambda x, y: (0.0, 0.0, 0.0)))
-    none = figures(bench, "black.pfm", "black.pfm", "--metric", "pattern", "--fail-pattern", "0")
+    none = figures(bench, "black.pfm", "black.pfm", "--metric", "pattern")
+    bench.run("compare", "black.pfm", "black.pfm", "--fail-pattern", "1").expect(1).expect_one_line("no pixel lies inside")
     check(none["pattern_pixels"] == 0 and none["pattern_rms"] is None, str(none))
 
 

@@ -92,10 +92,21 @@ def drawn_strokes(bench):
         bench.run(*words, *more, "-o", name + ".pfm").expect(0)
     bench.run("compare", "a.pfm", "b.pfm", "--fail-flip", "0.002").expect(0)
     bench.run("compare", "a.pfm", "c.pfm", "--fail-flip", "0.02").expect(1)
-    # maps that hold highlights by their format, and no map at all
+    # a folder's picture turns once, also where another one replaces it
+    (bench.folder / "own").mkdir()
+    (bench.folder / "own" / "x_rotation.exr").write_bytes((bench.folder / "along.exr").read_bytes())
+    for more in ((), ("--rotation-map", "along.exr")):
+        for turned in ("grooves", "highlights"):
+            bench.run(*words, "--material", "own", *more, "--strokes", turned, "-o", turned + ".pfm").expect(0)
+        bench.run("compare", "grooves.pfm", "highlights.pfm", "--fail-flip", "0.005").expect(1)
+    # maps that hold highlights by their format, two maps, and no map at all
     scratch(bench, "d.png", png(2, 2, lambda x, y: (255, 128, 255)))
+    (bench.folder / "bare").mkdir()
+    scratch(bench, "bare/x_normal.png", png(2, 2, lambda x, y: (128, 128, 255)))
+    bench.run(*words, "--rotation-map", "along.exr", "--direction-map", "d.png", "-o", "e.png").expect(2).expect_one_line("d.png")
     for more, needle in ((("--rotation-map", "d.png", "--rotation-encoding", "direction"), "d.png"), (("--direction-map", "d.png"), "d.png"),
-                         ((), "no map")):
+                         (("--material", "own", "--rotation-encoding", "direction"), "x_rotation.exr"),
+                         (("--material", "own", "--direction-map", "d.png"), "d.png"), (("--material", "bare"), "no map"), ((), "no map")):
         done = bench.run(*words, *more, "--strokes", "grooves", "-o", "e.png").expect(2)
         done.expect_one_line("--strokes")
         check(needle in done.err, done.describe())

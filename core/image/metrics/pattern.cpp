@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "core/base/check.h"
@@ -79,7 +78,7 @@ Plane error_of(const Plane& reference, const Plane& test, const Plane& inside, d
     Plane out(grid.size());
     grid.each_row([&](std::size_t y) {
         for (std::size_t i = y * grid.width; i < (y + 1) * grid.width; ++i)
-            out[i] = inside[i] > 0.0 ? std::log((test[i] + least) / (reference[i] + least)) : 0.0;
+            out[i] = inside[i] > 0.0 ? det_log((test[i] + least) / (reference[i] + least)) : 0.0;
     });
     return out;
 }
@@ -90,7 +89,7 @@ Plane blurred(const Plane& plane, const Grid& grid)
     constexpr int kRadius = static_cast<int>(3.0 * kPatternSigma);
     std::array<double, 2 * kRadius + 1> weights;
     for (int k = -kRadius; k <= kRadius; ++k)
-        weights[static_cast<std::size_t>(k + kRadius)] = std::exp(-0.5 * k * k / (kPatternSigma * kPatternSigma));
+        weights[static_cast<std::size_t>(k + kRadius)] = det_exp(-0.5 * k * k / (kPatternSigma * kPatternSigma));
     const int width = static_cast<int>(grid.width), height = static_cast<int>(grid.height);
     const auto pass = [&](const Plane& from, bool along_y) {
         Plane to(grid.size());
@@ -172,7 +171,7 @@ void find_period(const std::array<double, kPatternLags + 1>& covariance, bool al
     for (double period = 2.0; period <= kLongestPeriod; period += 0.5) {
         double power = covariance[0], norm = 1.0;
         for (int lag = 1; lag <= kPatternLags; ++lag) {
-            const double window = 0.5 + 0.5 * std::cos(kPi * lag / (kPatternLags + 1)), wave = std::cos(2.0 * kPi * lag / period);
+            const double window = 0.5 + 0.5 * det_cos(kPi * lag / (kPatternLags + 1)), wave = det_cos(2.0 * kPi * lag / period);
             power += 2.0 * window * covariance[static_cast<std::size_t>(lag)] * wave;
             norm += 2.0 * window * wave * wave;
         }
@@ -182,41 +181,35 @@ void find_period(const std::array<double, kPatternLags + 1>& covariance, bool al
     }
 }
 
-struct Step {
-    double size, product; // |sum| and product of both errors' steps
-};
+// Mean product of both errors' steps.
+struct StepMean {
+    double sum = 0.0, count = 0.0;
 
-// Returns the mean product of the smallest kCountedSteps of the steps, NaN without steps. The largest stand at edges.
-double mean_of_most(std::vector<Step> steps)
-{
-    if (steps.empty())
-        return std::numeric_limits<double>::quiet_NaN();
-    const auto least_first = [](const Step& a, const Step& b) { return a.size < b.size; };
-    const auto last = steps.begin() + static_cast<std::ptrdiff_t>(kCountedSteps * static_cast<double>(steps.size() - 1));
-    std::nth_element(steps.begin(), last, steps.end(), least_first);
-    double sum = 0.0;
-    for (auto step = steps.begin(); step <= last; ++step)
-        sum += step->product;
-    return sum / static_cast<double>(last - steps.begin() + 1);
-}
+    // Returns the ratio of two means, NaN where noise or a lack of steps leaves none above 0.
+    double over(const StepMean& other) const
+    {
+        const bool known = sum > 0.0 && other.sum > 0.0;
+        return known ? (sum / count) / (other.sum / other.count) : std::numeric_limits<double>::quiet_NaN();
+    }
+};
 
 // Compares the steps of the error between neighbours along an axis.
 void find_steps(const Errors& e, bool along_y, PatternFigures& f)
 {
-    std::vector<Step> within_quads, between_quads, within_tiles, between_tiles;
+    StepMean within_quads, between_quads, within_tiles, between_tiles;
     for (std::size_t y = 0; y < e.grid.height; ++y)
         for (std::size_t x = 0; x < e.grid.width; ++x) {
             const std::size_t i = y * e.grid.width + x, j = e.further(x, y, along_y, 1), at = along_y ? y : x;
             if (j == e.grid.size() || e.inside[i] == 0.0 || e.inside[j] == 0.0)
                 continue;
-            const double a = e.first[j] - e.first[i], b = e.second[j] - e.second[i];
-            const Step step = {std::fabs(a + b), a * b};
-            (at % 2 ? between_quads : within_quads).push_back(step);
-            (at % kPatternTile == kPatternTile - 1 ? between_tiles : within_tiles).push_back(step);
+            const double product = (e.first[j] - e.first[i]) * (e.second[j] - e.second[i]);
+            for (StepMean* mean :
+                 {at % 2 ? &between_quads : &within_quads, at % kPatternTile == kPatternTile - 1 ? &between_tiles : &within_tiles})
+                mean->sum += product, mean->count += 1.0;
         }
     const std::size_t axis = along_y ? 1 : 0;
-    f.quad_ratio[axis] = mean_of_most(std::move(between_quads)) / mean_of_most(std::move(within_quads));
-    f.tile_ratio[axis] = mean_of_most(std::move(between_tiles)) / mean_of_most(std::move(within_tiles));
+    f.quad_ratio[axis] = between_quads.over(within_quads);
+    f.tile_ratio[axis] = between_tiles.over(within_tiles);
 }
 
 } // namespace

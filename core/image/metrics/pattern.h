@@ -13,18 +13,17 @@ namespace burnish {
 inline constexpr double kPatternSigma = 4.0;    // of the Gaussian that the high-pass filter subtracts, pixels
 inline constexpr int kPatternLags = 32;         // longest lag of the autocovariance, pixels
 inline constexpr double kLongestPeriod = 16.0;  // pixels; the shortest is 2
-inline constexpr double kCountedSteps = 0.99;   // share of the steps of a kind that count: the largest stand at edges
 inline constexpr int kPatternTile = 64;         // edge of the tiles whose borders are judged, pixels
 inline constexpr double kPatternFloor = 1.0e-3; // added to luminance before ln, by the reference's mean inside surfaces
 
 struct PatternFigures {
     std::int64_t pixels = 0; // inside surfaces; 0: nothing else is known
     double rms = 0.0;        // of the high-passed error of ln luminance (.05: 5 %)
-    double period = 0.0;     // strongest period, pixels, along one axis
+    double period = 0.0;     // strongest period, pixels, along one axis; 0: none
     bool along_y = false;    // the axis of `period`
     double period_rms = 0.0; // RMS of the sinusoid with this period
     // Mean squared step of the error between 2x2 quads over the mean inside quads, and across tile borders over all other steps; along
-    // x and y. 1: no pattern. NaN where there are no such steps.
+    // x and y. 1: no pattern. NaN where no such steps stand out of the noise.
     double quad_ratio[2] = {}, tile_ratio[2] = {};
 };
 

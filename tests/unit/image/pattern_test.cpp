@@ -96,6 +96,19 @@ TEST(pattern, a_second_reference_takes_noise_out)
     EXPECT_LT(pattern_figures(first, &second, picture_with(nothing), Jobs(1)).rms, 0.008);
 }
 
+TEST(pattern, ratios_keep_their_value_under_noise_of_references)
+{
+    // noise of the references as strong as the test's own error: quads that share half of their variance have a ratio of 2
+    const auto own = noise(0.05, 3), shared = noise(0.05, 4);
+    const Image first = picture_with(noise(0.05, 1)), second = picture_with(noise(0.05, 2));
+    const Image plain = picture_with(own), quads = picture_with([&](int x, int y) { return own(x, y) + shared(x & ~1, y & ~1); });
+    for (int axis : {0, 1}) {
+        EXPECT_NEAR(pattern_figures(first, &second, plain, Jobs(1)).quad_ratio[axis], 1.0, 0.1);
+        EXPECT_NEAR(pattern_figures(first, &second, quads, Jobs(1)).quad_ratio[axis], 2.0, 0.2);
+        EXPECT_LT(pattern_figures(first, nullptr, quads, Jobs(1)).quad_ratio[axis], 1.7);
+    }
+}
+
 TEST(pattern, only_pixels_inside_surfaces_count)
 {
     Image reference = picture_with(nothing, 4), test = reference;
