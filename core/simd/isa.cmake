@@ -34,7 +34,7 @@ elseif(NOT BN_ISA_SET MATCHES "^(all|native|best)$")
 endif()
 if(BN_ISA_SET STREQUAL "best") # drop the narrower ones
   if(BN_BUILD_TESTS OR BN_BUILD_BENCH)
-    message(FATAL_ERROR "BN_ISA_SET=best is for the program alone: tests and benchmarks compare instruction sets")
+    message(FATAL_ERROR "BN_ISA_SET=best is for the program alone: tests and benchmarks compare instruction sets (-DBN_ISA_SET=all)")
   endif()
   if(BN_MACHINE STREQUAL "x86_64" AND NOT avx512 IN_LIST left_out)
     list(APPEND left_out scalar avx2)
