@@ -23,6 +23,7 @@
 //   compress_store_int(to, i, m)                             packs the lanes of m; returns their number. May
 //                                                            write kLanes places
 //   expand_load expand_load_int(from, m)                     the inverse
+//   load_rows(from, more) store_rows(to, more, x)            lanes 0-7 at the first address, lanes 8-15 at the second
 //   store_triples(to, more, r, g, b)                         RGB triples: lanes 0-7 to `to`, lanes 8-15 to `more`
 //   stream_lines(to, from, n) stream_fence                   writes n floats past the caches, n a multiple of 16,
 //                                                            each address a multiple of 64 bytes. Other threads

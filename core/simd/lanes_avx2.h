@@ -356,6 +356,14 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return {expand_load_words(from, m)};
 }
+BN_INLINE real load_rows(const float* first, const float*)
+{
+    return load(first);
+}
+BN_INLINE void store_rows(float* first, float*, real x)
+{
+    store(first, x);
+}
 BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {
     // each result register takes every third word of each channel

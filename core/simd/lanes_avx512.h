@@ -340,6 +340,15 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return {_mm512_maskz_expand_epi32(m.v, _mm512_loadu_si512(from))};
 }
+BN_INLINE real load_rows(const float* first, const float* second)
+{
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(first)), _mm256_loadu_ps(second), 1)};
+}
+BN_INLINE void store_rows(float* first, float* second, real x)
+{
+    _mm256_storeu_ps(first, _mm512_castps512_ps256(x.v));
+    _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x.v, 1));
+}
 BN_INLINE void store_triples(float* first, float* second, real r, real g, real b)
 {
     const __m512i r_to = _mm512_setr_epi32(0, 11, 6, 1, 12, 7, 2, 13, 8, 3, 14, 9, 4, 15, 10, 5),

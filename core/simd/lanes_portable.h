@@ -411,6 +411,16 @@ BN_CALL real expand_load(const float* from, const mask& m)
     BN_EACH_LANE r.at[k] = lanes_of(m).at[k] != 0 ? *from++ : 0.0f;
     return real_of(r);
 }
+BN_CALL real load_rows(const float* first, const float* second)
+{
+    float_lanes r;
+    BN_EACH_LANE r.at[k] = k < 8 ? first[k] : second[k - 8];
+    return real_of(r);
+}
+BN_CALL void store_rows(float* first, float* second, const real& x)
+{
+    BN_EACH_LANE(k < 8 ? first : second - 8)[k] = lanes_of(x).at[k];
+}
 BN_CALL void store_triples(float* first, float* second, const real& r, const real& g, const real& b)
 {
     BN_EACH_LANE

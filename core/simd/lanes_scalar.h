@@ -321,6 +321,15 @@ BN_INLINE integer expand_load_int(const std::int32_t* from, mask m)
 {
     return m ? *from : 0;
 }
+// Lanes 0 to 7 are at `first`, the others at `second`.
+BN_INLINE real load_rows(const float* first, const float*)
+{
+    return static_cast<real>(*first);
+}
+BN_INLINE void store_rows(float* first, float*, real x)
+{
+    *first = static_cast<float>(x);
+}
 // Stores RGB triples: lanes 0 to 7 from `first` on, the others from `second` on.
 BN_INLINE void store_triples(float* first, float*, real r, real g, real b)
 {

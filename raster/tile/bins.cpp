@@ -1,6 +1,7 @@
 #include "raster/tile/bins.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/base/check.h"
 
@@ -13,13 +14,14 @@ class TileRows {
     TileRows(const FrameParams& f, const std::int32_t x[3], const std::int32_t y[3])
     {
         const std::int64_t area = std::int64_t{x[1] - x[0]} * (y[2] - y[0]) - std::int64_t{x[2] - x[0]} * (y[1] - y[0]);
-        const std::int64_t side = f.tile_size * kSubpixel / 16; // units: see TileTriangle
+        const std::int64_t side = f.tile_step * kSubpixel / 16, rim = f.tile_rim * kSubpixel / 16; // units: see TileTriangle
         for (int i = 0; i < 3; ++i) {
             const int p = (i + 1) % 3, q = (i + 2) % 3, sign = area > 0 ? 1 : -1;
             const std::int64_t a = sign * std::int64_t{y[p] - y[q]}, b = sign * std::int64_t{x[q] - x[p]};
             const bool top_left = a > 0 || (a == 0 && b > 0);
             const std::int64_t at = a * (-f.center_x - x[p]) + b * (-f.center_y - y[p]) - (top_left ? 0 : 1);
-            greatest_[i] = (at >> 4) + (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0)) * (side - 1);
+            greatest_[i] =
+                (at >> 4) + (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0)) * (side - 1) + (std::abs(a) + std::abs(b)) * rim;
             step_x_[i] = a * side, step_y_[i] = b * side;
         }
     }
@@ -151,26 +153,26 @@ void Bins::build(const FrameParams& f, const DrawTables& tables, const Visible& 
     });
 }
 
-void Bins::Chunk::sort_by_part(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns)
+void Bins::Chunk::sort_by_part(const FrameParams& frame, const FrameParams& parts, const std::vector<std::uint32_t>& tiles,
+                               const TileFns& fns)
 {
     constexpr std::uint32_t kSide = TilePart::kSide, kParts = kSide * kSide;
-    const std::uint32_t tiles_x = (static_cast<std::uint32_t>(parts.tiles_x) + kSide - 1) / kSide;
     part_begin.clear(), part_list.clear();
     part_begin.push_back(0);
     std::uint32_t end = 0;
     for (const std::uint32_t tile : tiles) {
         const std::uint32_t* const of_tile = list.data() + tile_begin[tile];
         const std::uint32_t count = tile_begin[tile + 1] - tile_begin[tile];
-        const std::uint32_t x0 = tile % tiles_x * kSide, y0 = tile / tiles_x * kSide;
+        const int left = static_cast<int>(tile) % frame.tiles_x * frame.tile_step,
+                  top = static_cast<int>(tile) / frame.tiles_x * frame.tile_step;
         if (first_part.size() < count + kColumnPad)
             first_part.resize(count + kColumnPad), last_part.resize(count + kColumnPad);
-        fns.touch_tiles(parts, of_tile, count, first_part.data(), last_part.data());
+        fns.touch_tiles(parts, left, top, of_tile, count, first_part.data(), last_part.data());
         const auto each_part = [&](const auto& visit) {
-            const auto within = [](std::uint32_t at, std::uint32_t begin) { return at < begin ? 0 : std::min(at - begin, kSide - 1); };
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::uint32_t first = first_part[i], last = last_part[i];
-                for (std::uint32_t y = within(first >> 16, y0); y <= within(last >> 16, y0); ++y)
-                    for (std::uint32_t x = within(first & 0xffff, x0); x <= within(last & 0xffff, x0); ++x)
+                for (std::uint32_t y = first >> 16; y <= last >> 16; ++y)
+                    for (std::uint32_t x = first & 0xffff; x <= (last & 0xffff); ++x)
                         visit(i, y * kSide + x);
             }
         };
@@ -187,10 +189,11 @@ void Bins::Chunk::sort_by_part(const FrameParams& parts, const std::vector<std::
     }
 }
 
-void Bins::cut(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns, const Jobs& jobs)
+void Bins::cut(const FrameParams& frame, const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns,
+               const Jobs& jobs)
 {
     if (!tiles.empty())
-        jobs.parallel_for(used_, [&](std::size_t i, int) { chunks_[i]->sort_by_part(parts, tiles, fns); });
+        jobs.parallel_for(used_, [&](std::size_t i, int) { chunks_[i]->sort_by_part(frame, parts, tiles, fns); });
 }
 
 std::vector<std::uint32_t> Bins::triangles_by_tile(std::size_t tiles) const

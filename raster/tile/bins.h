@@ -27,8 +27,9 @@ class Bins {
                Profiler* profiler);
     // Returns each tile's number of triangles that may show in it.
     std::vector<std::uint32_t> triangles_by_tile(std::size_t tiles) const;
-    // Sorts the triangles of some tiles by part. parts: the frame with parts as its tiles.
-    void cut(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns, const Jobs& jobs);
+    // Sorts the triangles of some tiles by part. parts: the frame with one tile's parts as its tiles.
+    void cut(const FrameParams& frame, const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns,
+             const Jobs& jobs);
     std::size_t triangles_in(const TilePart& part) const;
     // Copies a part's entries, in draw order, and its pieces' data. The outputs must have room for triangles_in() entries. Returns the
     // number of pieces. In a piece's setup, vertex[0] is an index into `clips`.
@@ -47,7 +48,7 @@ class Bins {
         ChunkOutput output = {};
         void make_room();
         void sort_by_tile(const FrameParams& frame);
-        void sort_by_part(const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns);
+        void sort_by_part(const FrameParams& frame, const FrameParams& parts, const std::vector<std::uint32_t>& tiles, const TileFns& fns);
         std::span<const std::uint32_t> entries_of(const TilePart& part) const;
     };
     std::vector<std::unique_ptr<Chunk>> chunks_; // kept between frames to reuse their memory

@@ -1,4 +1,6 @@
 // Clips the rare triangle that crosses the near plane or leaves the guard band, one at a time. Bins its pieces.
+#include <algorithm>
+
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/clip.t.h"
 #include "shading/kernels/pixel_range.k.h"
@@ -8,7 +10,7 @@ namespace burnish {
 namespace {
 
 // Computes the rectangle of tiles that the bounding box can touch, as in TileRun. Returns false if the box touches no sample.
-bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
+bool tiles_of_box(const FrameParams& f, const TriangleSetup& t, std::uint32_t corners[2])
 {
     std::int32_t lo[2] = {t.x[0], t.y[0]}, hi[2] = {t.x[0], t.y[0]};
     for (int i = 1; i < 3; ++i) {
@@ -19,8 +21,10 @@ bool tile_rect(const FrameParams& f, const TriangleSetup& t, std::uint32_t corne
     const pixel_range y = pixels_touched(lo[1], hi[1], f.center_y, f.pattern.min_y, f.pattern.max_y, f.height);
     if (x.first > x.last || y.first > y.last)
         return false;
-    corners[0] = static_cast<std::uint32_t>(x.first / f.tile_size | y.first / f.tile_size << 16);
-    corners[1] = static_cast<std::uint32_t>(x.last / f.tile_size | y.last / f.tile_size << 16);
+    const auto first = [&](int pixel) { return std::max(pixel - f.tile_rim, 0) / f.tile_step; };
+    const auto last = [&](int pixel, int tiles) { return std::min((pixel + f.tile_rim) / f.tile_step, tiles - 1); };
+    corners[0] = static_cast<std::uint32_t>(first(x.first) | first(y.first) << 16);
+    corners[1] = static_cast<std::uint32_t>(last(x.last, f.tiles_x) | last(y.last, f.tiles_y) << 16);
     return true;
 }
 
@@ -53,7 +57,7 @@ void emit_piece(const FrameParams& f, std::uint32_t triangle, bool front, const 
     t.info = static_cast<std::int32_t>(material << 2) | (front ? kFrontFacing : 0) | kClipped;
     record.triangle = triangle;
     std::uint32_t corners[2];
-    if (!tile_rect(f, t, corners))
+    if (!tiles_of_box(f, t, corners))
         return;
     add_run(out, corners[0], corners[1], 1);
     out.entries[out.count++] = kClippedEntry | out.piece_count;

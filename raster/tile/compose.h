@@ -90,7 +90,7 @@ BN_INLINE void compose_layer(const FrameParams& f, int width, int height, PeelSc
     float of_lane[kLanes];
     store(of_lane, reduce_max(nearest));
     p.nearest_open = of_lane[0];
-    p.fragment_count += layer.fragment_count - layer.background_pixels;
+    p.fragment_count += layer.own_fragments - layer.own_background;
 }
 
 // Colours behind the blended surfaces, by sample, for a register of pixels.
@@ -114,13 +114,13 @@ BN_INLINE SampleColours colours_of_samples(const FrameParams& f, const TileScrat
     return r;
 }
 
-// Writes the pixels with blended surfaces. resolve() must have written all pixels before. x0, y0: the tile's corner, pixels.
-BN_INLINE void resolve_blended(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
+// Writes the tile's own pixels with blended surfaces. resolve() must have written all pixels before.
+BN_INLINE void resolve_blended(const FrameParams& f, const TileRect& tile, const TileScratch& s)
 {
     const PeelScratch& p = *s.peel;
     const real each = splat(1.0f / static_cast<float>(f.msaa));
     const int blocks_x = f.tile_size / kBlock;
-    for_each_register(f, width, height, s, [&](int block, int v, int passes, const std::uint32_t* lanes, std::uint32_t at) {
+    for_each_register(f, tile.width, tile.height, s, [&](int block, int v, int passes, const std::uint32_t* lanes, std::uint32_t at) {
         const std::uint32_t shown = static_cast<std::uint32_t>(p.pixels[block] >> (v * kLanes)) & kAllLanes;
         if (!shown)
             return;
@@ -136,9 +136,11 @@ BN_INLINE void resolve_blended(const FrameParams& f, int x0, int y0, int width, 
         store(rgb[0], sum.x), store(rgb[1], sum.y), store(rgb[2], sum.z);
         for (std::uint32_t bits = shown; bits; bits &= bits - 1) {
             const int lane = __builtin_ctz(bits), in_block = v * kLanes + lane;
-            const std::size_t x = static_cast<std::size_t>(x0 + block % blocks_x * kBlock + (in_block & 7));
-            const std::size_t y = static_cast<std::size_t>(y0 + block / blocks_x * kBlock + (in_block >> 3));
-            const std::size_t pixel = y * static_cast<std::size_t>(f.width) + x;
+            const int x = block % blocks_x * kBlock + (in_block & 7), y = block / blocks_x * kBlock + (in_block >> 3);
+            if (!tile.owns(x, y))
+                continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(tile.y0 + y) * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(tile.x0 + x);
             for (std::size_t c = 0; c < 3; ++c)
                 s.output[3 * pixel + c] = rgb[c][lane];
             for (int k = 0; k < f.msaa && p.output_through; ++k)

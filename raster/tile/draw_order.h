@@ -58,8 +58,8 @@ BN_INLINE std::uint32_t* sort_by_depth(const float* nearest, std::uint32_t n, st
 
 // Sorts the first n singly drawn triangles from near to far. Then blocks, and under alpha test samples, hide later surfaces before a texel
 // is fetched. Returns false, and keeps the list's order, if sorting would not pay: too many or mostly small triangles, little overlap, or
-// sorted already.
-BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int tile_x, int tile_y)
+// sorted already. x0, y0: the tile's corner, pixels.
+BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::uint32_t n, int x0, int y0)
 {
     constexpr float kLayers = 1.5f; // below this overlap, few samples are hidden
     // Reuse memory that fragments need only later
@@ -70,7 +70,7 @@ BN_INLINE bool front_to_back(const FrameParams& f, const TileScratch& s, std::ui
     std::uint32_t *order = reinterpret_cast<std::uint32_t*>(s.order), *other = reinterpret_cast<std::uint32_t*>(s.fragment_pixel);
     std::uint32_t large = 0, tested = 0;
     float covered = 0.0f;
-    const std::int32_t side = f.tile_size * kSubpixel, left = tile_x * side - f.center_x, top = tile_y * side - f.center_y;
+    const std::int32_t side = f.tile_size * kSubpixel, left = x0 * kSubpixel - f.center_x, top = y0 * kSubpixel - f.center_y;
     const SubPixelBox tile = {left, top, left + side, top + side};
     bool in_order = true;
     // Find each triangle's nearest depth, and judge the gain

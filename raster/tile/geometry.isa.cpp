@@ -23,15 +23,23 @@ void transform_vertices(const FrameParams& f, std::uint32_t first, std::uint32_t
 
 namespace {
 
+struct TileAxis { // the tiles along an axis
+    int begin;    // first own pixel of the first tile
+    int count;
+};
+
 // Computes the inclusive range of tiles whose samples the sub-pixel range [lo, hi] can cover. Returns the lanes whose range holds an image
 // pixel.
 BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int center, int sample_min, int sample_max, int size,
-                          integer& tile_lo, integer& tile_hi)
+                          const TileAxis& tiles, integer& tile_lo, integer& tile_hi)
 {
-    const int tile_shift = __builtin_ctz(static_cast<unsigned>(f.tile_size));
     const pixel_range r = pixels_touched(lo, hi, center, sample_min, sample_max, size);
-    tile_lo = shr(r.first, tile_shift);
-    tile_hi = shr(r.last, tile_shift);
+    const real by_step = splat(1.0f / static_cast<float>(f.tile_step));
+    const integer zero = int_lit(0), last = int_lit(tiles.count - 1);
+    // Half a pixel keeps rounding away from whole numbers
+    const auto tile_of = [&](integer pixel) { return min(to_int((to_real(max(pixel, zero)) + lit(0.5)) * by_step), last); };
+    tile_lo = tile_of(r.first - int_lit(tiles.begin + f.tile_rim));
+    tile_hi = tile_of(r.last - int_lit(tiles.begin - f.tile_rim));
     return r.first <= r.last;
 }
 
@@ -60,8 +68,9 @@ void bin_lanes(const FrameParams& f, std::uint32_t first, int n, ChunkOutput& ou
     // Drop triangles outside the image and culled back faces
     integer tx0, tx1, ty0, ty1;
     mask keep = both(used, not_(clip));
-    keep = both(keep, tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, tx0, tx1));
-    keep = both(keep, tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, ty0, ty1));
+    keep = both(keep, tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, {0, f.tiles_x}, tx0, tx1));
+    keep =
+        both(keep, tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, {0, f.tiles_y}, ty0, ty1));
     if (none(either(keep, clip)))
         return;
     const AreaSigns sign = area_signs(t, keep);
@@ -114,18 +123,18 @@ void bin_triangles(const FrameParams& f, std::uint32_t first, std::uint32_t coun
     }
 }
 
-void touch_tiles(const FrameParams& f, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
+void touch_tiles(const FrameParams& f, int left, int top, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
                  std::uint32_t* last_tile)
 {
-    const integer zero = int_lit(0), all_tiles = int_lit(0x7fff7fff);
+    const integer zero = int_lit(0), all_tiles = int_lit((f.tiles_x - 1) | (f.tiles_y - 1) << 16);
     for (std::uint32_t i = 0; i < count; i += kLanes) {
         const integer entry = load_int(entries + i);
         const mask whole = both(iota() < int_lit(static_cast<std::int32_t>(count - i)), entry >= zero);
         LaneTriangles t;
         load_positions(f, select(whole, entry, zero), false, 0, t);
         integer tx0, tx1, ty0, ty1;
-        tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, tx0, tx1);
-        tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, ty0, ty1);
+        tile_range(f, min3(t.x), max3(t.x), f.center_x, f.pattern.min_x, f.pattern.max_x, f.width, {left, f.tiles_x}, tx0, tx1);
+        tile_range(f, min3(t.y), max3(t.y), f.center_y, f.pattern.min_y, f.pattern.max_y, f.height, {top, f.tiles_y}, ty0, ty1);
         store_int(first_tile + i, select(whole, tx0 | shl(ty0, 16), zero));
         store_int(last_tile + i, select(whole, tx1 | shl(ty1, 16), all_tiles));
     }

@@ -17,13 +17,18 @@ void add(LaneUse& to, const LaneUse& more)
 
 } // namespace
 
-Profiler::Profiler(int threads, std::size_t tiles, std::size_t materials, int lanes)
-    : began_(Trace::now_ns()), lanes_(static_cast<std::uint32_t>(lanes)), workers_(static_cast<std::size_t>(threads)), tile_ns_(tiles)
+Profiler::Profiler(int threads, std::size_t materials, int lanes)
+    : began_(Trace::now_ns()), lanes_(static_cast<std::uint32_t>(lanes)), workers_(static_cast<std::size_t>(threads))
 {
     for (Worker& w : workers_) {
         w.TileClock::lap = tile_lap;
         w.materials.resize(materials);
     }
+}
+
+void Profiler::set_tiles(std::size_t count)
+{
+    tile_ns_.assign(count, 0);
 }
 
 // Returns the time since the last note. The time appears in traces too.

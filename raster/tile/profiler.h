@@ -11,7 +11,8 @@ namespace burnish {
 
 class Profiler {
   public:
-    Profiler(int threads, std::size_t tiles, std::size_t materials, int lanes);
+    Profiler(int threads, std::size_t materials, int lanes);
+    void set_tiles(std::size_t count);
 
     // A thread works between begin() and end(); each lap() ends a stage. count(): a kernel processed `used` items, kLanes at once.
     void begin(int worker);

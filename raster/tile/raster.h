@@ -27,11 +27,11 @@ BN_INLINE int floor_shift(std::int64_t v, int n)
     return static_cast<int>(v >> n);
 }
 
-// Sets up a triangle. Returns false if the triangle touches no sample in the tile.
-BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int tile_x, int tile_y, TileTriangle& r)
+// Sets up a triangle. x0, y0: the tile's corner, pixels. Returns false if the triangle touches no sample in the tile.
+BN_INLINE bool begin_triangle(const FrameParams& f, const TriangleSetup& t, int x0, int y0, TileTriangle& r)
 {
     // Find the pixels that the bounding box touches
-    const std::int32_t ox = tile_x * f.tile_size * kSubpixel - f.center_x, oy = tile_y * f.tile_size * kSubpixel - f.center_y;
+    const std::int32_t ox = x0 * kSubpixel - f.center_x, oy = y0 * kSubpixel - f.center_y;
     const std::int32_t last = f.tile_size - 1;
     std::int32_t lo_x = t.x[0], hi_x = t.x[0], lo_y = t.y[0], hi_y = t.y[0];
     for (int i = 1; i < 3; ++i) {

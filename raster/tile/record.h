@@ -55,9 +55,10 @@ BN_STAGE void record_vertices(const FrameParams& f, std::uint32_t count, std::ui
     }
 }
 
-// Records fragments after shading. x0, y0: the tile's corner, pixels.
-BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, int x0, int y0, const TileScratch& s)
+// Records the fragments of the tile's own pixels after shading.
+BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, const TileRect& tile, const TileScratch& s)
 {
+    const int x0 = tile.x0, y0 = tile.y0;
     const auto pixel_of = [&](std::int32_t pixel) {
         return static_cast<std::size_t>(y0 + (pixel >> 8)) * static_cast<std::size_t>(f.width) +
                static_cast<std::size_t>(x0 + (pixel & 255));
@@ -65,6 +66,8 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
     const std::size_t msaa = static_cast<std::size_t>(f.msaa);
     for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
         const std::int32_t pixel = s.fragment_pixel[i], covered = s.fragment_mask[i], id = s.fragment_triangle[i];
+        if (!tile.owns(pixel & 255, pixel >> 8))
+            continue;
         const std::size_t first = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(covered)));
         std::uint32_t* const record = s.output_pairs + (pixel_of(pixel) * msaa + first) * kPairWords;
         WordWriter w{record};
@@ -83,16 +86,16 @@ BN_STAGE void record_fragments(const FrameParams& f, const view_params& view, in
     }
 }
 
-BN_STAGE void record_depths(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
+BN_STAGE void record_depths(const FrameParams& f, const TileRect& tile, const TileScratch& s)
 {
     const int blocks_x = f.tile_size / kBlock;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
+    for (int y = tile.own_y0; y < tile.own_y1; ++y)
+        for (int x = tile.own_x0; x < tile.own_x1; ++x) {
             const int block = (y / kBlock) * blocks_x + x / kBlock, in_block = (y % kBlock) * kBlock + x % kBlock;
             const float* from = s.depth + block * f.msaa * kBlockPixels + in_block;
-            std::uint32_t* to = s.output_depths +
-                                (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(x0 + x)) *
-                                    static_cast<std::size_t>(f.msaa);
+            std::uint32_t* to = s.output_depths + (static_cast<std::size_t>(tile.y0 + y) * static_cast<std::size_t>(f.width) +
+                                                   static_cast<std::size_t>(tile.x0 + x)) *
+                                                      static_cast<std::size_t>(f.msaa);
             for (int k = 0; k < f.msaa; ++k)
                 __builtin_memcpy(to + k, from + k * kBlockPixels, sizeof *to);
         }

@@ -23,36 +23,48 @@ struct PixelRows {
 };
 static_assert(PixelRows::kFloats * sizeof(float) % 64 == 0);
 
-// Writes rows to the picture. lines: `to` and each later row start on a cache line. Then rows bypass the caches, and memory is not read
-// before it is overwritten.
-BN_INLINE void write_rows(const PixelRows& rows, int columns, int count, bool lines, float* to, std::size_t stride)
+struct PixelRange { // the end is exclusive
+    int begin, end;
+};
+
+// Returns the part of a range that lies in [from, from + size), from `from` on.
+BN_INLINE PixelRange part_of(PixelRange r, int from, int size)
 {
-    const bool whole = columns == PixelRows::kPixels;
-    for (int y = 0; y < count; ++y, to += stride) {
-        const float* const from = rows.rgb[y];
+    return {r.begin > from ? r.begin - from : 0, r.end - from < size ? r.end - from : size};
+}
+
+// Writes columns of rows to the picture. to: the place of column 0 in row 0. lines: `to` and each later row start on a cache line. Then
+// whole rows bypass the caches, and memory is not read before it is overwritten.
+BN_INLINE void write_rows(const PixelRows& rows, PixelRange columns, PixelRange count, bool lines, float* to, std::size_t stride)
+{
+    const bool whole = columns.begin == 0 && columns.end == PixelRows::kPixels;
+    const std::size_t floats = 3 * static_cast<std::size_t>(columns.end > columns.begin ? columns.end - columns.begin : 0);
+    for (int y = count.begin; y < count.end; ++y) {
+        const float* const from = rows.rgb[y] + 3 * columns.begin;
+        float* const at = to + stride * static_cast<std::size_t>(y) + 3 * columns.begin;
         if (whole && lines)
-            stream_lines(to, from, PixelRows::kFloats);
+            stream_lines(at, from, PixelRows::kFloats);
         else if (whole)
-            __builtin_memcpy(to, from, sizeof rows.rgb[y]);
+            __builtin_memcpy(at, from, sizeof rows.rgb[y]);
         else
-            __builtin_memcpy(to, from, 3 * static_cast<std::size_t>(columns) * sizeof(float));
+            __builtin_memcpy(at, from, floats * sizeof(float));
     }
 }
 
-// Box filter: averages samples. A pixel's fragments are summed in pass order, so the sum does not depend on batches. Writes RGB to the
-// frame.
-BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int height, const TileScratch& s)
+// Box filter: averages samples. A pixel's fragments are summed in pass order, so the sum does not depend on batches. Writes RGB of the
+// tile's own pixels to the frame.
+BN_INLINE void resolve(const FrameParams& f, const TileRect& tile, const TileScratch& s)
 {
     const real each = splat(1.0f / static_cast<float>(f.msaa)), zero = lit(0.0);
     const std::uint32_t* lanes = s.pass_lanes;
     const std::uint8_t* register_passes = s.register_passes;
     const std::size_t stride = 3 * static_cast<std::size_t>(f.width);
-    float* const corner = s.output + stride * static_cast<std::size_t>(y0) + 3 * static_cast<std::size_t>(x0);
+    float* const corner = s.output + stride * static_cast<std::size_t>(tile.y0) + 3 * static_cast<std::size_t>(tile.x0);
     const bool lines = f.width % PixelRows::kPixels == 0 && reinterpret_cast<std::uintptr_t>(corner) % 64 == 0;
     PixelRows rows;
     std::uint32_t at = 0;
-    for (int by = 0; by * kBlock < height; ++by)
-        for (int bx = 0; bx * kBlock < width; ++bx) {
+    for (int by = 0; by * kBlock < tile.height; ++by)
+        for (int bx = 0; bx * kBlock < tile.width; ++bx) {
             float* const block = rows.rgb[0] + 3 * kBlock * (bx & 1);
             for (int v = 0; v < kVectors; ++v, ++register_passes) {
                 real r = zero, g = zero, b = zero;
@@ -77,10 +89,11 @@ BN_INLINE void resolve(const FrameParams& f, int x0, int y0, int width, int heig
                 store_triples(to, to + PixelRows::kFloats, r, g, b);
             }
             // Write a finished pair of blocks
-            const int left = (bx & ~1) * kBlock, columns = width - left, count = height - by * kBlock;
-            if ((bx & 1) || columns <= kBlock)
-                write_rows(rows, columns < PixelRows::kPixels ? columns : PixelRows::kPixels, count < kBlock ? count : kBlock, lines,
-                           corner + stride * static_cast<std::size_t>(by * kBlock) + 3 * left, stride);
+            const int left = (bx & ~1) * kBlock, top = by * kBlock;
+            if ((bx & 1) || tile.width - left <= kBlock)
+                write_rows(rows, part_of({tile.own_x0, tile.own_x1}, left, PixelRows::kPixels),
+                           part_of({tile.own_y0, tile.own_y1}, top, kBlock), lines,
+                           corner + stride * static_cast<std::size_t>(top) + 3 * left, stride);
         }
     stream_fence();
 }

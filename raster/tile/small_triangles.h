@@ -57,13 +57,13 @@ BN_INLINE DepthPlane depth_plane(const LaneTriangles& t)
     return p;
 }
 
-// Draws the triangles in `drawn`: opaque ones that small_triangles() returns. Their ids in the tile's list are `first` + lane. The blocks'
-// farthest depths are not updated.
-BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& t, mask drawn, int tile_x, int tile_y, std::uint32_t first,
+// Draws the triangles in `drawn`: opaque ones that small_triangles() returns. Their ids in the tile's list are `first` + lane. x0, y0: the
+// tile's corner, pixels. The blocks' farthest depths are not updated.
+BN_STAGE void raster_small_triangles(const FrameParams& f, const LaneTriangles& t, mask drawn, int x0, int y0, std::uint32_t first,
                                      TileScratch& s)
 {
     // Find the pixels of the bounding boxes
-    const int ox = tile_x * f.tile_size * kSubpixel - f.center_x, oy = tile_y * f.tile_size * kSubpixel - f.center_y;
+    const int ox = x0 * kSubpixel - f.center_x, oy = y0 * kSubpixel - f.center_y;
     const integer zero = int_lit(0), last = int_lit(f.tile_size - 1), one = int_lit(1);
     const integer px0 = max(shr(min3(t.x) - int_lit(ox + f.pattern.max_x - kSubpixel + 1), 8), zero);
     const integer py0 = max(shr(min3(t.y) - int_lit(oy + f.pattern.max_y - kSubpixel + 1), 8), zero);

@@ -1,9 +1,11 @@
 // Draws one tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once per instruction set.
+#include "raster/tile/batch.h"
 #include "raster/tile/compose.h"
 #include "raster/tile/geometry.h"
 #include "raster/tile/record.h"
 #include "raster/tile/resolve.h"
 #include "raster/tile/shade.h"
+#include "raster/tile/share.h"
 #include "raster/tile/visible.h"
 #include "shading/lights/background.t.h"
 
@@ -11,138 +13,6 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 
 namespace {
-
-// kLanes fragments with one material.
-struct Batch {
-    std::int32_t fragment[kLanes];
-    int n;
-    bool run;                        // all lanes in use, by consecutive fragments in the list
-    std::int32_t common;             // the triangle of all fragments, or kManyTriangles
-    integer x, y, samples, triangle; // pixel in the image, covered samples, triangle in the tile's list
-};
-
-BN_INLINE Batch load_batch(const Tile& t, std::uint32_t at, std::uint32_t end)
-{
-    // Find out if the fragments are consecutive
-    Batch b;
-    b.n = static_cast<int>(end - at < kLanes ? end - at : kLanes);
-    const std::int32_t* order = t.s.order + at;
-    std::int32_t in_list[kLanes];
-    std::int32_t first = static_cast<std::int32_t>(at);
-    b.run = b.n == kLanes;
-    if (!t.s.in_list_order) {
-        first = order[0];
-        b.run = b.run && order[kLanes - 1] - first == kLanes - 1; // the order is ascending
-    } else if (!b.run) {
-        store_int(in_list, iota() + int_lit(first));
-        order = in_list;
-    }
-    // Load or gather the fragments
-    integer pixel;
-    if (b.run) {
-        b.fragment[0] = first;
-        pixel = load_int(t.s.fragment_pixel + first);
-        b.samples = load_int(t.s.fragment_mask + first);
-        b.triangle = load_int(t.s.fragment_triangle + first);
-    } else {
-        for (int i = 0; i < kLanes; ++i) // spare lanes repeat the first fragment
-            b.fragment[i] = order[i < b.n ? i : 0];
-        const integer index = load_int(b.fragment);
-        pixel = gather_int(t.s.fragment_pixel, index);
-        b.samples = gather_int(t.s.fragment_mask, index);
-        b.triangle = gather_int(t.s.fragment_triangle, index);
-    }
-    b.x = (pixel & int_lit(255)) + int_lit(t.x0);
-    b.y = shr(pixel, 8) + int_lit(t.y0);
-    b.common = t.s.fragment_triangle[first];
-    if (!all(b.triangle == int_lit(b.common)))
-        b.common = kManyTriangles;
-    return b;
-}
-
-BN_INLINE void store_batch(const Tile& t, const Batch& b, const real3& color)
-{
-    if (b.run) {
-        const std::int32_t to = b.fragment[0];
-        store(t.s.red + to, color.x), store(t.s.green + to, color.y), store(t.s.blue + to, color.z);
-        return;
-    }
-    float r[kLanes], g[kLanes], bl[kLanes];
-    store(r, color.x), store(g, color.y), store(bl, color.z);
-    for (int i = 0; i < b.n; ++i) {
-        const std::int32_t to = b.fragment[i];
-        t.s.red[to] = r[i], t.s.green[to] = g[i], t.s.blue[to] = bl[i];
-    }
-}
-
-BN_INLINE void store_shared_samples(const Tile& t, const Batch& b, const shared_sample_record& r)
-{
-    const shared_sample_words line = words_of_shared_sample(r);
-    integer words[16];
-    for (int i = 0; i < 16; ++i)
-        words[i] = bits_of(line.at[i]);
-    if (b.run) {
-        store_records16(t.s.lines + std::ptrdiff_t{16} * b.fragment[0], words);
-        return;
-    }
-    alignas(64) float part[kLanes][16];
-    store_records16(part, words);
-    for (int i = 0; i < b.n; ++i)
-        __builtin_memcpy(t.s.lines + std::ptrdiff_t{16} * b.fragment[i], part[i], sizeof part[i]);
-}
-
-BN_INLINE shared_sample_record load_shared_samples(const TileScratch& s, integer fragment)
-{
-    integer words[16];
-    load_records16(s.lines, fragment, words);
-    shared_sample_words line;
-    for (int i = 0; i < 16; ++i)
-        line.at[i] = real_from_bits(words[i]);
-    return shared_sample_of_words(line);
-}
-
-// Lists the fragments that share samples, by pixel.
-void list_sharing(const Tile& t)
-{
-    TileScratch& s = t.s;
-    __builtin_memset(s.sharing_of_pixel, 255, sizeof(std::int32_t) * kMaxTileSize * kMaxTileSize);
-    for (std::int32_t i = static_cast<std::int32_t>(s.fragment_count); i-- > 0;) {
-        const std::int32_t triangle = s.fragment_triangle[i];
-        if (triangle < 0 || !(t.f.materials[s.triangles[triangle].info >> 2].technique_traits & kSharesSamples))
-            continue;
-        const std::int32_t pixel = s.fragment_pixel[i];
-        std::int32_t& first = s.sharing_of_pixel[(pixel & 255) + (pixel >> 8) * kMaxTileSize];
-        s.next_sharing[i] = first;
-        first = i;
-    }
-}
-
-// Averages a slot's fragments over neighbours that share samples, and stores their colours.
-void share_slot(const Tile& t, std::uint32_t begin, std::uint32_t end)
-{
-    const TileScratch& s = t.s;
-    const real each = splat(1.0f / static_cast<float>(t.f.msaa));
-    const integer none_left = int_lit(-1);
-    for (std::uint32_t i = begin; i < end; i += kLanes) {
-        const Batch b = load_batch(t, i, end);
-        const integer fragment = b.run ? iota() + int_lit(b.fragment[0]) : load_int(b.fragment);
-        const integer pixel = b.x - int_lit(t.x0) + (b.y - int_lit(t.y0)) * int_lit(kMaxTileSize);
-        const shared_sample_record own = load_shared_samples(s, fragment);
-        shared_sample_mean mean = shared_sample_mean_begin(own);
-        // Visit the other three pixels of the quad
-        for (int k = 1; k < 4; ++k) {
-            integer at = gather_int(s.sharing_of_pixel, pixel ^ int_lit((k & 1) + (k >> 1) * kMaxTileSize));
-            for (mask some = at > none_left; any(some); some = at > none_left) {
-                const integer other = select(some, at, fragment);
-                const shared_sample_record r = load_shared_samples(s, other);
-                const real cover = covered_share(gather_int(s.fragment_mask, other), each);
-                mean = shared_sample_mean_add(mean, own, r, cover, some);
-                at = select(some, gather_int(s.next_sharing, other), none_left);
-            }
-        }
-        store_batch(t, b, shared_sample_mean_colour(mean, own));
-    }
-}
 
 // Finds the addresses of several batches first, then fetches their texels: see cube_sum.h.
 void shade_background_slot(const Tile& t, const view_params& view, std::uint32_t begin, std::uint32_t end)
@@ -236,7 +106,10 @@ void draw_layers(const Tile& t, const view_params& view, const MaterialRecord& m
     const integer central = int_lit(1 << t.f.layer_sample);
     for (std::uint32_t i = begin; i < end; i += kLanes) {
         const Batch b = load_batch(t, i, end);
-        const mask seen = (b.samples & central) != int_lit(0);
+        const integer x = b.x - int_lit(t.x0), y = b.y - int_lit(t.y0);
+        const mask in_columns = both(x >= int_lit(t.own_x0), x < int_lit(t.own_x1)),
+                   in_rows = both(y >= int_lit(t.own_y0), y < int_lit(t.own_y1));
+        const mask seen = both((b.samples & central) != int_lit(0), both(in_columns, in_rows));
         if (none(seen))
             continue;
         const visible_point p = make_fragment(t.f, m, view, t.s, b.triangle, b.common, b.x, b.y, b.samples);
@@ -265,17 +138,17 @@ void shade_slots(const Tile& t, const view_params& view, int slots)
 {
     const TileScratch& s = t.s;
     bool shared = false;
+    for (int k = 1; k < slots; ++k)
+        shared = shared || (t.f.materials[s.slot_material[k]].technique_traits & kSharesSamples);
+    if (shared)
+        begin_sharing(t.s);
     for (int k = 1; k < slots; ++k) {
         const MaterialRecord& m = t.f.materials[s.slot_material[k]];
         kShadeSlots[m.technique](t, view, m, s.slot_begin[k], s.slot_begin[k + 1]);
-        shared = shared || (m.technique_traits & kSharesSamples);
         lap(s, FrameStage::shade, s.slot_material[k], s.slot_begin[k + 1] - s.slot_begin[k]);
     }
     if (shared)
-        list_sharing(t);
-    for (int k = 1; shared && k < slots; ++k)
-        if (t.f.materials[s.slot_material[k]].technique_traits & kSharesSamples)
-            share_slot(t, s.slot_begin[k], s.slot_begin[k + 1]);
+        share_fragments(t);
 }
 
 // Fetches alpha for a layer's fragments with one material.
@@ -294,7 +167,7 @@ void find_alphas(const Tile& t, const view_params& view, const MaterialRecord& m
 void draw_blended(const Tile& t, const view_params& view)
 {
     PeelScratch& peel = *t.s.peel;
-    const Tile layer{t.f, *peel.layer, t.index_x, t.index_y, t.x0, t.y0, t.width, t.height};
+    const Tile layer{t, t.f, *peel.layer};
     begin_layers(t);
     for (int slots = find_layer(t); slots > 1; slots = find_layer(t)) {
         shade_slots(layer, view, slots);
@@ -305,7 +178,7 @@ void draw_blended(const Tile& t, const view_params& view)
         compose_layer(t.f, t.width, t.height, peel);
         lap(layer.s, FrameStage::resolve);
     }
-    resolve_blended(t.f, t.x0, t.y0, t.width, t.height, t.s);
+    resolve_blended(t.f, t, t.s);
 }
 
 void draw_all_layers(const Tile& t, const view_params& view, int slots)
@@ -314,11 +187,9 @@ void draw_all_layers(const Tile& t, const view_params& view, int slots)
         draw_layers(t, view, t.f.materials[t.s.slot_material[k]], t.s.slot_begin[k], t.s.slot_begin[k + 1]);
 }
 
-void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
+void render_tile(const FrameParams& f, const TileRect& rect, TileScratch& s)
 {
-    Tile t{f, s, tile_x, tile_y, tile_x * f.tile_size, tile_y * f.tile_size, 0, 0};
-    t.width = f.width - t.x0 < f.tile_size ? f.width - t.x0 : f.tile_size;
-    t.height = f.height - t.y0 < f.tile_size ? f.height - t.y0 : f.tile_size;
+    const Tile t{rect, f, s};
     const view_params view = view_params_of(f.view);
     if (s.output_layers && f.blends)
         draw_all_layers(t, view, find_visible(t, view, Surfaces::all));
@@ -329,10 +200,10 @@ void render_tile(const FrameParams& f, int tile_x, int tile_y, TileScratch& s)
     if (s.output_layers && !f.blends)
         draw_all_layers(t, view, slots);
     if (s.output_pairs) {
-        record_depths(f, t.x0, t.y0, t.width, t.height, s);
-        record_fragments(f, view, t.x0, t.y0, s);
+        record_depths(f, t, s);
+        record_fragments(f, view, t, s);
     }
-    resolve(f, t.x0, t.y0, t.width, t.height, s);
+    resolve(f, t, s);
     lap(s, FrameStage::resolve);
     if (s.peel && s.peel->triangle_count > 0)
         draw_blended(t, view);

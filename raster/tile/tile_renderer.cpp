@@ -64,15 +64,15 @@ struct WorkerPeel {
 
 // Scratch memory of one worker, sized once for a tile's worst case.
 struct WorkerScratch {
-    Column<float> depth, block_far, red, green, blue, lines;
+    Column<float> depth, block_far, red, green, blue, shared_words, shared_pixels;
     Column<std::uint32_t> ids, slot_begin, pass_lanes, entries, drawn_singly;
     Column<std::uint8_t> block_dirty, register_passes;
     Column<BlockState> block_state;
     Column<BlockPlane> block_plane;
     Column<TriangleSetup> triangles;
     Column<ClipRecord> clips;
-    Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material, sharing_of_pixel,
-        next_sharing;
+    Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
+    std::size_t shared_capacity = 0;
     std::vector<PixelPart> parts;
     FrameStats stats;
 
@@ -87,8 +87,11 @@ struct WorkerScratch {
             c->resize(samples);
         for (Column<std::int32_t>* c : {&fragment_triangle, &fragment_pixel, &fragment_mask, &order})
             c->resize(samples);
-        if (shares)
-            lines.resize(16 * samples), next_sharing.resize(samples), sharing_of_pixel.resize(kMaxTileSize * kMaxTileSize);
+        if (shares) {
+            shared_capacity = samples + kColumnPad; // whole registers are written
+            shared_words.resize(std::size_t{kSharedWords} * shared_capacity);
+            shared_pixels.resize(std::size_t{kSharedPlanes} * kSharedPixels);
+        }
         slot_begin.resize(materials + 3), slot_material.resize(materials + 2), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
         stats = {}, parts.clear();
@@ -119,9 +122,9 @@ struct WorkerScratch {
                 .red = red.data(),
                 .green = green.data(),
                 .blue = blue.data(),
-                .lines = lines.data(),
-                .sharing_of_pixel = sharing_of_pixel.data(),
-                .next_sharing = next_sharing.data(),
+                .shared_words = shared_words.data(),
+                .shared_pixels = shared_pixels.data(),
+                .shared_capacity = shared_capacity,
                 .order = order.data(),
                 .in_list_order = false,
                 .only_material = kNoMaterial,
@@ -130,6 +133,8 @@ struct WorkerScratch {
                 .slot_begin = slot_begin.data(),
                 .fragment_count = 0,
                 .background_pixels = 0,
+                .own_fragments = 0,
+                .own_background = 0,
                 .output = frame.color.f32(),
                 .output_ids = frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
                 .output_depths = frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
@@ -154,7 +159,7 @@ class TileRenderer final : public Renderer {
     FrameParams frame_params(const FrameDesc& desc);
     void prepare_workers(const FrameParams& f);
     void draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler);
-    void draw_tile(const FrameParams& p, int x, int y, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
+    void draw_tile(const FrameParams& p, const TileRect& rect, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
                    Profiler* profiler);
 
     RenderInput input_;
@@ -168,13 +173,21 @@ class TileRenderer final : public Renderer {
     std::vector<WorkerPeel> peels_;
 };
 
+bool shares_samples(const std::vector<MaterialRecord>& materials)
+{
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
+}
+
 FrameParams TileRenderer::frame_params(const FrameDesc& desc)
 {
     FrameParams f = {};
     static_cast<ShadingFrame&>(f) = maker_.make(desc);
     f.tile_size = desc.tile_size;
-    f.tiles_x = (desc.width + desc.tile_size - 1) / desc.tile_size;
-    f.tiles_y = (desc.height + desc.tile_size - 1) / desc.tile_size;
+    f.tile_rim = shares_samples(maker_.materials()) ? 1 : 0;
+    f.tile_step = f.tile_size - 2 * f.tile_rim;
+    f.tiles_x = (desc.width + f.tile_step - 1) / f.tile_step;
+    f.tiles_y = (desc.height + f.tile_step - 1) / f.tile_step;
     f.vertices = vertices_.data();
     f.blends = any_blends(maker_.materials());
     return f;
@@ -206,18 +219,20 @@ bool shows_blended(const FrameParams& f, int x, int y, const TileScratch& s)
     return s.peel->pixels[y / kBlock * (f.tile_size / kBlock) + x / kBlock] >> (y % kBlock * kBlock + x % kBlock) & 1u;
 }
 
-// Collects the tile's fragments that do not fill their pixel. x0, y0: the tile's corner, pixels.
-void collect_parts(const FrameParams& f, int x0, int y0, const TileScratch& s, std::vector<PixelPart>& to)
+// Collects the fragments that do not fill their pixel, in the tile's own pixels.
+void collect_parts(const FrameParams& f, const TileRect& tile, const TileScratch& s, std::vector<PixelPart>& to)
 {
     const std::uint32_t whole = (1u << f.msaa) - 1;
     for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
         const std::uint32_t samples = static_cast<std::uint32_t>(s.fragment_mask[i]);
         const int x = s.fragment_pixel[i] & 255, y = s.fragment_pixel[i] >> 8;
+        if (!tile.owns(x, y))
+            continue;
         const bool blended = shows_blended(f, x, y, s);
         if (samples == whole && (!blended || f.msaa == 1))
             continue;
-        const PixelPart part = pixel_part(static_cast<std::uint32_t>((y0 + y) * f.width + x0 + x), samples, s.fragment_triangle[i] < 0,
-                                          {s.red[i], s.green[i], s.blue[i]});
+        const PixelPart part = pixel_part(static_cast<std::uint32_t>((tile.y0 + y) * f.width + tile.x0 + x), samples,
+                                          s.fragment_triangle[i] < 0, {s.red[i], s.green[i], s.blue[i]});
         if (blended)
             collect_blended_parts(f, x, y, i, s, part, to);
         else
@@ -228,8 +243,7 @@ void collect_parts(const FrameParams& f, int x0, int y0, const TileScratch& s, s
 void TileRenderer::prepare_workers(const FrameParams& f)
 {
     const std::vector<MaterialRecord>& materials = maker_.materials();
-    const bool shares =
-        std::any_of(materials.begin(), materials.end(), [](const MaterialRecord& m) { return (m.technique_traits & kSharesSamples) != 0; });
+    const bool shares = shares_samples(materials);
     const std::size_t threads = static_cast<std::size_t>(input_.jobs.threads());
     workers_.resize(threads);
     for (WorkerScratch& w : workers_)
@@ -244,8 +258,8 @@ void TileRenderer::prepare_workers(const FrameParams& f)
         p.prepare(pixels * static_cast<std::size_t>(f.msaa), pixels / kBlockPixels);
 }
 
-// Draws one tile, or a part of a tile, in the frame `p`. x, y: its index among the tiles of p.
-void TileRenderer::draw_tile(const FrameParams& p, int x, int y, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
+// Draws one tile, or a part of a tile, in the frame `p`.
+void TileRenderer::draw_tile(const FrameParams& p, const TileRect& rect, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
                              Profiler* profiler)
 {
     ProfiledWork work(profiler, worker);
@@ -266,11 +280,11 @@ void TileRenderer::draw_tile(const FrameParams& p, int x, int y, const TilePart&
     }
     // Draw, and collect parts and statistics
     work.lap(FrameStage::gather);
-    fns_.render_tile(p, x, y, scratch);
+    fns_.render_tile(p, rect, scratch);
     if (parts_wanted)
-        collect_parts(p, x * p.tile_size, y * p.tile_size, scratch, w.parts);
-    w.stats.visible_fragments += scratch.fragment_count - scratch.background_pixels + peel.fragment_count;
-    w.stats.background_pixels += scratch.background_pixels;
+        collect_parts(p, rect, scratch, w.parts);
+    w.stats.visible_fragments += scratch.own_fragments - scratch.own_background + peel.fragment_count;
+    w.stats.background_pixels += scratch.own_background;
     if (profiler)
         profiler->end_tile(worker, part.tile);
 }
@@ -289,20 +303,21 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
     const auto whole_from = hot.tiles.begin() + static_cast<std::ptrdiff_t>(hot.cut);
     std::vector<std::uint32_t> cut(hot.tiles.begin(), whole_from), known = hot.tiles;
     std::sort(cut.begin(), cut.end()), std::sort(known.begin(), known.end());
-    FrameParams parts = f; // the frame with parts as its tiles
-    parts.tile_size = f.tile_size / TilePart::kSide;
-    parts.tiles_x = f.tiles_x * TilePart::kSide, parts.tiles_y = f.tiles_y * TilePart::kSide;
-    bins_.cut(parts, cut, fns_, input_.jobs);
+    FrameParams parts = f; // the frame with one tile's parts as its tiles
+    parts.tile_step = f.tile_size / TilePart::kSide;
+    parts.tile_size = f.tile_rim ? 2 * parts.tile_step : parts.tile_step; // with room for the rim
+    parts.tiles_x = parts.tiles_y = TilePart::kSide;
+    bins_.cut(f, parts, cut, fns_, input_.jobs);
     const auto draw = [&](const TilePart& part, int worker) {
+        const int left = static_cast<int>(part.tile) % f.tiles_x * f.tile_step, top = static_cast<int>(part.tile) / f.tiles_x * f.tile_step;
+        const int right = std::min(left + f.tile_step, f.width), bottom = std::min(top + f.tile_step, f.height);
         const bool whole = part.cut < 0;
         const FrameParams& p = whole ? f : parts;
-        const int side = whole ? 1 : TilePart::kSide;
-        const int x = static_cast<int>(part.tile) % f.tiles_x * side + part.part % side;
-        const int y = static_cast<int>(part.tile) / f.tiles_x * side + part.part / side;
-        if (x * p.tile_size >= f.width || y * p.tile_size >= f.height)
-            return; // a part beyond the image
+        const int x = left + part.part % TilePart::kSide * p.tile_step, y = top + part.part / TilePart::kSide * p.tile_step;
+        if (x >= right || y >= bottom)
+            return; // a part beyond the tile or the image
         const TraceSpan tile_span("tile");
-        draw_tile(p, x, y, part, worker, frame, parts_wanted, profiler);
+        draw_tile(p, tile_rect(p, x, y, right, bottom), part, worker, frame, parts_wanted, profiler);
     };
     // Draw long tiles first, then parts, each by the next free thread, then all others, a few neighbours at a time.
     std::vector<TilePart> order;
@@ -337,12 +352,6 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
               [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
 }
 
-std::size_t tiles_of(const FrameDesc& d)
-{
-    const auto side = [&](int pixels) { return static_cast<std::size_t>((pixels + d.tile_size - 1) / d.tile_size); };
-    return side(d.width) * side(d.height);
-}
-
 // Returns a frame with memory. Every pixel will be written, so a recycled picture with equal size keeps its contents.
 Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
 {
@@ -374,10 +383,12 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     const auto begin = std::chrono::steady_clock::now();
     std::optional<Profiler> measured;
     if (desc.profile)
-        measured.emplace(input_.jobs.threads(), tiles_of(desc), maker_.scene().materials.size(), fns_.lanes);
+        measured.emplace(input_.jobs.threads(), maker_.scene().materials.size(), fns_.lanes);
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
     const FrameParams f = frame_params(desc);
+    if (profiler)
+        profiler->set_tiles(static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y));
     Frame frame = frame_for(desc, f.blends, std::move(recycled));
     if (desc.stages)
         frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);

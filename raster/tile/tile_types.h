@@ -13,6 +13,11 @@ inline constexpr int kBlock = 8; // coverage and hierarchical depth work on 8x8 
 inline constexpr int kBlockPixels = kBlock * kBlock;
 inline constexpr int kMaxTileSize = 64; // pixels along a side
 
+// Tables of shared samples by pixel: rows of a tile with a margin around them.
+inline constexpr int kSharedMargin = 8, kSharedStride = kMaxTileSize + 2 * kSharedMargin;
+inline constexpr int kSharedPixels = (kMaxTileSize + 3) * kSharedStride; // one row before and one after, and a row of spare lanes
+inline constexpr int kSharedWords = 13, kSharedPlanes = 11;              // see share.h
+
 // A transformed vertex.
 struct alignas(16) SnappedVertex {
     std::int32_t x, y; // sub-pixel units; x = kNeedsClip if the vertex has no snapped position
@@ -77,10 +82,34 @@ inline void add_run(ChunkOutput& out, std::uint32_t first_tile, std::uint32_t la
 
 // All frame data that a tile needs; constant while the frame is drawn.
 struct FrameParams : ShadingFrame {
-    std::int32_t tile_size, tiles_x, tiles_y;
+    std::int32_t tile_size; // pixels along a side of a tile's memory, a power of two
+    std::int32_t tile_step; // pixels from a tile's own pixels to the next tile's
+    std::int32_t tile_rim;  // pixels around its own that a tile shades too, for neighbours that share samples
+    std::int32_t tiles_x, tiles_y;
     SnappedVertex* vertices; // by global vertex id
     bool blends;             // some material blends
 };
+
+// A tile's pixels. Every pixel of the image is one tile's own.
+struct TileRect {
+    int x0, y0, width, height;          // drawn pixels, in the image; at most FrameParams::tile_size along a side
+    int own_x0, own_y0, own_x1, own_y1; // its own pixels, from x0, y0; the end is exclusive
+    bool whole() const { return own_x0 == 0 && own_y0 == 0 && own_x1 == width && own_y1 == height; }
+    bool owns(int x, int y) const { return x >= own_x0 && x < own_x1 && y >= own_y0 && y < own_y1; }
+};
+
+// Returns the tile whose own pixels begin at left, top, and end at the latest at right, bottom.
+inline TileRect tile_rect(const FrameParams& f, int left, int top, int right, int bottom)
+{
+    const int rim = f.tile_rim;
+    const auto least = [](int a, int b) { return a < b ? a : b; };
+    const int own_x1 = least(left + f.tile_step, right), own_y1 = least(top + f.tile_step, bottom);
+    TileRect r;
+    r.x0 = left > rim ? left - rim : 0, r.y0 = top > rim ? top - rim : 0;
+    r.width = least(own_x1 + rim, f.width) - r.x0, r.height = least(own_y1 + rim, f.height) - r.y0;
+    r.own_x0 = left - r.x0, r.own_y0 = top - r.y0, r.own_x1 = own_x1 - r.x0, r.own_y1 = own_y1 - r.y0;
+    return r;
+}
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // in place of a material
 
@@ -123,7 +152,7 @@ struct PeelScratch {
     std::uint32_t triangle_count;
     std::uint32_t passed;         // triangles at the front of the list that no further layer shows
     float nearest_open;           // greatest of `depth`
-    std::uint32_t fragment_count; // in all layers
+    std::uint32_t fragment_count; // in all layers, in the tile's own pixels
     float* output_through;        // the frame's [pixel][sample], or null
 };
 
@@ -146,9 +175,9 @@ struct TileScratch {
     std::uint8_t* register_passes;   // by register of pixels: largest number of fragments per pixel
     std::uint32_t* pass_lanes;       // by pass: the register's pixels with a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
-    float* lines; // [fragment][16] shared_sample_record (shading/techniques/shared_samples.k.h), for fragments that share samples
-    std::int32_t* sharing_of_pixel; // [64 y + x] first fragment that shares samples, or -1
-    std::int32_t* next_sharing;     // by fragment: the pixel's next sharing fragment, in pass order, or -1
+    float* shared_words;             // [word][shared_capacity] records that fragments share (share.h), by fragment
+    float* shared_pixels;            // [plane][kSharedPixels] what each pixel shows its neighbours
+    std::size_t shared_capacity;
     std::int32_t* order;            // fragments sorted by material slot
     bool in_list_order;             // `order` would hold 0, 1, 2... and is not written
     std::int32_t only_material;     // of all triangles in the tile; or kNoMaterial, kManyMaterials
@@ -156,6 +185,7 @@ struct TileScratch {
     std::int32_t* slot_material;    // by slot
     std::uint32_t* slot_begin;      // by slot, into `order`
     std::uint32_t fragment_count, background_pixels;
+    std::uint32_t own_fragments, own_background; // those in the tile's own pixels
     float* output;                               // the frame's RGB pixels
     std::uint32_t* output_ids;                   // the frame's triangle ids [pixel][sample], or null
     std::uint32_t *output_depths, *output_pairs; // the frame's stage records, or null
@@ -167,11 +197,11 @@ struct TileScratch {
 struct TileFns { // one table per instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
-    // Computes the rectangles of tiles that entries may touch, as in TileRun. Pieces get all tiles. kLanes may be read and written at any
-    // entry.
-    void (*touch_tiles)(const FrameParams&, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
+    // Computes the rectangles of tiles that entries may touch, as in TileRun. left, top: the first tile's first own pixel. Pieces get all
+    // tiles. kLanes may be read and written at any entry.
+    void (*touch_tiles)(const FrameParams&, int left, int top, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
                         std::uint32_t* last_tile);
-    void (*render_tile)(const FrameParams&, int tile_x, int tile_y, TileScratch&);
+    void (*render_tile)(const FrameParams&, const TileRect&, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
     int lanes;                                                                            // kLanes
 };

@@ -7,11 +7,9 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-struct Tile {
+struct Tile : TileRect {
     const FrameParams& f;
     TileScratch& s;
-    int index_x, index_y;
-    int x0, y0, width, height; // pixels
 };
 
 enum class Surfaces {

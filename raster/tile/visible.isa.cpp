@@ -110,7 +110,7 @@ void raster_register(const Tile& t, std::uint32_t first, Surfaces surfaces, std:
         if (!some_small) // one small triangle usually means many
             write_all_blocks(t.f, s);
         some_small = true;
-        raster_small_triangles(t.f, triangles, mask_from_bits(small), t.index_x, t.index_y, first, s);
+        raster_small_triangles(t.f, triangles, mask_from_bits(small), t.x0, t.y0, first, s);
     }
 }
 
@@ -121,7 +121,7 @@ template <bool kAnyOrder> void raster_singly(const Tile& t, const view_params& v
         const std::uint32_t i = s.drawn_singly[k];
         const TriangleSetup& setup = s.triangles[i];
         TileTriangle triangle;
-        if (!begin_triangle(t.f, setup, t.index_x, t.index_y, triangle))
+        if (!begin_triangle(t.f, setup, t.x0, t.y0, triangle))
             continue;
         triangle.refresh_writes = refresh_writes;
         const std::int32_t material = setup.info >> 2;
@@ -146,7 +146,7 @@ void raster_tile(const Tile& t, const view_params& view, Surfaces surfaces)
         raster_register(t, i, surfaces, singly, some_small);
     if (some_small) // the blocks' bounds are out of date
         __builtin_memset(s.block_dirty, 255, static_cast<std::size_t>((t.f.tile_size / kBlock) * (t.f.tile_size / kBlock)));
-    const bool sorted = front_to_back(t.f, s, singly, t.index_x, t.index_y); // if early hiding pays
+    const bool sorted = front_to_back(t.f, s, singly, t.x0, t.y0); // if early hiding pays
     if (sorted || some_small)
         raster_singly<true>(t, view, singly, sorted ? 1 : 4);
     else
@@ -179,16 +179,17 @@ BN_INLINE bool write_row(const TileScratch& s, const std::uint32_t* from, std::u
 void write_ids(const Tile& t)
 {
     const int blocks_x = t.f.tile_size / kBlock, msaa = t.f.msaa;
-    for (int y = 0; y < t.height; ++y)
-        for (int bx = 0; bx * kBlock < t.width; ++bx) {
+    for (int y = t.own_y0; y < t.own_y1; ++y)
+        for (int bx = 0; bx * kBlock < t.own_x1; ++bx) {
+            const int left = bx * kBlock, first = left < t.own_x0 ? t.own_x0 - left : 0;
+            const int end = t.own_x1 - left < kBlock ? t.own_x1 - left : kBlock;
             const std::uint32_t* from = t.s.ids + (y / kBlock * blocks_x + bx) * msaa * kBlockPixels + y % kBlock * kBlock;
             std::uint32_t* to = t.s.output_ids + (static_cast<std::size_t>(t.y0 + y) * static_cast<std::size_t>(t.f.width) +
-                                                  static_cast<std::size_t>(t.x0 + bx * kBlock)) *
+                                                  static_cast<std::size_t>(t.x0 + left + first)) *
                                                      static_cast<std::size_t>(msaa);
-            const int pixels = t.width - bx * kBlock < kBlock ? t.width - bx * kBlock : kBlock;
-            if (msaa == 1 && pixels == kBlock && write_row(t.s, from, to))
+            if (msaa == 1 && end - first == kBlock && write_row(t.s, from, to))
                 continue;
-            for (int x = 0; x < pixels; ++x)
+            for (int x = first; x < end; ++x)
                 for (int s = 0; s < msaa; ++s) {
                     const std::uint32_t id = from[s * kBlockPixels + x];
                     *to++ = id == kNoTriangle ? kNoTriangle : triangle_id(t.s, id);
@@ -284,6 +285,25 @@ int sort_fragments(TileScratch& s)
     return slots;
 }
 
+// Counts the fragments in the tile's own pixels.
+void count_own(const Tile& t, TileScratch& s)
+{
+    s.own_fragments = s.fragment_count, s.own_background = s.background_pixels;
+    if (t.whole())
+        return;
+    s.own_fragments = s.own_background = 0;
+    for (std::uint32_t i = 0; i < s.fragment_count; i += kLanes) {
+        const integer pixel = load_int(s.fragment_pixel + i), x = pixel & int_lit(255), y = shr(pixel, 8);
+        const mask in_columns = both(x >= int_lit(t.own_x0), x < int_lit(t.own_x1));
+        const mask in_rows = both(y >= int_lit(t.own_y0), y < int_lit(t.own_y1));
+        const mask valid = iota() < int_lit(static_cast<std::int32_t>(s.fragment_count - i));
+        const mask own = both(valid, both(in_columns, in_rows));
+        const mask background = both(own, load_int(s.fragment_triangle + i) < int_lit(0));
+        s.own_fragments += static_cast<std::uint32_t>(__builtin_popcount(to_bits(own)));
+        s.own_background += static_cast<std::uint32_t>(__builtin_popcount(to_bits(background)));
+    }
+}
+
 } // namespace
 
 // Clear, draw, list, sort.
@@ -301,6 +321,7 @@ int find_visible(const Tile& t, const view_params& view, Surfaces surfaces)
             write_ids(t);
     }
     list_fragments(t.f, t.width, t.height, s);
+    count_own(t, s);
     const int slots = sort_fragments(s);
     lap(s, FrameStage::visibility);
     return slots;
@@ -338,7 +359,7 @@ int find_layer(const Tile& t)
     for (std::uint32_t k = peel.passed; k < peel.triangle_count && peel.nearest[peel.triangles[k]] >= farthest; ++k) {
         const std::uint32_t i = peel.triangles[k];
         TileTriangle triangle;
-        const bool touches = begin_triangle(t.f, layer.triangles[i], t.index_x, t.index_y, triangle);
+        const bool touches = begin_triangle(t.f, layer.triangles[i], t.x0, t.y0, triangle);
         if (!touches || triangle.z_min > peel.nearest_open) { // before the last layer everywhere
             peel.passed += peel.passed == k;
             continue;
@@ -351,6 +372,7 @@ int find_layer(const Tile& t)
     }
     lap(layer, FrameStage::coverage);
     list_fragments(t.f, t.width, t.height, layer);
+    count_own(t, layer);
     const int slots = sort_fragments(layer);
     lap(layer, FrameStage::visibility);
     return layer.background_pixels == layer.fragment_count ? 1 : slots;

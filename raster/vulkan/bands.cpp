@@ -5,17 +5,23 @@
 
 namespace burnish {
 
-int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes)
+int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes, int rim)
 {
     const std::size_t fit = band_bytes / (bytes * static_cast<std::size_t>(width)) & ~std::size_t{1};
-    return static_cast<int>(std::clamp<std::size_t>(fit, 2, static_cast<std::size_t>(std::max(height, 2))));
+    const int most = std::max(height, 2), least = std::min(2 + 2 * rim, most);
+    return static_cast<int>(std::clamp<std::size_t>(fit, static_cast<std::size_t>(least), static_cast<std::size_t>(most)));
 }
 
-std::vector<Band> bands_of(int height, int rows)
+std::vector<Band> bands_of(int height, int rows, int rim)
 {
+    if (rows >= height)
+        return {{0, height, 0, height}};
     std::vector<Band> bands;
-    for (int y = 0; y < height; y += rows)
-        bands.push_back({y, std::min(rows, height - y)});
+    const int step = rows - 2 * rim;
+    for (int y = 0; y < height; y += step) {
+        const int first = std::max(y - rim, 0), end = std::min(y + step, height), last = std::min(end + rim, height);
+        bands.push_back({first, last - first, y - first, end - first});
+    }
     return bands;
 }
 

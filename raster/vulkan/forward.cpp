@@ -44,8 +44,8 @@ void ForwardPass::make_targets(const FrameDesc& desc, std::size_t band_bytes)
                                 fmt::format("forward: {} cannot take {} samples a pixel", context_.info().name, desc.msaa),
                                 "VulkanOptions::pipeline"}};
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
-    const int rows =
-        band_rows(desc.width, desc.height, desc.stages ? msaa * kSampleWords * sizeof(float) : std::max(kTexelBytes, msaa * 4), band_bytes);
+    const int rows = band_rows(desc.width, desc.height, desc.stages ? msaa * kSampleWords * sizeof(float) : std::max(kTexelBytes, msaa * 4),
+                               band_bytes, 0);
     Targets t;
     t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.stages = desc.stages;
     if (t.width == targets_.width && t.rows == targets_.rows && t.msaa == targets_.msaa && t.stages == targets_.stages)
@@ -163,7 +163,7 @@ void ForwardPass::begin(VkCommandBuffer c, const Band& band, bool resolves)
 
 void ForwardPass::draw(VkCommandBuffer c, const Specialization& technique, const Band& band)
 {
-    const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0, 0};
+    const GpuPass pass = {0, 0, -1, 0, 0, band.first_row, band.rows, 0, 0, 0, 0};
     begin(c, band, targets_.msaa > 1);
     if (drawer_)
         drawer_->draw(c, *native_, static_cast<VkSampleCountFlagBits>(targets_.msaa), kColorFormat, band);
@@ -199,7 +199,7 @@ void ForwardPass::gather(VkCommandBuffer c, const char* shader, const Band& band
     change_layout(c, targets_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     vkCmdBindPipeline(c, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(name));
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
-    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, group, 0});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, group, 0, 0, 0});
     pipelines_.dispatch(c, static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
@@ -209,7 +209,7 @@ void ForwardPass::record(const FrameDesc& desc, const Band& band, Frame& frame)
     gather(c, "gather_words", band, kGpuColorGroup); // of the picture that draw() left
     for (int group = 0; group < kGpuColorGroup; ++group) {
         begin(c, band, false);
-        draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group, 0}, true);
+        draw_scene(c, {}, {0, 0, -1, 0, 0, band.first_row, band.rows, group, 0, 0, 0}, true);
         vkCmdEndRendering(c);
         gather(c, group == 0 ? "gather" : "gather_words", band, group);
     }

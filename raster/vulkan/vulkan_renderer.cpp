@@ -43,6 +43,7 @@ struct Targets {
     int width = 0, rows = 0, msaa = 0; // 0: none
     std::int32_t recorded = 0;         // kGpuRecordStages...
     bool native = false, shares = false;
+    int rim() const { return shares ? kBandRim : 0; }
     DeviceImage id, depth;
     Buffer ids, depths, color, records, lines, peel;
 };
@@ -127,7 +128,10 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     const std::size_t words =
         std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuSharedSampleWords : 1),
                   msaa * static_cast<std::size_t>(blends() ? kGpuPeelWords : 1), recorded_words(recorded, desc.msaa, 1)}); // per pixel
-    const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes());
+    const int rows = band_rows(desc.width, desc.height, words * sizeof(float), band_bytes(), shares ? kBandRim : 0);
+    require_limit(context_, "FrameDesc::width", "maxStorageBufferRange",
+                  words * sizeof(float) * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(rows),
+                  context_.features().max_buffer);
     Targets t;
     t.width = desc.width, t.rows = rows, t.msaa = desc.msaa, t.recorded = recorded, t.shares = shares;
     t.native = desc.msaa == 1 ||
@@ -229,12 +233,12 @@ void VulkanRenderer::visibility(VkCommandBuffer c, const GpuPass& pass)
 void VulkanRenderer::all_visibility(VkCommandBuffer c, const Band& band, int surfaces)
 {
     if (targets_.native) {
-        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0, surfaces});
+        visibility(c, {0, 0, targets_.msaa == 1 ? 0 : -1, 0, 0, band.first_row, band.rows, 0, surfaces, 0, 0});
         return;
     }
     const SamplePattern& pattern = scene_.record().pattern;
     for (int s = 0; s < targets_.msaa; ++s)
-        visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0, surfaces});
+        visibility(c, {kSubpixel / 2 - pattern.x[s], kSubpixel / 2 - pattern.y[s], s, 0, 0, band.first_row, band.rows, 0, surfaces, 0, 0});
 }
 
 // Values of constant_id 0 and 1 in shading/stages: technique bits, by index in models.def, and lobe bits.
@@ -299,7 +303,7 @@ void VulkanRenderer::shade(VkCommandBuffer c, const FrameDesc& desc, const Band&
     if (desc.stages)
         vkCmdFillBuffer(c, targets_.records.handle(), 0, VK_WHOLE_SIZE, 0);
     full_barrier(c);
-    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0, 0, 0});
     const std::size_t pixels = static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows);
     dispatch(c, pipelines_.compute("shade", constants), pixels);
     if (constants.back())
@@ -311,7 +315,7 @@ void VulkanRenderer::compose(VkCommandBuffer c, const FrameDesc& desc, const Ban
 {
     Specialization constants = shade_constants(desc);
     constants.insert(constants.end(), {-1, phase});
-    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0});
+    pipelines_.push(c, {0, 0, 0, 0, 0, band.first_row, band.rows, 0, 0, band.own_begin, band.own_end});
     dispatch(c, pipelines_.compute("compose", constants), static_cast<std::size_t>(targets_.width) * static_cast<std::size_t>(band.rows));
 }
 
@@ -327,7 +331,7 @@ void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band, int surf
 {
     VkCommandBuffer c = context_.begin();
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
-    if (band.first_row == 0)
+    if (band.first_row + band.own_begin == 0)
         geometry(c);
     all_visibility(c, band, surfaces);
     shade(c, desc, band);
@@ -339,16 +343,16 @@ void VulkanRenderer::draw_band(const FrameDesc& desc, const Band& band, int surf
 // Draws blended surfaces layer by layer, the nearest first, until a layer is empty.
 void VulkanRenderer::draw_blended(const FrameDesc& desc, const Band& band, Frame& frame)
 {
-    std::int32_t& peeled = static_cast<GpuDraw*>(draw_.data())->peeled;
-    for (int pairs = 1; pairs > 0; pairs = peeled) {
-        peeled = 0;
+    GpuDraw& layer = *static_cast<GpuDraw*>(draw_.data());
+    for (int pairs = 1; pairs > 0; pairs = layer.peeled) {
+        layer.peeled = layer.peeled_own = 0;
         VkCommandBuffer c = context_.begin();
         pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
         all_visibility(c, band, kGpuLayer);
         shade(c, desc, band);
         compose(c, desc, band, 1);
         submit(c);
-        frame.stats.visible_fragments += static_cast<std::uint64_t>(peeled);
+        frame.stats.visible_fragments += static_cast<std::uint64_t>(layer.peeled_own);
     }
     VkCommandBuffer c = context_.begin();
     pipelines_.bind_set(c, VK_PIPELINE_BIND_POINT_COMPUTE);
@@ -381,13 +385,26 @@ void add_parts(int msaa, std::size_t before, std::size_t pixels, const std::int3
         }
 }
 
-// Copies a band to its rows in the frame.
+// A band's own pixels.
+struct OwnPixels {
+    std::size_t first;  // in the picture
+    std::size_t skip;   // pixels before them in the band
+    std::size_t pixels; // their number
+    std::size_t drawn;  // all of the band
+};
+OwnPixels own_pixels(int width, const Band& band)
+{
+    const auto of = [&](int rows) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(rows); };
+    return {of(band.first_row + band.own_begin), of(band.own_begin), of(band.own_end - band.own_begin), of(band.rows)};
+}
+
+// Copies a band's own pixels to the frame.
 void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& frame)
 {
-    const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
-    const std::size_t first = width * static_cast<std::size_t>(band.first_row), pixels = width * static_cast<std::size_t>(band.rows);
-    std::memcpy(frame.color.f32() + 3 * first, targets_.color.data(), 3 * pixels * sizeof(float));
-    const std::int32_t* ids = targets_.ids.as<std::int32_t>();
+    const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
+    const auto [first, skip, pixels, drawn] = own_pixels(desc.width, band);
+    std::memcpy(frame.color.f32() + 3 * first, targets_.color.as<float>() + 3 * skip, 3 * pixels * sizeof(float));
+    const std::int32_t* ids = targets_.ids.as<std::int32_t>() + skip * msaa;
     for (std::size_t p = 0; p < pixels; ++p) {
         const std::int32_t* of = ids + p * msaa;
         for (std::size_t s = 0; s < msaa; ++s) {
@@ -404,24 +421,23 @@ void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& f
     }
     const std::uint32_t* records = targets_.records.as<std::uint32_t>();
     if (desc.stages) {
-        std::copy_n(targets_.depths.as<std::uint32_t>(), pixels * msaa, frame.stages.depths.data() + first * msaa);
-        std::copy_n(records, pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
-        records += pixels * msaa * kPairWords;
+        std::copy_n(targets_.depths.as<std::uint32_t>() + skip * msaa, pixels * msaa, frame.stages.depths.data() + first * msaa);
+        std::copy_n(records + skip * msaa * kPairWords, pixels * msaa * kPairWords, frame.stages.pairs.data() + first * msaa * kPairWords);
+        records += drawn * msaa * kPairWords;
     }
     if (desc.layers)
-        records += pixels * kLayerWords;
+        records += drawn * kLayerWords;
     if (desc.parts)
-        add_parts(desc.msaa, first, pixels, ids, reinterpret_cast<const float*>(records), frame.parts);
+        add_parts(desc.msaa, first, pixels, ids, reinterpret_cast<const float*>(records) + 3 * skip * msaa, frame.parts);
 }
 
 void VulkanRenderer::read_layers(const FrameDesc& desc, const Band& band, Frame& frame)
 {
-    const std::size_t width = static_cast<std::size_t>(desc.width), pixels = width * static_cast<std::size_t>(band.rows);
+    const OwnPixels own = own_pixels(desc.width, band);
     const std::uint32_t* records = targets_.records.as<std::uint32_t>();
     if (desc.stages)
-        records += pixels * static_cast<std::size_t>(desc.msaa) * kPairWords;
-    std::memcpy(static_cast<void*>(frame.layers.data() + width * static_cast<std::size_t>(band.first_row)), records,
-                pixels * sizeof(PixelLayers));
+        records += own.drawn * static_cast<std::size_t>(desc.msaa) * kPairWords;
+    std::memcpy(static_cast<void*>(frame.layers.data() + own.first), records + own.skip * kLayerWords, own.pixels * sizeof(PixelLayers));
 }
 
 // A sample's words in the peel buffer, named as in shading/stages/peel.glsl.
@@ -437,15 +453,16 @@ static_assert(sizeof(PeeledSample) == kGpuPeelWords * sizeof(float));
 // Replaces the data from read_band() in pixels with blended surfaces.
 void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame& frame)
 {
-    const std::size_t width = static_cast<std::size_t>(desc.width), msaa = static_cast<std::size_t>(desc.msaa);
-    const std::size_t first = width * static_cast<std::size_t>(band.first_row), pixels = width * static_cast<std::size_t>(band.rows);
-    const PeeledSample* const samples = targets_.peel.as<PeeledSample>();
+    const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
+    const OwnPixels own = own_pixels(desc.width, band);
+    const std::size_t first = own.first, pixels = own.pixels;
+    const PeeledSample* const samples = targets_.peel.as<PeeledSample>() + own.skip * msaa;
     const auto shown = [&](std::size_t pixel) { return samples[pixel * msaa].shown != 0.0f; };
     std::erase_if(frame.parts, [&](const PixelPart& part) { return part.pixel >= first && shown(part.pixel - first); });
     for (std::size_t p = 0; p < pixels; ++p) {
         if (!shown(p))
             continue;
-        std::copy_n(targets_.color.as<float>() + 3 * p, 3, frame.color.f32() + 3 * (first + p));
+        std::copy_n(targets_.color.as<float>() + 3 * (own.skip + p), 3, frame.color.f32() + 3 * (first + p));
         for (std::size_t s = 0; s < msaa; ++s) {
             const PeeledSample& at = samples[p * msaa + s];
             if (!frame.through.empty())
@@ -486,7 +503,7 @@ Frame VulkanRenderer::render_ids(const FrameDesc& desc)
         std::fill(frame.through.begin(), frame.through.end(), 1.0f);
     }
     begin_frame(desc);
-    for (const Band& band : bands_of(desc.height, targets_.rows)) {
+    for (const Band& band : bands_of(desc.height, targets_.rows, targets_.rim())) {
         draw_band(desc, band, kGpuSolid);
         const auto setups = static_cast<std::uint32_t>(draw_.as<GpuDraw>()->setups);
         if (setups > setup_capacity_) { // in the first band: clipping made more pieces than expected
@@ -525,7 +542,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
     Frame frame = empty_frame(desc);
     const Used others = used_by(device_->options.frames, false);
     const Specialization technique = technique_constants(scene_.materials_of_frame(), scene_.record(), others);
-    for (const Band& band : bands_of(desc.height, forward_.rows())) {
+    for (const Band& band : bands_of(desc.height, forward_.rows(), 0)) {
         VkCommandBuffer c = context_.begin();
         forward_.draw(c, technique, band);
         submit(c);

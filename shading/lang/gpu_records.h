@@ -70,8 +70,10 @@ struct GpuSetup {
     float bary[9]; // for a piece: corner j = sum_k bary[3j+k] * vertex k
 };
 
-struct GpuDraw { // VkDrawIndirectCommand; number of setups; (pixel, triangle) pairs in the last blended layer
-    int vertex_count, instance_count, first_vertex, first_instance, setups, peeled;
+// VkDrawIndirectCommand; number of setups; (pixel, triangle) pairs in the last blended layer, and those in the band's own
+// rows.
+struct GpuDraw {
+    int vertex_count, instance_count, first_vertex, first_instance, setups, peeled, peeled_own;
 };
 
 // Push constants. Large pictures are drawn in bands of rows; picture-sized images and buffers hold one band.
@@ -82,6 +84,7 @@ struct GpuPass {
     int first_row, rows;          // the band
     int group;                    // of recorded words, see kGpuForwardGroups
     int surfaces;                 // surfaces that a visibility pass draws: kGpuSolid...
+    int own_begin, own_end;       // for compose.comp: the band's own rows among those drawn
 };
 
 #ifdef __cplusplus

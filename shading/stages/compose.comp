@@ -137,8 +137,12 @@ void main()
         begin_layers(first);
     if (kPhase == 1) {
         int pairs = compose_layer(first, pixel % frame.width, pixel / frame.width + pass.first_row);
-        if (pairs > 0)
+        if (pairs > 0) {
             atomicAdd(draw.peeled, pairs);
+            int row = pixel / frame.width;
+            if (row >= pass.own_begin && row < pass.own_end)
+                atomicAdd(draw.peeled_own, pairs);
+        }
     }
     if (kPhase == 2 && peel[first * kGpuPeelWords + kPeelShown] != 0.0)
         end_layers(first, pixel);

@@ -31,5 +31,5 @@ void main()
         before += count;
     }
     if (me == kGpuGroup - 1)
-        draw = GpuDraw(3 * min(before, places.setup_capacity), 1, 0, 0, before, 0);
+        draw = GpuDraw(3 * min(before, places.setup_capacity), 1, 0, 0, before, 0, 0);
 }

@@ -9,7 +9,7 @@
 // samples is how many of them lie below the horizon. One sample is a mirror.
 //
 // There are four sets, which together form one set with four times the samples. Each pixel of a 2x2 quad has its own set,
-// and similar lobes average their results (shared_samples.k.h). The level offsets minimise FLIP errors: shared sets read a
+// and neighbours with similar lobes average their results (shared_samples.k.h). The level offsets minimise FLIP errors: shared sets read a
 // quarter level finer than all their samples ask for, a single set half a level finer than its own.
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H

@@ -20,6 +20,9 @@
 
 BN_KERNELS_BEGIN
 
+#define kLineSamplesAlone 2.6  // lobe_line_count() for fragments on their own
+#define kLineSamplesShared 1.7 // where neighbours' samples lie between a fragment's own
+
 struct lobe_line {
     real3 o;      // to the eye, unit
     real part;    // share of the line to take
@@ -136,11 +139,12 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
     return r;
 }
 
-// Returns the number of samples that a line of this length needs, a real in [1, limit]. They lie 0.77 widths apart in its
-// middle, 1.5 in a long line. Half as many would show single samples far out on the tails.
-BN_FN real lobe_line_count(lobe_line line, real limit)
+// Returns the number of samples that a line of this length needs, a real in [1, limit]. per_width: samples for each width
+// of its length, kLineSamplesAlone or kLineSamplesShared. Alone, they lie 0.77 widths apart in its middle, 1.5 in a long
+// line; half as many would show single samples far out on the tails.
+BN_FN real lobe_line_count(lobe_line line, real per_width, real limit)
 {
-    return min(lit(1.0) + lit(2.6) * line.extent, limit);
+    return min(lit(1.0) + per_width * line.extent, limit);
 }
 
 struct lobe_line_cell {

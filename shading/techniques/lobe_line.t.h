@@ -38,13 +38,14 @@ BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
     return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
-// Returns the mean radiance over the lobe; multiply by its albedo. offset: place of samples in their cells, (0,1).
-BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real offset)
+// Returns the mean radiance over the lobe; multiply by its albedo. per_width: see lobe_line_count(). offset: place of
+// samples in their cells, (0,1).
+BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real per_width, real offset)
 {
     // Find the number of samples
     real one = lit(1.0);
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
-    real count = lobe_line_count(line, to_real(int_lit(limit)));
+    real count = lobe_line_count(line, per_width, to_real(int_lit(limit)));
     // Take the middle sample
     line_sum sum;
     sum.cube = prefiltered_env(f);
@@ -69,7 +70,7 @@ BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, 
 {
     lobe_line line = lobe_line_for(f, x);
     shared_sample_record r = unshared_record(vec3_all(lit(0.0)));
-    r.light = lobe_line_radiance(f, x, line, offset);
+    r.light = lobe_line_radiance(f, x, line, lit(kLineSamplesShared), offset);
     r.width = line.width * line.part; // round lobes share nothing
     r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
     r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
@@ -79,7 +80,7 @@ BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, 
 // Samples alone, for fragments that cannot read their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5)) * x.energy.albedo;
+    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(kLineSamplesAlone), lit(0.5)) * x.energy.albedo;
 }
 
 BN_KERNELS_END

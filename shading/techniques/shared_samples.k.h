@@ -1,7 +1,8 @@
-// Interleaved sampling in a 2x2 quad of pixels: Keller and Heidrich 2001, "Interleaved Sampling". Each fragment's samples
-// lie elsewhere in their cells. Fragments with similar lobes average all their results, which gives four times the samples
-// for the same price. The environment is infinitely far away, so only the direction, length and width of lobes tell two
-// fragments apart.
+// Interleaved sampling: Keller and Heidrich 2001, "Interleaved Sampling". In each 2x2 quad of pixels, samples lie in four
+// different places of their cells. A fragment averages its results with those of fragments with similar lobes in the 3x3
+// pixels around it, which gives four times the samples for the same price. Weights at the window's sides are one half, so
+// each of the four places counts the same wherever the window lies, and no quad shows. The environment is infinitely far
+// away, so only the direction, length and width of lobes tell two fragments apart.
 #ifndef BN_SHARED_SAMPLES_K_H
 #define BN_SHARED_SAMPLES_K_H
 
@@ -24,11 +25,16 @@ BN_FN real quad_offset(integer odd_x, integer odd_y)
     return select(odd_y == int_lit(0), lit(0.125) + half_x, lit(0.875) - half_x);
 }
 
+// Returns the weight of a pixel in the window. dx, dy: its distance from the middle, -1 to 1.
+BN_FN real window_weight(int dx, int dy)
+{
+    return lit(dx == 0 ? 1.0 : 0.5) * lit(dy == 0 ? 1.0 : 0.5);
+}
+
 // Returns the similarity of two lobes, the weight of b's light for a, [0,1]: 1 for equal lobes. Across the line the weight
 // falls to 0 at the lobe's width and an eighth of its length at z = 1, added as squares. That eighth is the spacing of
 // sixteen samples in its middle. Along the line the weight falls to 0 at the width and half the length, over which light
-// spreads. So a fragment takes from others what its own samples do not resolve; otherwise quads would show as dots where
-// lines turn fast.
+// spreads. So a fragment takes from others what its own samples do not resolve.
 BN_FN real record_similarity(shared_sample_record a, shared_sample_record b)
 {
     real3 turn = (a.mirror - b.mirror) * lit(0.5); // as slopes: a mirror turns twice as far as its normal
@@ -60,7 +66,46 @@ BN_FN shared_sample_record unshared_record(real3 colour)
     return r;
 }
 
-// Mean over a quad's fragments, weighted by similarity and by each fragment's covered share of its pixel.
+// What a pixel shows its neighbours: the place of its first record, and the mean light of all its records that are similar
+// to the first. Triangles of one surface thus count as one.
+struct shared_pixel {
+    shared_sample_record record;
+    real cover; // share of the pixel, [0,1]; 0: the pixel shares nothing
+};
+
+BN_FN shared_pixel shared_pixel_begin()
+{
+    shared_pixel r;
+    r.record = unshared_record(vec3_all(lit(0.0)));
+    r.cover = lit(0.0);
+    return r;
+}
+
+// Adds the pixel's next record. cover: its share of the pixel; 0 where it shares nothing. Until shared_pixel_end(), `light`
+// holds a sum.
+BN_FN shared_pixel shared_pixel_add(shared_pixel p, shared_sample_record r, real cover)
+{
+    mask shares = cover > lit(0.0);
+    mask first = both(shares, p.cover <= lit(0.0));
+    real alike = select(first, lit(1.0), record_similarity(p.record, r));
+    real w = select(shares, alike * cover, lit(0.0));
+    shared_pixel sum;
+    sum.record = p.record;
+    sum.record.width = select(first, r.width, p.record.width);
+    sum.record.mirror = select(first, r.mirror, p.record.mirror);
+    sum.record.along = select(first, r.along, p.record.along);
+    sum.record.light = select(shares, p.record.light + r.light * w, p.record.light);
+    sum.cover = p.cover + w;
+    return sum;
+}
+
+BN_FN shared_pixel shared_pixel_end(shared_pixel p)
+{
+    p.record.light = p.record.light / max(p.cover, lit(1e-20));
+    return p;
+}
+
+// Mean over a window, weighted by similarity, by covered shares of pixels, and by places in the window.
 struct shared_sample_mean {
     real3 sum;
     real weights;
@@ -74,22 +119,32 @@ BN_FN shared_sample_mean shared_sample_mean_begin(shared_sample_record own)
     return r;
 }
 
-// Adds another fragment. cover: its share of its pixel; counts: it lies in another pixel of the quad and shares samples.
+// Adds another pixel. cover: of shared_pixel; weight: the pixel's in the window.
 BN_FN shared_sample_mean shared_sample_mean_add(shared_sample_mean mean, shared_sample_record own, shared_sample_record other, real cover,
-                                                mask counts)
+                                                real weight)
 {
-    real alike = record_similarity(own, other) * cover;
-    real w = select(counts, alike, lit(0.0));
+    real alike = record_similarity(own, other) * (cover * weight);
+    mask shares = cover > lit(0.0);
+    real w = select(shares, alike, lit(0.0));
     shared_sample_mean r;
-    r.sum = mean.sum + other.light * w;
+    r.sum = select(shares, mean.sum + other.light * w, mean.sum);
     r.weights = mean.weights + w;
     return r;
 }
 
-BN_FN real3 shared_sample_mean_colour(shared_sample_mean mean, shared_sample_record own)
+BN_FN real3 shared_sample_mean_light(shared_sample_mean mean)
 {
-    real3 light = mean.sum / mean.weights;
-    return light * own.factor + own.rest;
+    return mean.sum / mean.weights;
+}
+
+// Returns a fragment's colour. light: mean over its pixel's window; pixel: its pixel's record. A fragment unlike its pixel's
+// first keeps its own light.
+BN_FN real3 shared_sample_colour(shared_sample_record r, real3 light, shared_sample_record pixel)
+{
+    real alike = record_similarity(pixel, r);
+    real3 blend = r.light + (light - r.light) * alike;
+    real3 mean = select(alike >= lit(1.0), light, blend);
+    return select(r.width >= lit(0.0), mean * r.factor + r.rest, r.rest);
 }
 
 // A record as 16 words.

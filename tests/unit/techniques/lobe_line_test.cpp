@@ -1,4 +1,4 @@
-// The line of isotropic lobes: sums over its parts, and images whose quads share samples.
+// The line of isotropic lobes: sums over its parts, and images whose pixels share samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -254,22 +254,53 @@ Environment studio()
     return *load_environment("builtin:studio", options, Limits{}, Jobs(1));
 }
 
-// Neighbours would differ by their own samples. With sharing, a quad on a flat surface has nearly one colour.
-TEST(lobe_line, fragments_of_a_surface_share_what_their_quad_found)
+// Neighbours would differ by their own samples. With sharing, a flat surface has nearly one colour around each pixel, and steps from one
+// 2x2 quad to the next are no larger than steps within quads.
+TEST(lobe_line, fragments_of_a_surface_share_what_their_neighbours_found)
 {
     Stage stage(brushed_square(2.0f, 1));
     stage.environment = studio();
     const FrameDesc d = line_desc(32, 1);
     const Frame f = stage.render(d, best_isa());
-    double within = 0.0, light = 0.0;
-    for (int y = 0; y < 32; y += 2)
-        for (int x = 0; x < 32; x += 2)
-            for (int k = 1; k < 4; ++k) {
-                const float *a = f.color.f32() + 3 * (y * 32 + x), *b = f.color.f32() + 3 * ((y + (k >> 1)) * 32 + x + (k & 1));
-                within += std::abs(static_cast<double>(a[1] - b[1])), light += static_cast<double>(a[1]);
-            }
-    std::printf("neighbours of a quad differ by %.5f of their light\n", within / light);
+    const auto green = [&](int x, int y) { return static_cast<double>(f.color.f32()[3 * (y * 32 + x) + 1]); };
+    double within = 0.0, between = 0.0, light = 0.0;
+    for (int y = 2; y < 30; ++y)
+        for (int x = 2; x < 30; ++x) { // second differences: the surface itself is nearly a ramp
+            const double along = std::abs(2 * green(x, y) - green(x - 1, y) - green(x + 1, y));
+            const double down = std::abs(2 * green(x, y) - green(x, y - 1) - green(x, y + 1));
+            within += along + down, light += green(x, y);
+        }
+    double inside = 0.0;
+    for (int y = 2; y < 30; ++y)
+        for (int x = 2; x < 30; ++x) {
+            const double step = std::abs(green(x + 1, y) - green(x, y)) + std::abs(green(y, x + 1) - green(y, x));
+            (x % 2 ? between : inside) += step;
+        }
+    std::printf("neighbours bend by %.5f of their light; steps between quads over steps within: %.3f\n", within / light, between / inside);
     EXPECT_LT(within / light, 0.02);
+    EXPECT_NEAR(between / inside, 1.0, 0.1);
+}
+
+// A window reaches into the tiles around it, so neither their size, their parts nor the threads show.
+TEST(lobe_line, pixels_do_not_depend_on_tiles)
+{
+    for (const int pieces : {1, 30000}) { // 30000: a tile has so many triangles that four threads cut it into parts
+        Stage one(brushed_square(0.9f, pieces)), four(brushed_square(0.9f, pieces), 1.0f, 4);
+        one.environment = four.environment = studio();
+        FrameDesc d = line_desc(150, pieces == 1 ? 4 : 1);
+        const Frame f = one.render(d, best_isa());
+        const auto expect_same = [&](const Frame& other, const char* of) {
+            EXPECT_EQ(f.color.bytes, other.color.bytes) << of << ", " << pieces << " pieces";
+            EXPECT_EQ(f.stats.visible_fragments, other.stats.visible_fragments) << of << ", " << pieces << " pieces";
+            EXPECT_EQ(f.stats.background_pixels, other.stats.background_pixels) << of << ", " << pieces << " pieces";
+        };
+        expect_same(four.render(d, best_isa()), "threads");
+        for (const Isa isa : available_isas())
+            expect_same(one.render(d, isa), "instruction sets");
+        d.tile_size = 32;
+        expect_same(one.render(d, best_isa()), "small tiles");
+        expect_same(four.render(d, best_isa()), "threads with small tiles");
+    }
 }
 
 // The triangulation of a surface does not show: a pixel's parts share as one.
