@@ -185,7 +185,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     static_cast<ShadingFrame&>(f) = maker_.make(desc);
     f.tile_size = desc.tile_size;
     f.tile_rim = shares_samples(maker_.materials()) ? 1 : 0;
-    f.tile_step = f.tile_size - 2 * f.tile_rim;
+    f.tile_step = f.tile_size - (f.tile_rim ? kRimRoom : 0);
     f.tiles_x = (desc.width + f.tile_step - 1) / f.tile_step;
     f.tiles_y = (desc.height + f.tile_step - 1) / f.tile_step;
     f.vertices = vertices_.data();
@@ -305,7 +305,7 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
     std::sort(cut.begin(), cut.end()), std::sort(known.begin(), known.end());
     FrameParams parts = f; // the frame with one tile's parts as its tiles
     parts.tile_step = f.tile_size / TilePart::kSide;
-    parts.tile_size = f.tile_rim ? 2 * parts.tile_step : parts.tile_step; // with room for the rim
+    parts.tile_size = f.tile_rim ? 32 : parts.tile_step; // with room for the rim
     parts.tiles_x = parts.tiles_y = TilePart::kSide;
     bins_.cut(f, parts, cut, fns_, input_.jobs);
     const auto draw = [&](const TilePart& part, int worker) {

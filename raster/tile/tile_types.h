@@ -92,21 +92,27 @@ struct FrameParams : ShadingFrame {
 
 // A tile's pixels. Every pixel of the image is one tile's own.
 struct TileRect {
-    int x0, y0, width, height;          // drawn pixels, in the image; at most FrameParams::tile_size along a side
+    int x0, y0;                         // corner of its memory in the image: multiples of kBlock, so that depths do not depend on tiles
+    int first_x, first_y;               // its first pixel, from x0, y0
+    int width, height;                  // ends of its pixels, from x0, y0; at most FrameParams::tile_size
     int own_x0, own_y0, own_x1, own_y1; // its own pixels, from x0, y0; the end is exclusive
     bool whole() const { return own_x0 == 0 && own_y0 == 0 && own_x1 == width && own_y1 == height; }
     bool owns(int x, int y) const { return x >= own_x0 && x < own_x1 && y >= own_y0 && y < own_y1; }
 };
 
+// Room that a tile with a rim needs beside its own pixels: the rim on both sides, and pixels before the first to the last block's corner.
+inline constexpr int kRimRoom = 2 + kBlock - 1;
+
 // Returns the tile whose own pixels begin at left, top, and end at the latest at right, bottom.
 inline TileRect tile_rect(const FrameParams& f, int left, int top, int right, int bottom)
 {
-    const int rim = f.tile_rim;
     const auto least = [](int a, int b) { return a < b ? a : b; };
+    const int first_x = left > f.tile_rim ? left - f.tile_rim : 0, first_y = top > f.tile_rim ? top - f.tile_rim : 0;
     const int own_x1 = least(left + f.tile_step, right), own_y1 = least(top + f.tile_step, bottom);
     TileRect r;
-    r.x0 = left > rim ? left - rim : 0, r.y0 = top > rim ? top - rim : 0;
-    r.width = least(own_x1 + rim, f.width) - r.x0, r.height = least(own_y1 + rim, f.height) - r.y0;
+    r.x0 = first_x / kBlock * kBlock, r.y0 = first_y / kBlock * kBlock;
+    r.first_x = first_x - r.x0, r.first_y = first_y - r.y0;
+    r.width = least(own_x1 + f.tile_rim, f.width) - r.x0, r.height = least(own_y1 + f.tile_rim, f.height) - r.y0;
     r.own_x0 = left - r.x0, r.own_y0 = top - r.y0, r.own_x1 = own_x1 - r.x0, r.own_y1 = own_y1 - r.y0;
     return r;
 }

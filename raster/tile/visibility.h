@@ -35,7 +35,7 @@ struct FragmentList {
     }
 };
 
-// Lists one pixel register. valid: pixels in the image. from: the first sample's ids.
+// Lists one pixel register. valid: pixels in the tile. from: the first sample's ids.
 BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, integer pixel, mask valid, FragmentList& list)
 {
     const integer zero = int_lit(0), full = int_lit(list.full), first = load_int(from);
@@ -72,18 +72,20 @@ BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, int
     *list.register_passes++ = static_cast<std::uint8_t>(list.pass_lanes - first_pass);
 }
 
-// Lists the fragments of the tile's width x height pixels.
-BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileScratch& s)
+// Lists the fragments of the tile's pixels.
+BN_INLINE void list_fragments(const FrameParams& f, const TileRect& tile, TileScratch& s)
 {
+    const int width = tile.width, height = tile.height;
     const int blocks_x = f.tile_size / kBlock;
     FragmentList list = {s.fragment_triangle, s.fragment_pixel,  s.fragment_mask,
                          s.pass_lanes,        s.register_passes, static_cast<std::int32_t>((1u << f.msaa) - 1)};
     for (int by = 0; by * kBlock < height; ++by)
         for (int bx = 0; bx * kBlock < width; ++bx) {
             const int block = by * blocks_x + bx;
-            // Deferred blocks need no samples, except at the image's border
+            // Deferred blocks need no samples, except at the tile's border
             const BlockState state = s.block_state[block];
-            const bool inside = (bx + 1) * kBlock <= width && (by + 1) * kBlock <= height;
+            const bool from_first = bx * kBlock >= tile.first_x && by * kBlock >= tile.first_y;
+            const bool inside = from_first && (bx + 1) * kBlock <= width && (by + 1) * kBlock <= height;
             if (state != BlockState::drawn && !inside)
                 write_block(f, block, s);
             const std::int32_t* ids = reinterpret_cast<const std::int32_t*>(s.ids) + block * f.msaa * kBlockPixels;
@@ -97,7 +99,10 @@ BN_INLINE void list_fragments(const FrameParams& f, int width, int height, TileS
                 if (state != BlockState::drawn && inside)
                     list.add_register(id, pixel);
                 else
-                    list_register(f, ids + v * kLanes, pixel, both(x < int_lit(width), y < int_lit(height)), list);
+                    list_register(
+                        f, ids + v * kLanes, pixel,
+                        both(both(x >= int_lit(tile.first_x), x < int_lit(width)), both(y >= int_lit(tile.first_y), y < int_lit(height))),
+                        list);
             }
         }
     s.fragment_count = static_cast<std::uint32_t>(list.triangle - s.fragment_triangle), s.background_pixels = list.background;

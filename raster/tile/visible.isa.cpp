@@ -320,7 +320,7 @@ int find_visible(const Tile& t, const view_params& view, Surfaces surfaces)
         if (s.output_ids)
             write_ids(t);
     }
-    list_fragments(t.f, t.width, t.height, s);
+    list_fragments(t.f, t, s);
     count_own(t, s);
     const int slots = sort_fragments(s);
     lap(s, FrameStage::visibility);
@@ -371,7 +371,7 @@ int find_layer(const Tile& t)
         raster_triangle<true>(t.f, triangle, i, layer, PeelBlocks{t.f, peel});
     }
     lap(layer, FrameStage::coverage);
-    list_fragments(t.f, t.width, t.height, layer);
+    list_fragments(t.f, t, layer);
     count_own(t, layer);
     const int slots = sort_fragments(layer);
     lap(layer, FrameStage::visibility);

@@ -25,6 +25,12 @@ std::vector<Band> bands_of(int height, int rows, int rim)
     return bands;
 }
 
+OwnPixels own_pixels(int width, const Band& band)
+{
+    const auto of = [&](int rows) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(rows); };
+    return {of(band.first_row + band.own_begin), of(band.own_begin), of(band.own_end - band.own_begin), of(band.rows)};
+}
+
 void require_limit(const Context& context, const char* field, const char* limit, std::uint64_t need, std::uint64_t have)
 {
     if (need > have)

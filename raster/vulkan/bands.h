@@ -23,6 +23,15 @@ static_assert(kBandBytes / (kMostBytesAPixel * 16384) >= 2, "the widest picture 
 int band_rows(int width, int height, std::size_t bytes, std::size_t band_bytes, int rim);
 std::vector<Band> bands_of(int height, int rows, int rim);
 
+// A band's own pixels.
+struct OwnPixels {
+    std::size_t first;  // in the picture
+    std::size_t skip;   // pixels before them in the band
+    std::size_t pixels; // their number
+    std::size_t drawn;  // all of the band
+};
+OwnPixels own_pixels(int width, const Band& band);
+
 // Throws ExitCode::unavailable where a device takes less of something than is needed. limit: the API's name of it.
 void require_limit(const Context& context, const char* field, const char* limit, std::uint64_t need, std::uint64_t have);
 // What pictures of this width need.

@@ -385,19 +385,6 @@ void add_parts(int msaa, std::size_t before, std::size_t pixels, const std::int3
         }
 }
 
-// A band's own pixels.
-struct OwnPixels {
-    std::size_t first;  // in the picture
-    std::size_t skip;   // pixels before them in the band
-    std::size_t pixels; // their number
-    std::size_t drawn;  // all of the band
-};
-OwnPixels own_pixels(int width, const Band& band)
-{
-    const auto of = [&](int rows) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(rows); };
-    return {of(band.first_row + band.own_begin), of(band.own_begin), of(band.own_end - band.own_begin), of(band.rows)};
-}
-
 // Copies a band's own pixels to the frame.
 void VulkanRenderer::read_band(const FrameDesc& desc, const Band& band, Frame& frame)
 {
