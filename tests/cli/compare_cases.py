@@ -171,6 +171,26 @@ def patterns(bench):
     check(none["pattern_pixels"] == 0 and none["pattern_rms"] is None, str(none))
 
 
+# Scene, options; greatest pattern, and greatest quad ratio along x and y. Aimed at: .038 and .030, 1.15.
+PATTERNS = (
+    ("builtin:teapot", (), 0.045, 1.15),
+    ("builtin:sphere", ("--roughness", "0.5", "--anisotropy", "0.9"), 0.075, 1.15),
+)
+
+
+@case("compare.default_pictures_show_no_quads", tier="nightly")
+def default_patterns(bench):
+    """Averages over quads of 2x2 pixels would have .051 and .087, and a quad ratio of 13 on the sphere."""
+    for scene, options, most, step in PATTERNS:
+        words = ("render", scene, *options, "--env", "builtin:studio", "--no-background", "--size", "480x270", "-q", "-o")
+        bench.run(*words, "test.exr").expect(0)
+        for seed in ("1", "2"):
+            bench.run(*words, f"r{seed}.exr", "--backend", "reference", "--samples", "512", "--seed", seed).expect(0)
+        found = figures(bench, "r1.exr", "test.exr", "--second-reference", "r2.exr", "--metric", "pattern")
+        check(found["pattern_pixels"] > 10000 and found["pattern_rms"] < most, f"{scene}: {found}")
+        check(max(found["quad_ratio_x"], found["quad_ratio_y"]) < step, f"{scene}: {found}")
+
+
 @case("compare.sizes_and_channels_must_match", "input", tier="nightly")
 def mismatch(bench):
     pictures(bench)

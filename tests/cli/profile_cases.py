@@ -34,19 +34,23 @@ def figures(bench):
 
 @case("profile.fragments_are_shaded_once")
 def fragments(bench):
-    for options in (("--msaa", "1"), ("--msaa", "8", "builtin:spheres"), ("--tile-size", "32")):
+    """Where pixels share samples, tiles overlap, and fragments at their rims are shaded more than once."""
+    alone = ("--technique", "bent_normal")
+    for options in (("--msaa", "1", *alone), ("--msaa", "8", "builtin:spheres", *alone), ("--tile-size", "32", *alone), ("--technique", "lobe_line")):
+        shares = "lobe_line" in options
         options = (*SMALL, *options)
         stats = bench.figures(*options)
         for isa, lanes in (("scalar", 1), ("avx2", 8)):
             found = profile(bench, *options, "--frames", "2", "--threads", "2", "--isa", isa)
             check(found["pixel_hash"] == stats["pixel_hash"], f"{options}: the picture changes when it is profiled")
             check(found["fragments"]["visible"] == stats["visible_fragments"], f"{options}: {found['fragments']}")
-            check(found["fragments"]["shaded"] == found["fragments"]["visible"], f"each visible fragment is shaded once: {found['fragments']}")
+            shaded, visible = found["fragments"]["shaded"], found["fragments"]["visible"]
+            check(shaded == visible or (shares and visible < shaded < 1.3 * visible), f"each visible fragment is shaded once: {found['fragments']}")
             check(sum(k["lanes"]["used"] for k in found["kernels"]) == found["fragments"]["shaded"], f"lanes: {found['kernels']}")
             check(all(k["lanes"]["all"] % lanes == 0 for k in found["kernels"]), f"{isa}: {found['kernels']}")
             check(lanes > 1 or all(k["lanes"]["occupancy"] == 1 for k in found["kernels"]), f"{isa}: {found['kernels']}")
             tiles = found["tiles"]
-            side = found["tile_size"]
+            side = found["tile_size"] - (9 if shares else 0)  # from one tile to the next
             check(tiles["count"] == -(-160 // side) * -(-120 // side), f"tiles: {tiles}")
             check(tiles["slowest_ms"] >= tiles["mean_ms"] > 0, f"tiles: {tiles}")
             check(abs(tiles["slowest_to_mean"] * tiles["mean_ms"] - tiles["slowest_ms"]) < 1e-9, f"tiles: {tiles}")
