@@ -34,8 +34,13 @@ BN_INLINE mask tile_range(const FrameParams& f, integer lo, integer hi, int cent
                           const TileAxis& tiles, integer& tile_lo, integer& tile_hi)
 {
     const pixel_range r = pixels_touched(lo, hi, center, sample_min, sample_max, size);
-    const real by_step = splat(1.0f / static_cast<float>(f.tile_step));
     const integer zero = int_lit(0), last = int_lit(tiles.count - 1);
+    if (f.tile_rim == 0 && tiles.begin == 0) { // steps are powers of two
+        const int shift = __builtin_ctz(static_cast<unsigned>(f.tile_step));
+        tile_lo = min(shr(r.first, shift), last), tile_hi = min(shr(r.last, shift), last);
+        return r.first <= r.last;
+    }
+    const real by_step = splat(1.0f / static_cast<float>(f.tile_step));
     // Half a pixel keeps rounding away from whole numbers
     const auto tile_of = [&](integer pixel) { return min(to_int((to_real(max(pixel, zero)) + lit(0.5)) * by_step), last); };
     tile_lo = tile_of(r.first - int_lit(tiles.begin + f.tile_rim));

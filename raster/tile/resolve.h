@@ -39,15 +39,15 @@ BN_INLINE void write_rows(const PixelRows& rows, PixelRange columns, PixelRange 
 {
     const bool whole = columns.begin == 0 && columns.end == PixelRows::kPixels;
     const std::size_t floats = 3 * static_cast<std::size_t>(columns.end > columns.begin ? columns.end - columns.begin : 0);
-    for (int y = count.begin; y < count.end; ++y) {
-        const float* const from = rows.rgb[y] + 3 * columns.begin;
-        float* const at = to + stride * static_cast<std::size_t>(y) + 3 * columns.begin;
+    const float* from = rows.rgb[0] + PixelRows::kFloats * count.begin + 3 * columns.begin;
+    to += stride * static_cast<std::size_t>(count.begin) + 3 * columns.begin;
+    for (int y = count.begin; y < count.end; ++y, from += PixelRows::kFloats, to += stride) {
         if (whole && lines)
-            stream_lines(at, from, PixelRows::kFloats);
+            stream_lines(to, from, PixelRows::kFloats);
         else if (whole)
-            __builtin_memcpy(at, from, sizeof rows.rgb[y]);
+            __builtin_memcpy(to, from, PixelRows::kFloats * sizeof(float));
         else
-            __builtin_memcpy(at, from, floats * sizeof(float));
+            __builtin_memcpy(to, from, floats * sizeof(float));
     }
 }
 
