@@ -40,7 +40,7 @@ BN_INLINE void write_rows(const PixelRows& rows, PixelRange columns, PixelRange 
     const bool whole = columns.begin == 0 && columns.end == PixelRows::kPixels;
     const std::size_t floats = 3 * static_cast<std::size_t>(columns.end > columns.begin ? columns.end - columns.begin : 0);
     const float* from = rows.rgb[0] + PixelRows::kFloats * count.begin + 3 * columns.begin;
-    to += stride * static_cast<std::size_t>(count.begin) + 3 * columns.begin;
+    to += stride * static_cast<std::size_t>(count.begin) + 3 * static_cast<std::size_t>(columns.begin);
     for (int y = count.begin; y < count.end; ++y, from += PixelRows::kFloats, to += stride) {
         if (whole && lines)
             stream_lines(to, from, PixelRows::kFloats);
