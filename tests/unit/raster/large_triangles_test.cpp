@@ -50,7 +50,7 @@ class OneTriangle {
         f.center_x = width / 2 * kSubpixel, f.center_y = height / 2 * kSubpixel;
         f.half_width = 0.5f * static_cast<float>(width), f.half_height = 0.5f * static_cast<float>(height);
         f.pattern.min_x = f.pattern.min_y = 0, f.pattern.max_x = f.pattern.max_y = kSubpixel; // any place in a pixel
-        f.tile_size = 64, f.tiles_x = (width + 63) / 64, f.tiles_y = (height + 63) / 64;
+        f.tile_size = f.tile_step = 64, f.tiles_x = (width + 63) / 64, f.tiles_y = (height + 63) / 64;
         for (std::size_t k = 0; k < 3; ++k)
             px_.data()[k] = corners[k].x, py_.data()[k] = corners[k].y, pz_.data()[k] = corners[k].z;
         f.px = px_.data(), f.py = py_.data(), f.pz = pz_.data();
