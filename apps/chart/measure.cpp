@@ -296,7 +296,7 @@ Status Chart::write_small(const std::string& file, const Image& image, bool erro
 
 Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& row)
 {
-    Result<Frame> frame = place.tile.render(desc_of(place, row.setting));
+    Result<Frame> frame = place.tile.render_any(desc_of(place, row.setting));
     BN_TRY(frame);
     RowErrors& e = row.measured.errors;
     e.nan_pixels = count_not_finite(frame->color);

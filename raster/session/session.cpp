@@ -262,6 +262,16 @@ FrameDesc Session::drawn(const FrameDesc& desc) const
 
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
+    Result<Frame> frame = render_any(desc, std::move(recycled));
+    if (frame)
+        if (const std::uint64_t bad = count_not_finite(frame->color))
+            return Error{ExitCode::not_finite, parts_.scene->name, "",
+                         fmt::format("{} of {} pixels are NaN or Inf", bad, std::int64_t{desc.width} * desc.height)};
+    return frame;
+}
+
+Result<Frame> Session::render_any(const FrameDesc& desc, Frame recycled)
+{
     return guarded(parts_.scene->name, [&]() {
         const Activity activity(fmt::format("drawing {}x{}", desc.width, desc.height));
         Result<Frame> frame = renderer_->render(drawn(desc), std::move(recycled));

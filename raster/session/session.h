@@ -120,13 +120,16 @@ class Session {
 
     // Returns the description that the renderer gets. Environments stay in place; the world and the view turn the other way.
     FrameDesc drawn(const FrameDesc& desc) const;
-    // Draws a frame. recycled: an old frame whose memory may be reused. Errors: ExitCode::usage, unavailable.
+    // Draws a frame. recycled: an old frame whose memory may be reused. Errors: ExitCode::usage, unavailable; not_finite where a pixel is
+    // NaN or Inf, for instance by a light of 3e38.
     Result<Frame> render(const FrameDesc& desc, Frame recycled = {});
+    // Draws a frame like render(), but returns pixels that are NaN or Inf too, for callers that show these.
+    Result<Frame> render_any(const FrameDesc& desc, Frame recycled = {});
 
     const SessionParts& parts() const { return parts_; }
     const Scene& scene() const { return parts_.scene->scene; }
     const DrawTables& tables() const { return parts_.scene->tables; }
-    Renderer& renderer() { return *renderer_; }                // draws descriptions from drawn(); render() calls it
+    Renderer& renderer() { return *renderer_; }                // draws descriptions from drawn(); render_any() calls it
     std::string device() const { return renderer_->device(); } // the device's name: "AMD EPYC (avx512)", ...
     // Returns a view that shows the whole scene, for a picture with this size.
     View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }

@@ -226,6 +226,30 @@ TEST(bad_scenes, a_good_one_is_drawn)
     EXPECT_GT(frame->stats.visible_fragments, 100u);
 }
 
+TEST(bad_scenes, light_beyond_floats_is_an_error)
+{
+    Scene bright = good_scene(), lamp = good_scene();
+    bright.materials[0].emissive = glm::vec3(1.0f), bright.materials[0].emissive_strength = 3e38f; // the sum of two samples overflows
+    lamp.area_lights[0].radiance = glm::vec3(3e38f);
+    for (Scene* scene : {&bright, &lamp}) {
+        update_world(*scene);
+        SessionParts parts = good_parts();
+        Result<std::shared_ptr<const SceneData>> data = make_scene_data("mine", std::move(*scene), {});
+        ASSERT_TRUE(data) << data.error().line();
+        parts.scene = *data;
+        Result<Session> session = Session::make(parts);
+        ASSERT_TRUE(session) << session.error().line();
+        FrameDesc desc = good_desc();
+        desc.msaa = 4;
+        const Result<Frame> frame = session->render(desc), any = session->render_any(desc);
+        ASSERT_FALSE(frame) << count_not_finite(frame->color);
+        EXPECT_EQ(frame.error().code, ExitCode::not_finite);
+        EXPECT_EQ(frame.error().file, "mine");
+        ASSERT_TRUE(any);
+        EXPECT_GT(count_not_finite(any->color), 0u);
+    }
+}
+
 TEST(bad_scenes, columns_and_ranges_are_checked)
 {
     expect_refused(kColumnsAndRanges);
