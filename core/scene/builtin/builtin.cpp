@@ -15,11 +15,11 @@ template <class T> struct Maker {
 };
 
 constexpr Maker<Scene> kScenes[] = {
-    {{"teapot", "the Utah teapot in steel; its highlights run around the body"}, make_teapot},
+    {{"teapot", "the Utah teapot in steel, brushed around its axis; highlights run from top to bottom"}, make_teapot},
     {{"spheres", "silver spheres whose highlights run around them: roughness grows to the right, anisotropy upwards"}, make_spheres},
     {{"sphere", "one silver sphere under a lamp, to look at a single lobe; its highlights run around it"}, make_sphere},
-    {{"plate", "a smooth brass plate; its highlights stretch along circles in a disc, along rays in a sunburst, and crosswise in squares "
-               "around both"},
+    {{"plate", "a smooth brass plate with grooves in circles on a disc, along rays in a sunburst, and crosswise in squares around both; "
+               "highlights run across grooves"},
      make_plate},
     {{"lights",
       "a dark room under area lights: plates with level, upright and round highlights, and spheres; for the environment builtin:night"},

@@ -1,5 +1,5 @@
-// A slightly domed brass plate, brushed by a direction texture: a turned disc and a sunburst, with basket weave around
-// them.
+// A slightly domed brass plate, brushed by a direction texture: grooves in circles on a disc, grooves along rays in a
+// sunburst, and crosswise grooves in squares around both.
 #include <cmath>
 
 #include "core/math/scalar_math.h"
@@ -54,19 +54,19 @@ void add_edges(Scene& scene)
             s.position = {0.5 * kPlateWidth * at.x, 0.5 * kPlateHeight * at.y, (row - 0.5) * kThickness};
             s.normal = {way.y, -way.x, 0.0};
             s.tangent = {way.x, way.y, 0.0};
-            // The centre of a weave cell: brushed along the edge.
+            // The centre of a weave cell with grooves along the edge.
             s.u = 0.5;
-            s.v = 0.03125;
+            s.v = 0.09375;
             return s;
         });
     }
 }
 
-struct Brush {
+struct Grooves {
     double x, y, strength; // direction (any length, zero only at a centre), y up in the image
 };
-// Returns the brushing at x in [-1.5, 1.5], y in [-1, 1], y up.
-Brush brush_at(double x, double y)
+// Returns the grooves at x in [-1.5, 1.5], y in [-1, 1], y up.
+Grooves grooves_at(double x, double y)
 {
     const double disc_x = x + 0.6, disc = std::sqrt(disc_x * disc_x + y * y);
     if (disc < 0.75) // turned: along circles
@@ -75,7 +75,7 @@ Brush brush_at(double x, double y)
     if (burst < 0.5) // sunburst: along rays
         return {burst_x, y, 0.9};
     const int cell = static_cast<int>(std::floor(x * 8.0) + std::floor(y * 8.0));
-    return cell & 1 ? Brush{0.0, 1.0, 0.75} : Brush{1.0, 0.0, 0.75};
+    return cell & 1 ? Grooves{0.0, 1.0, 0.75} : Grooves{1.0, 0.0, 0.75};
 }
 
 Image make_direction_image()
@@ -87,11 +87,11 @@ Image make_direction_image()
         for (int column = 0; column < kTextureWidth; ++column) {
             const double x = ((column + 0.5) / kTextureWidth * 2.0 - 1.0) * 1.5;
             const double y = 1.0 - (row + 0.5) / kTextureHeight * 2.0;
-            const Brush b = brush_at(x, y);
-            const double length = std::sqrt(b.x * b.x + b.y * b.y);
-            image.bytes[at++] = store(0.5 + 0.5 * b.x / length);
-            image.bytes[at++] = store(0.5 + 0.5 * b.y / length);
-            image.bytes[at++] = store(b.strength);
+            const Grooves g = grooves_at(x, y);
+            const double length = std::sqrt(g.x * g.x + g.y * g.y);
+            image.bytes[at++] = store(0.5 - 0.5 * g.y / length); // the highlight's direction, across the grooves
+            image.bytes[at++] = store(0.5 + 0.5 * g.x / length);
+            image.bytes[at++] = store(g.strength);
         }
     return image;
 }

@@ -170,6 +170,7 @@ void add_materials(Scene& scene)
     brushed.metallic = 1.0f;
     brushed.roughness = 0.35f;
     brushed.anisotropy_strength = 0.8f;
+    brushed.anisotropy_rotation = static_cast<float>(0.5 * kPi); // grooves run along the tangents, so highlights run across
     scene.materials.push_back(brushed);
     Material matte;
     matte.name = "matte stand";

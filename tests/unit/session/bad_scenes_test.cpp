@@ -228,10 +228,15 @@ TEST(bad_scenes, a_good_one_is_drawn)
 
 TEST(bad_scenes, light_beyond_floats_is_an_error)
 {
-    Scene bright = good_scene(), lamp = good_scene();
-    bright.materials[0].emissive = glm::vec3(1.0f), bright.materials[0].emissive_strength = 3e38f; // the sum of two samples overflows
-    lamp.area_lights[0].radiance = glm::vec3(3e38f);
-    for (Scene* scene : {&bright, &lamp}) {
+    Scene lamp = good_scene(), colours = good_scene();
+    lamp.lights[0].intensity = 3e38f, lamp.nodes[1].local[3] = glm::vec4(0, 0, 0.1f, 1); // times 1 / distance^2 overflows
+    for (Column<float>* c : {&colours.vertices.cr, &colours.vertices.cg, &colours.vertices.cb})
+        for (std::size_t k = 0; k < 4; ++k)
+            (*c)[k] = 3e38f;
+    colours.primitives[0].has_color = true;
+    for (Scene* scene : {&lamp, &colours}) {
+        SCOPED_TRACE(scene == &lamp ? "a lamp" : "colours of vertices");
+        scene->materials[0].base_color_tex.texture = kNone; // white
         update_world(*scene);
         SessionParts parts = good_parts();
         Result<std::shared_ptr<const SceneData>> data = make_scene_data("mine", std::move(*scene), {});
