@@ -38,7 +38,7 @@ DEFECTS = {
                                  "frame.of_a_quaternion_has_its_bitangent"),
     "bitangent_as_printed": (SURFACE, "a2 - b2 + c2, -ab)", "a2 - b2 + c2, ab)", "unit_techniques", "frame.of_a_quaternion_has_its_bitangent"),
     "tangent_flipped": (SURFACE, "vec3_of(a2 + b2 - c2, bc, ac)", "vec3_of(a2 + b2 - c2, bc, -ac)", "unit_techniques", "frame.of_a_quaternion_has_its_tangent"),
-    "rotation_after_bump": ("shading/surface/shaded_point.t.h", "x.lobe = lobe_in_frame(m, shape, axes);", TURNED_LAST, "unit_raster",
+    "rotation_after_bump": ("shading/surface/make_shaded_point.t.h", "x.lobe = lobe_in_frame(m, shape, axes);", TURNED_LAST, "unit_raster",
                             "bump.turns_what_a_rotation_has_turned"),
     "height_for_depth": ("shading/surface/relief.t.h", "lit(1.0) - texel_at_level(map, kNormalTex, uv).w", "texel_at_level(map, kNormalTex, uv).w", "unit_raster",
                          "relief.of_height_one_is_the_surface"),
