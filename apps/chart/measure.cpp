@@ -24,6 +24,7 @@
 #include "core/image/magma.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/image/metrics/pattern.h"
 #include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
 #include "raster/reference/scene_key.h"
@@ -68,8 +69,8 @@ class Chart {
     };
     Status measure_pair(const SceneWithView& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
     Status measure_place(const Place& place);
-    Result<Image> reference(const Place& place, ReferenceNoise& noise);
-    Status find_errors(const Place& place, const Image& reference, ChartRow& row);
+    Result<Frame> reference(const Place& place, ReferenceNoise& noise);
+    Status find_errors(const Place& place, const Frame& truth, ChartRow& row);
     Status time_rows(const Place& place, std::vector<ChartRow>& rows);
     Status write_small(const std::string& file, const Image& linear, bool errors);
     ChartRow new_row(const Place& place, const Setting& setting) const;
@@ -199,12 +200,12 @@ Status Chart::measure_place(const Place& place)
         fmt::format("reference-{}-{}-{:g}", cached_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
-        const Result<Image> truth = reference(place, noise);
+        const Result<Frame> truth = reference(place, noise);
         BN_TRY(truth);
         if (stopped())
             return {};
         checkpoint_.references()[cached_reference] = noise;
-        if (const Status written = write_small(picture, *truth, false); !written)
+        if (const Status written = write_small(picture, truth->color, false); !written)
             return written;
         for (ChartRow& row : rows) {
             if (const Status found = row.measured.has_errors ? Status() : find_errors(place, *truth, row); !found)
@@ -227,7 +228,7 @@ Status Chart::measure_place(const Place& place)
     return {};
 }
 
-Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
+Result<Frame> Chart::reference(const Place& place, ReferenceNoise& noise)
 {
     ReferenceOptions options;
     options.samples = options_.reference_samples;
@@ -247,7 +248,7 @@ Result<Image> Chart::reference(const Place& place, ReferenceNoise& noise)
         return Error{ExitCode::not_finite, place.scene.data->name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
     if (!s.stopped)
         noise = {s.samples, s.relative_error, noise_flip(frame->color, frame->variance, options_.base.isa, *jobs_)};
-    return std::move(frame->color);
+    return frame;
 }
 
 FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
@@ -294,15 +295,27 @@ Status Chart::write_small(const std::string& file, const Image& image, bool erro
     return write_image(file, errors ? magma_map(small) : tonemap_to_srgb8(small, options_.base.tonemap, options_.base.exposure_ev));
 }
 
-Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& row)
+// Returns the pattern figures over pixels that the scene covers whole.
+PatternFigures patterns_of(const Frame& frame, const Frame& truth, const Jobs& jobs)
 {
-    Result<Frame> frame = place.tile.render_any(desc_of(place, row.setting));
+    const Image test = with_coverage(frame.color, frame.triangle_ids, frame.through);
+    const Image reference = with_alpha(truth.color, [&](std::size_t i) { return test.f32()[4 * i + 3]; });
+    return pattern_figures(reference, nullptr, test, jobs, &truth.variance);
+}
+
+Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
+{
+    const Image& reference = truth.color;
+    FrameDesc desc = desc_of(place, row.setting);
+    desc.triangle_ids = true;
+    Result<Frame> frame = place.tile.render_any(desc);
     BN_TRY(frame);
     RowErrors& e = row.measured.errors;
     e.nan_pixels = count_not_finite(frame->color);
     Image map = make_image(reference.width, reference.height, 1, PixelType::f32);
     if (e.nan_pixels) {
-        e.flip_mean = e.flip_p99 = e.rel_mse = e.max_abs = std::numeric_limits<double>::quiet_NaN();
+        e.flip_mean = e.flip_p99 = e.rel_mse = e.max_abs = e.pattern_rms = e.quad_ratio_x = e.quad_ratio_y =
+            std::numeric_limits<double>::quiet_NaN();
     } else {
         FlipOptions flip;
         flip.isa = options_.base.isa;
@@ -313,6 +326,9 @@ Status Chart::find_errors(const Place& place, const Image& reference, ChartRow& 
         const PixelFigures pixels = pixel_figures(reference, frame->color, *jobs_);
         e.flip_mean = errors.mean, e.flip_p99 = errors.p99;
         e.rel_mse = pixels.rel_mse, e.max_abs = pixels.max_abs;
+        const PatternFigures patterns = patterns_of(*frame, truth, *jobs_);
+        e.pattern_rms = patterns.pixels ? patterns.rms : std::numeric_limits<double>::quiet_NaN();
+        e.quad_ratio_x = patterns.quad_ratio[0], e.quad_ratio_y = patterns.quad_ratio[1];
     }
     for (const Status& written : {write_small(row.picture, frame->color, false), write_small(row.error_map, map, true)})
         if (!written)

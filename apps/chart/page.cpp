@@ -119,19 +119,24 @@ std::string setting_text(const ChartRow& row)
 std::string table_html(const RowList& rows)
 {
     std::string out =
-        "<details><summary>All figures</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All figures\"><table>\n"
+        "<details><summary>All figures</summary>\n<p>Pattern: noise, rows and combs of the technique inside surfaces, as a share of "
+        "luminance. "
+        "FLIP blurs these away. Quad ratio: steps between 2x2 pixels over steps within them; 1 is none.</p>\n<div class=\"scroll\" "
+        "tabindex=\"0\" role=\"region\" aria-label=\"All figures\"><table>\n"
         "<tr><th scope=\"col\">technique</th><th scope=\"col\">samples</th><th scope=\"col\">surfaces</th>"
         "<th scope=\"col\">ms, median</th><th scope=\"col\">ms, p95</th><th scope=\"col\">CPU ms</th><th scope=\"col\">FLIP, mean</th>"
         "<th scope=\"col\">FLIP, p99</th><th scope=\"col\">relative MSE</th><th scope=\"col\">largest error</th>"
-        "<th scope=\"col\">NaN pixels</th><th scope=\"col\">Pareto</th></tr>\n";
+        "<th scope=\"col\">pattern, %</th><th scope=\"col\">quad ratio</th><th scope=\"col\">NaN pixels</th><th "
+        "scope=\"col\">Pareto</th></tr>\n";
     for (const ChartRow* row : rows) {
         const RowErrors& e = row->measured.errors;
-        out += fmt::format(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-            "<td>{}</td><td>{}</td></tr>\n",
-            escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "", escaped(describe(row->cell)),
-            number(ms_of(*row)), number(p95_of(*row)), number(median(row->measured.cpu_ms)), number(e.flip_mean), number(e.flip_p99),
-            number(e.rel_mse), number(e.max_abs), e.nan_pixels, row->pareto ? "yes" : "");
+        out +=
+            fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+                        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "",
+                        escaped(describe(row->cell)), number(ms_of(*row)), number(p95_of(*row)), number(median(row->measured.cpu_ms)),
+                        number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs), number(100.0 * e.pattern_rms),
+                        number(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
     }
     return out + "</table></div></details>\n";
 }

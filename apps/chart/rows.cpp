@@ -25,8 +25,9 @@ Json load_json(const std::optional<double>& share)
 
 Json errors_json(const RowErrors& e)
 {
-    return {
-        {"flip_mean", e.flip_mean}, {"flip_p99", e.flip_p99}, {"rel_mse", e.rel_mse}, {"max_abs", e.max_abs}, {"nan_pixels", e.nan_pixels}};
+    return {{"flip_mean", e.flip_mean},       {"flip_p99", e.flip_p99},       {"rel_mse", e.rel_mse},
+            {"max_abs", e.max_abs},           {"pattern_rms", e.pattern_rms}, {"quad_ratio_x", e.quad_ratio_x},
+            {"quad_ratio_y", e.quad_ratio_y}, {"nan_pixels", e.nan_pixels}};
 }
 
 Json settings_json(const ChartReport& report, const ChartRow& row)

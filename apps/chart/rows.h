@@ -15,6 +15,7 @@ namespace burnish {
 struct RowErrors { // against the reference; pictures with NaN have nan_pixels alone
     double flip_mean = 0.0, flip_p99 = 0.0, rel_mse = 0.0, max_abs = 0.0;
     std::uint64_t nan_pixels = 0;
+    double pattern_rms = 0.0, quad_ratio_x = 0.0, quad_ratio_y = 0.0; // core/image/metrics/pattern.h; NaN: unknown
 };
 
 struct Measured { // measurements of a row so far
@@ -79,7 +80,7 @@ double p95_of(const ChartRow& row);
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
-inline constexpr int kChartResultsVersion = 2; // file layout
+inline constexpr int kChartResultsVersion = 3; // file layout
 std::string chart_results_json(const ChartResults& kept);
 Result<ChartResults> parse_chart_results(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);

@@ -51,9 +51,11 @@ Result<ChartResults> parse_chart_results(const std::string& text, const std::str
                 return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
             m.has_errors = row.contains("flip_mean");
             if (m.has_errors)
-                m.errors = {number_of(row.at("flip_mean")), number_of(row.at("flip_p99")), number_of(row.at("rel_mse")),
-                            number_of(row.at("max_abs")), count_of(row.at("nan_pixels"))};
-            for (const double error : {m.errors.flip_mean, m.errors.flip_p99, m.errors.rel_mse, m.errors.max_abs})
+                m.errors = {number_of(row.at("flip_mean")),    number_of(row.at("flip_p99")),    number_of(row.at("rel_mse")),
+                            number_of(row.at("max_abs")),      count_of(row.at("nan_pixels")),   number_of(row.at("pattern_rms")),
+                            number_of(row.at("quad_ratio_x")), number_of(row.at("quad_ratio_y"))};
+            for (const double error : {m.errors.flip_mean, m.errors.flip_p99, m.errors.rel_mse, m.errors.max_abs, m.errors.pattern_rms,
+                                       m.errors.quad_ratio_x, m.errors.quad_ratio_y})
                 if (!is_error_or_unknown(error))
                     return Error{ExitCode::bad_input, file, "", "holds an error below 0"};
         }

@@ -64,7 +64,8 @@ CompareFigures compare_pictures(const CompareOptions& options, const Pictures& p
         figures.ssim = ssim(reference, test, jobs);
     if (asked.pattern) {
         const TraceSpan span("pattern");
-        figures.pattern = pattern_figures(reference, pictures.second_reference ? &*pictures.second_reference : nullptr, test, jobs);
+        figures.pattern = pattern_figures(reference, pictures.second_reference ? &*pictures.second_reference : nullptr, test, jobs,
+                                          pictures.variances.empty() ? nullptr : &pictures.variances[0]);
     }
     if (!pictures.variances.empty())
         figures.z = z_test(reference, test, pictures.variances[0], pictures.variances.size() > 1 ? &pictures.variances[1] : nullptr,

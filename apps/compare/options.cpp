@@ -40,7 +40,9 @@ std::vector<Option> figure_rows(CompareArguments& to)
         {"--exposures", "N", "HDR-FLIP: number of exposures", integer(o.flip.exposures, 1, kMaxFlipExposures), "one a stop"},
         {"--second-reference", "FILE", "Independent second reference: takes the references' noise out of pattern",
          file(o.second_reference)},
-        {"--variance", "FILE", "Variance of the reference's pixel means, for a z-test of every pixel; a second one is the test's",
+        {"--variance", "FILE",
+         "Variance of the reference's pixel means, for a z-test of every pixel, and to take noise out of pattern; a "
+         "second one is the test's",
          files(o.variances)},
         {"--sequence", "", "Compare numbered files such as out_%04d.exr, and measure flicker", flag(o.sequence)},
         {"--significance", "P", "z-test: probability of rejecting equal pictures", number(o.significance, 1e-9, 0.5)},

@@ -58,7 +58,7 @@ std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std:
     if (role != AtlasRole::truth)
         return words_of(role == AtlasRole::cure ? fmt::format("{} {}", entry.with, entry.cure) : entry.with);
     std::vector<std::string> words = words_of(entry.truth_words);
-    if (entry.truth == AtlasTruth::reference || entry.truth == AtlasTruth::full)
+    if (has_reference(entry.truth))
         for (const std::string& word : words_of(fmt::format("--backend reference --samples {} --reference-textures {}", samples,
                                                             entry.truth == AtlasTruth::full ? "full" : "footprint")))
             words.push_back(word);

@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, render, doubles, shown }; // see apps/risks/atlas.def
+enum class AtlasTruth { reference, full, pattern, render, doubles, shown }; // see apps/risks/atlas.def
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
@@ -26,6 +26,11 @@ struct AtlasEntry {
 const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
 const AtlasEntry* find_entry(const std::string& id);
 std::vector<std::string> entry_ids();
+// Returns true where the path tracer makes the ground truth.
+constexpr bool has_reference(AtlasTruth truth)
+{
+    return truth == AtlasTruth::reference || truth == AtlasTruth::full || truth == AtlasTruth::pattern;
+}
 
 // A sampling pattern for the atlas's paths. Figures from two walks cannot be compared.
 struct AtlasWalk {

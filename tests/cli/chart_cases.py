@@ -16,7 +16,7 @@ from harness import Skipped, case, check, scratch
 TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
 FEW = (*TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4")
 TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts render the reference
-FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "nan_pixels", "pareto"}
+FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "pattern_rms", "quad_ratio_x", "quad_ratio_y", "nan_pixels", "pareto"}
 
 
 def needs_embree(bench):
@@ -90,6 +90,12 @@ def rows(bench):
     mine = next(row for row in found if row["technique"] == "bent_normal" and row["env"] == "builtin:studio")
     for name in ("flip_mean", "flip_p99", "rel_mse", "max_abs"):
         check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
+    # Patterns: as compare finds them inside surfaces by the reference's variance.
+    bare = (*TINY[:8], "--roughness", "0.2", "--no-background")
+    bench.run("render", "builtin:spheres", *bare, "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
+    bench.run("render", "builtin:spheres", *bare, "--backend", "reference", "--samples", "64", "-o", "ref.exr", "--variance", "v.exr", "-q").expect(0)
+    other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--variance", "v.exr", "--metric", "pattern", "--json", "-", "-q").expect(0).out)
+    check(abs(mine["pattern_rms"] - other["pattern_rms"]) < 0.1 * other["pattern_rms"], f"{mine}, by compare {other}")
 
 
 @case("chart.flip_of_shown_pictures_is_what_compare_says_of_them", tier="nightly")

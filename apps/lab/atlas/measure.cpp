@@ -7,6 +7,7 @@
 #include "core/image/magma.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/image/metrics/pattern.h"
 #include "shading/lang/records.h"
 #include "shading/lang/tables.h"
 
@@ -58,6 +59,8 @@ class Walker {
     Status find_kind();
     // Returns mean HDR-FLIP (LDR-FLIP for displayed pictures) over covered pixels, and its map.
     double difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map);
+    // Returns the error of `now`, by the entry's kind of truth. map: HDR- or LDR-FLIP.
+    double error_against(const Truth& truth, const AtlasEntry& truth_of, const Picture& now, Image& map);
     // more: raises the truth's samples too, if the tile renderer makes it.
     Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more = false);
     Result<double> error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more = false);
@@ -87,6 +90,16 @@ double Walker::difference(const Truth& exposed_by, const Picture& a, const Pictu
     return mean_of(map, covered);
 }
 
+double Walker::error_against(const Truth& truth, const AtlasEntry& truth_of, const Picture& now, Image& map)
+{
+    const std::vector<bool> covered = either_covers(truth.picture, now);
+    const double flip = difference(truth, truth.picture, now, covered, map);
+    if (truth_of.truth != AtlasTruth::pattern)
+        return flip;
+    const auto with_mask = [&](const Image& rgb) { return with_alpha(rgb, [&](std::size_t i) { return covered[i] ? 1.0f : 0.0f; }); };
+    return pattern_figures(with_mask(truth.picture.color), nullptr, with_mask(now.color), cache_.jobs(), &truth.variance).rms;
+}
+
 void Walker::show(AtlasRow row, int column, const Image& shown)
 {
     const std::size_t bytes = static_cast<std::size_t>(shown.width) * 3;
@@ -110,7 +123,7 @@ Status Walker::step(int i)
     out_.stopped = !*truth;
     if (out_.stopped)
         return {};
-    s.noise = (*truth)->noise;
+    s.noise = entry_.truth == AtlasTruth::pattern ? 0.0 : (*truth)->noise; // patterns are measured without noise
     const auto shown = [&](const Picture& p, const RenderOptions& o) {
         return p.color.type == PixelType::u8 ? p.color : tonemap_to_srgb8(p.color, o.tonemap, o.exposure_ev);
     };
@@ -127,7 +140,7 @@ Status Walker::step(int i)
         Picture now = picture_of(*setting, std::move(*frame));
         const std::vector<bool> covered = either_covers((*truth)->picture, now);
         Image map, unused;
-        const double error = difference(**truth, (*truth)->picture, now, covered, map);
+        const double error = error_against(**truth, entry_, now, map);
         if (test)
             s.error = error;
         else
@@ -165,7 +178,7 @@ Result<double> Walker::error_of(const Picture& now, const AtlasEntry& truth_of, 
     if (out_.stopped)
         return 0.0;
     Image map;
-    return difference(**truth, (*truth)->picture, now, either_covers((*truth)->picture, now), map);
+    return error_against(**truth, truth_of, now, map);
 }
 
 Status Walker::find_kind()

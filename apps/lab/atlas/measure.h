@@ -14,7 +14,7 @@ inline constexpr double kGone = 0.5; // an error is gone if less than this share
 struct AtlasStep {
     double s = 0.0; // [0,1]
     std::string values;
-    double error = 0.0;               // mean FLIP (HDR; LDR for displayed pictures) over pixels that show the scene
+    double error = 0.0;               // mean FLIP (HDR; LDR for displayed pictures) or pattern, over pixels that show the scene
     std::optional<double> cure_error; // error of the cure; none if there is no cure or no measurement
     double noise = 0.0;               // the truth's noise, mean HDR-FLIP
     double change = 0.0;              // mean FLIP from the previous step, minus the truth's; 0 in the first step

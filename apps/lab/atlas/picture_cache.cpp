@@ -175,7 +175,7 @@ Result<std::shared_ptr<const Truth>> PictureCache::truth(const AtlasSetting& set
         BN_TRY(frame);
         if (!*frame)
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
-        return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0});
+        return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0, {}});
     }
     Result<FrameDesc> desc = desc_of(setting);
     BN_TRY(desc);
@@ -196,7 +196,7 @@ Result<std::shared_ptr<const Truth>> PictureCache::truth(const AtlasSetting& set
         return Error{ExitCode::not_finite, setting.options.scene, "reference", "the picture holds NaN or Inf"};
     const double noise = noise_flip(frame->color, frame->variance, machine_.isa, *machine_.jobs);
     make_room(truths_, kMostTruths);
-    return truths_[key] = std::make_shared<const Truth>(Truth{Picture{std::move(frame->color), {}}, noise});
+    return truths_[key] = std::make_shared<const Truth>(Truth{Picture{std::move(frame->color), {}}, noise, std::move(frame->variance)});
 }
 
 } // namespace burnish

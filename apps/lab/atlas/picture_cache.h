@@ -22,6 +22,7 @@ Picture picture_of(const AtlasSetting& setting, Frame frame);
 struct Truth {
     Picture picture;
     double noise = 0.0; // estimated mean HDR-FLIP caused by its own noise; 0 for the tile renderer
+    Image variance;     // of a reference's pixel means
 };
 
 class PictureCache {

@@ -94,6 +94,7 @@ std::string truth_text(const AtlasEntry& entry)
     const std::string with = entry.truth_words[0] ? fmt::format(" with {}", entry.truth_words) : "";
     switch (entry.truth) {
     case AtlasTruth::reference:
+    case AtlasTruth::pattern:
         return "the reference" + with;
     case AtlasTruth::full:
         return "the reference with textures in full detail" + with;
@@ -108,7 +109,12 @@ std::string truth_text(const AtlasEntry& entry)
 
 std::string measure_text(const AtlasEntry& entry)
 {
-    return fmt::format("mean {} against {}", entry.truth == AtlasTruth::shown ? "LDR-FLIP, as displayed," : "HDR-FLIP", truth_text(entry));
+    const char* measure = "mean HDR-FLIP";
+    if (entry.truth == AtlasTruth::shown)
+        measure = "mean LDR-FLIP, as displayed,";
+    if (entry.truth == AtlasTruth::pattern)
+        measure = "pattern, a share of luminance,";
+    return fmt::format("{} against {}", measure, truth_text(entry));
 }
 
 Json atlas_json(const std::vector<AtlasResult>& results, const AtlasWalk& walk)

@@ -120,10 +120,49 @@ Plane high_passed(const Plane& error, const Plane& inside, const Plane& weight, 
     return out;
 }
 
+// Returns the variance of ln(reference) by the reference's noise, inside surfaces, else 0. variance: of means, with the reference's
+// channels.
+Plane noise_of(const Image& variance, const Plane& reference, const Plane& inside, double least, const Grid& grid)
+{
+    constexpr double kLuminance[3] = {0.2126, 0.7152, 0.0722};
+    const std::size_t channels = static_cast<std::size_t>(variance.channels);
+    Plane out(grid.size());
+    grid.each_row([&](std::size_t y) {
+        for (std::size_t i = y * grid.width; i < (y + 1) * grid.width; ++i) {
+            const auto channel = [&](std::size_t c) { return std::sqrt(static_cast<double>(variance.f32()[i * channels + c])); };
+            double deviation = channels < 3 ? channel(0) : 0.0;
+            for (std::size_t c = 0; c < 3 && channels >= 3; ++c)
+                deviation += kLuminance[c] * channel(c);
+            const double relative = deviation / (reference[i] + least);
+            out[i] = inside[i] > 0.0 ? relative * relative : 0.0;
+        }
+    });
+    return out;
+}
+
+// Returns the mean over the pixels inside surfaces.
+double mean_inside(const Plane& plane, std::int64_t pixels)
+{
+    double sum = 0.0;
+    for (const double v : plane)
+        sum += v;
+    return sum / static_cast<double>(pixels);
+}
+
+// Returns the autocovariance at a lag that the high-pass filter leaves of white noise with a variance of 1. The filter subtracts a Gaussian
+// from the pixel itself; the blur beyond the edges of surfaces is left out.
+double high_passed_noise(int lag)
+{
+    const double s2 = kPatternSigma * kPatternSigma, lag2 = static_cast<double>(lag) * lag;
+    const double gaussian = det_exp(-lag2 / (2.0 * s2)) / (2.0 * kPi * s2), both = det_exp(-lag2 / (4.0 * s2)) / (4.0 * kPi * s2);
+    return (lag == 0 ? 1.0 : 0.0) - 2.0 * gaussian + both;
+}
+
 // Two errors of one test, against two references or twice against one.
 struct Errors {
     const Plane &first, &second, &inside;
     const Grid& grid;
+    const Plane* noise; // variance of `first` that is to be subtracted; null: none
 
     // Returns the index of the pixel `lag` further along an axis, or grid.size() outside the picture.
     std::size_t further(std::size_t x, std::size_t y, bool along_y, std::size_t lag) const
@@ -202,7 +241,8 @@ void find_steps(const Errors& e, bool along_y, PatternFigures& f)
             const std::size_t i = y * e.grid.width + x, j = e.further(x, y, along_y, 1), at = along_y ? y : x;
             if (j == e.grid.size() || e.inside[i] == 0.0 || e.inside[j] == 0.0)
                 continue;
-            const double product = (e.first[j] - e.first[i]) * (e.second[j] - e.second[i]);
+            const double noise = e.noise ? (*e.noise)[i] + (*e.noise)[j] : 0.0;
+            const double product = (e.first[j] - e.first[i]) * (e.second[j] - e.second[i]) - noise;
             for (StepMean* mean :
                  {at % 2 ? &between_quads : &within_quads, at % kPatternTile == kPatternTile - 1 ? &between_tiles : &within_tiles})
                 mean->sum += product, mean->count += 1.0;
@@ -214,7 +254,7 @@ void find_steps(const Errors& e, bool along_y, PatternFigures& f)
 
 } // namespace
 
-PatternFigures pattern_figures(const Image& reference, const Image* second, const Image& test, const Jobs& jobs)
+PatternFigures pattern_figures(const Image& reference, const Image* second, const Image& test, const Jobs& jobs, const Image* variance)
 {
     for (const Image* image : {&test, second}) {
         if (!image)
@@ -245,11 +285,23 @@ PatternFigures pattern_figures(const Image& reference, const Image* second, cons
     const Plane other = second ? error_of(of_second, of_test, inside, least, grid) : Plane();
     const Plane first_high = high_passed(first, inside, weight, grid);
     const Plane other_high = second ? high_passed(other, inside, weight, grid) : Plane();
-    const Errors errors{first, second ? other : first, inside, grid};
-    const Errors high{first_high, second ? other_high : first_high, inside, grid};
+    // Find the reference's noise
+    const bool subtract = variance && !second;
+    const Plane noise = subtract ? noise_of(*variance, of_reference, inside, least, grid) : Plane();
+    const double mean_noise = subtract ? mean_inside(noise, f.pixels) : 0.0;
+    if (!std::isfinite(mean_noise)) {
+        f.rms = f.period = f.period_rms = std::numeric_limits<double>::quiet_NaN();
+        for (const std::size_t axis : {0u, 1u})
+            f.quad_ratio[axis] = f.tile_ratio[axis] = f.rms;
+        return f;
+    }
+    const Errors errors{first, second ? other : first, inside, grid, subtract ? &noise : nullptr};
+    const Errors high{first_high, second ? other_high : first_high, inside, grid, nullptr};
     // Measure
     for (const bool along_y : {false, true}) {
-        const auto covariance = autocovariance(high, along_y);
+        auto covariance = autocovariance(high, along_y);
+        for (std::size_t lag = 0; lag < covariance.size(); ++lag)
+            covariance[lag] -= mean_noise * high_passed_noise(static_cast<int>(lag));
         f.rms = std::sqrt(std::max(0.0, covariance[0]));
         find_period(covariance, along_y, f);
         find_steps(errors, along_y, f);

@@ -3,6 +3,7 @@
 // The error is the difference of ln luminance, test minus reference. Only pixels inside surfaces count: alpha is 1 where there is alpha,
 // luminance is above 0 in all images, and the same holds for two pixels around.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 #include "core/image/image.h"
@@ -27,8 +28,25 @@ struct PatternFigures {
     double quad_ratio[2] = {}, tile_ratio[2] = {};
 };
 
-// Judges `test`. With an independent second reference, products of both errors take the references' noise out of every figure; it may be
-// null. Images have equal sizes and channel counts, and hold finite values; either all store floats (linear) or none does (sRGB).
-PatternFigures pattern_figures(const Image& reference, const Image* second, const Image& test, const Jobs& jobs);
+// Judges `test`. Two ways take the reference's noise out of every figure, and each may be null:
+//   second: an independent reference; products of both errors lack the noise of each
+//   variance: of the reference's pixel means, floats; its expected share is subtracted. Pixels must be independent; the channels of a
+//             pixel deviate together, as in a path sample. `second` goes first where both are given. Where a variance is infinite, as after
+//             one pass, all figures but `pixels` are NaN.
+// Images have equal sizes and channel counts, and hold finite values; either all store floats (linear) or none does (sRGB).
+PatternFigures pattern_figures(const Image& reference, const Image* second, const Image& test, const Jobs& jobs,
+                               const Image* variance = nullptr);
+
+// Returns f32 RGB as RGBA. alpha(i): coverage of pixel i. Patterns count only where alpha is 1.
+template <class Alpha> Image with_alpha(const Image& rgb, const Alpha& alpha)
+{
+    Image out = make_image(rgb.width, rgb.height, 4, PixelType::f32);
+    for (std::size_t i = 0; i < out.bytes.size() / (4 * sizeof(float)); ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+            out.f32()[4 * i + c] = rgb.f32()[3 * i + c];
+        out.f32()[4 * i + 3] = alpha(i);
+    }
+    return out;
+}
 
 } // namespace burnish

@@ -68,7 +68,7 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
     rows["half"].cpu_ms = {2.0, 3.0};
     rows["whole"] = test::row("whole", "mc", 4, 2.0, 0.125).measured;
     rows["bad"].has_errors = true;
-    rows["bad"].errors = {kNan, kNan, kNan, kNan, 12};
+    rows["bad"].errors = {kNan, kNan, kNan, kNan, 12, kNan, kNan, kNan};
     kept.references["place"] = {4096, 1.0 / 3.0, 0.001};
     kept.references["once"] = {64, INFINITY, kNan};
     const Result<ChartResults> back = parse_chart_results(chart_results_json(kept), "rows.json");
@@ -78,6 +78,8 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
     EXPECT_EQ(back->rows.at("half").cpu_ms, rows["half"].cpu_ms);
     EXPECT_FALSE(back->rows.at("half").has_errors);
     EXPECT_EQ(back->rows.at("whole").errors.flip_mean, 0.125);
+    EXPECT_EQ(back->rows.at("whole").errors.pattern_rms, 0.04);
+    EXPECT_EQ(back->rows.at("whole").errors.quad_ratio_y, 0.9);
     EXPECT_TRUE(std::isnan(back->rows.at("bad").errors.flip_mean));
     EXPECT_EQ(back->rows.at("bad").errors.nan_pixels, 12u);
     ASSERT_EQ(back->references.size(), 2u);
@@ -90,11 +92,11 @@ TEST(chart_rows, kept_rows_come_back_as_they_were)
 
 TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
 {
-    for (const char* text : {"", "[]", "{}", "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {}}}",
-                             "{\"kept_version\": 2, \"references\": {}, \"rows\": 3}", "{\"kept_version\": 2, \"rows\": {}}",
-                             "{\"kept_version\": 2, \"references\": {\"a\": {\"samples\": \"x\"}}, \"rows\": {}}",
-                             "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
-                             "{\"kept_version\": 2, \"references\": {}, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
+    for (const char* text : {"", "[]", "{}", "{\"kept_version\": 3, \"references\": {}, \"rows\": {\"a\": {}}}",
+                             "{\"kept_version\": 3, \"references\": {}, \"rows\": 3}", "{\"kept_version\": 3, \"rows\": {}}",
+                             "{\"kept_version\": 3, \"references\": {\"a\": {\"samples\": \"x\"}}, \"rows\": {}}",
+                             "{\"kept_version\": 3, \"references\": {}, \"rows\": {\"a\": {\"ms\": [\"x\"], \"cpu_ms\": []}}}",
+                             "{\"kept_version\": 3, \"references\": {}, \"rows\": {\"a\": {\"ms\": [1, 2], \"cpu_ms\": [1]}}}"})
         EXPECT_FALSE(parse_chart_results(text, "rows.json")) << text;
     const Result<ChartResults> newer = parse_chart_results("{\"kept_version\": 99, \"rows\": {\"a\": 1}}", "rows.json");
     ASSERT_TRUE(newer); // rows of another version are dropped
@@ -104,12 +106,12 @@ TEST(chart_rows, a_file_that_holds_something_else_is_an_error)
 TEST(chart_rows, the_report_holds_every_field)
 {
     ChartReport report = test::report();
-    report.rows[1].measured.errors = {kNan, kNan, kNan, kNan, 5};
+    report.rows[1].measured.errors = {kNan, kNan, kNan, kNan, 5, kNan, kNan, kNan};
     mark_pareto(report.rows);
     const nlohmann::json json = nlohmann::json::parse(report_json(report));
     ASSERT_EQ(json.at("rows").size(), report.rows.size());
     for (const char* field : {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs",
-                              "nan_pixels", "pareto"})
+                              "pattern_rms", "quad_ratio_x", "quad_ratio_y", "nan_pixels", "pareto"})
         EXPECT_TRUE(json["rows"][0].contains(field)) << field;
     EXPECT_TRUE(json["rows"][1]["flip_mean"].is_null());
     EXPECT_EQ(json["rows"][1]["nan_pixels"], 5);

@@ -12,7 +12,7 @@ inline ChartRow row(const std::string& key, const std::string& technique, int sa
     row.env = "builtin:studio";
     row.setting = {technique, samples, technique != "bent_normal" && technique != "split_isotropic"};
     row.measured.has_errors = true;
-    row.measured.errors = {flip, 2.0 * flip, flip * flip, 1.0, 0};
+    row.measured.errors = {flip, 2.0 * flip, flip * flip, 1.0, 0, 0.04, 1.1, 0.9};
     row.measured.ms = {ms, ms, 1.2 * ms};
     row.measured.cpu_ms = {2.0 * ms, 2.0 * ms, 2.0 * ms};
     return row;

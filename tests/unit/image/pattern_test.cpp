@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "core/math/scalar_math.h"
@@ -94,6 +95,42 @@ TEST(pattern, a_second_reference_takes_noise_out)
     EXPECT_NEAR(f.rms, 0.02, 0.001);
     EXPECT_EQ(f.period, 2.0);
     EXPECT_LT(pattern_figures(first, &second, picture_with(nothing), Jobs(1)).rms, 0.008);
+}
+
+TEST(pattern, a_variance_takes_noise_out)
+{
+    const double deviation = 0.05;
+    const Image first = picture_with(noise(deviation, 1)), plain = picture_with(nothing);
+    for (const int channels : {1, 3, 4}) {
+        const auto as = [&](const std::function<double(int, int)>& error) { return picture_with(error, channels); };
+        Image variance = as(nothing);
+        for (std::size_t i = 0; i < variance.bytes.size() / sizeof(float); ++i)
+            variance.f32()[i] = static_cast<float>(std::pow(deviation * static_cast<double>(variance.f32()[i]), 2.0));
+        const Image reference = as(noise(deviation, 1)), test = as([](int x, int) { return x & 1 ? 0.02 : -0.02; });
+        const PatternFigures f = pattern_figures(reference, nullptr, test, Jobs(2), &variance);
+        EXPECT_NEAR(f.rms, 0.02, 0.002) << channels;
+        EXPECT_EQ(f.period, 2.0);
+        EXPECT_LT(pattern_figures(reference, nullptr, as(nothing), Jobs(1), &variance).rms, 0.008);
+    }
+    Image one_pass = picture_with(nothing);
+    one_pass.f32()[3 * (kWidth * 20 + 20)] = std::numeric_limits<float>::infinity();
+    const PatternFigures unknown = pattern_figures(first, nullptr, plain, Jobs(1), &one_pass);
+    EXPECT_TRUE(std::isnan(unknown.rms) && std::isnan(unknown.quad_ratio[0]));
+    EXPECT_GT(unknown.pixels, 0);
+}
+
+TEST(pattern, ratios_keep_their_value_without_the_noise_of_one_reference)
+{
+    const auto own = noise(0.05, 3), shared = noise(0.05, 4);
+    const Image reference = picture_with(noise(0.05, 1)), plain = picture_with(own);
+    const Image quads = picture_with([&](int x, int y) { return own(x, y) + shared(x & ~1, y & ~1); });
+    Image variance = picture_with(nothing);
+    for (std::size_t i = 0; i < variance.bytes.size() / sizeof(float); ++i)
+        variance.f32()[i] = static_cast<float>(std::pow(0.05 * static_cast<double>(variance.f32()[i]), 2.0));
+    for (int axis : {0, 1}) {
+        EXPECT_NEAR(pattern_figures(reference, nullptr, plain, Jobs(1), &variance).quad_ratio[axis], 1.0, 0.1);
+        EXPECT_NEAR(pattern_figures(reference, nullptr, quads, Jobs(1), &variance).quad_ratio[axis], 2.0, 0.2);
+    }
 }
 
 TEST(pattern, ratios_keep_their_value_under_noise_of_references)
