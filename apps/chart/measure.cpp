@@ -271,11 +271,13 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
     const FrameDesc& timed = options_.base.frame;
-    const std::string text = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {} {}{} {}", program_, place.key, place.tile.parts().environment->content_hash,
-        options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size, place.tile.device(),
-        jobs_->threads(), parameters_text(desc),
-        options_.display_flip ? fmt::format("{} flip {}", describe(place.cell), options_.base.exposure_ev) : describe(place.cell));
+    const std::string text =
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}{} {}", program_, place.key, place.tile.parts().environment->content_hash,
+                    options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
+                    place.tile.device(), jobs_->threads(), parameters_text(desc),
+                    options_.display_flip ? fmt::format("{} flip {} {}", describe(place.cell), options_.base.exposure_ev,
+                                                        static_cast<int>(options_.base.resolve))
+                                          : describe(place.cell));
     ChartRow row;
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;
@@ -308,6 +310,7 @@ Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
     const Image& reference = truth.color;
     FrameDesc desc = desc_of(place, row.setting);
     desc.triangle_ids = true;
+    desc.parts = options_.display_flip && options_.base.resolve != Resolve::linear;
     Result<Frame> frame = place.tile.render_any(desc);
     BN_TRY(frame);
     RowErrors& e = row.measured.errors;
@@ -319,8 +322,9 @@ Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
     } else {
         FlipOptions flip;
         flip.isa = options_.base.isa;
-        const auto shown = [&](const Image& linear) { return tonemap_to_srgb8(linear, options_.base.tonemap, options_.base.exposure_ev); };
-        map = options_.display_flip ? flip_ldr(shown(reference), shown(frame->color), flip, *jobs_).error
+        const RenderOptions& base = options_.base;
+        const auto shown = [&](const Frame& f) { return tonemap_to_srgb8(f.color, base.tonemap, base.exposure_ev, f.parts, base.resolve); };
+        map = options_.display_flip ? flip_ldr(shown(truth), shown(*frame), flip, *jobs_).error
                                     : flip_hdr(reference, frame->color, flip, *jobs_).error;
         const ErrorSummary errors = summarise_errors(map);
         const PixelFigures pixels = pixel_figures(reference, frame->color, *jobs_);

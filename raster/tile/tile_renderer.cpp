@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstring>
 #include <optional>
+#include <span>
 
 #include "core/base/check.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/frame_record.h"
+#include "raster/frame/pixel_parts.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
 #include "raster/tile/double_renderer.h"
@@ -223,13 +225,16 @@ bool shows_blended(const FrameParams& f, int x, int y, const TileScratch& s)
 void collect_parts(const FrameParams& f, const TileRect& tile, const TileScratch& s, std::vector<PixelPart>& to)
 {
     const std::uint32_t whole = (1u << f.msaa) - 1;
+    const bool some_blended = f.msaa > 1 && s.peel && s.peel->triangle_count != 0;
     for (std::uint32_t i = 0; i < s.fragment_count; ++i) {
         const std::uint32_t samples = static_cast<std::uint32_t>(s.fragment_mask[i]);
+        if (samples == whole && !some_blended)
+            continue;
         const int x = s.fragment_pixel[i] & 255, y = s.fragment_pixel[i] >> 8;
         if (!tile.owns(x, y))
             continue;
         const bool blended = shows_blended(f, x, y, s);
-        if (samples == whole && (!blended || f.msaa == 1))
+        if (samples == whole && !(blended && f.msaa > 1))
             continue;
         const PixelPart part = pixel_part(static_cast<std::uint32_t>((tile.y0 + y) * f.width + tile.x0 + x), samples,
                                           s.fragment_triangle[i] < 0, {s.red[i], s.green[i], s.blue[i]});
@@ -343,13 +348,14 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         }
     });
     // Merge the workers' results
+    std::vector<std::span<const PixelPart>> lists;
     for (const WorkerScratch& w : workers_) {
         frame.stats.visible_fragments += w.stats.visible_fragments;
         frame.stats.background_pixels += w.stats.background_pixels;
-        frame.parts.insert(frame.parts.end(), w.parts.begin(), w.parts.end());
+        lists.push_back(w.parts);
     }
-    std::sort(frame.parts.begin(), frame.parts.end(),
-              [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
+    if (parts_wanted)
+        merge_parts(lists, f.width, f.height, input_.jobs, frame.parts);
 }
 
 // Returns a frame with memory. Every pixel will be written, so a recycled picture with equal size keeps its contents.

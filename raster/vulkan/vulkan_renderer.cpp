@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
+#include "raster/frame/pixel_parts.h"
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/context.h"
 #include "raster/vulkan/forward.h"
@@ -461,8 +462,7 @@ void VulkanRenderer::read_blended(const FrameDesc& desc, const Band& band, Frame
                                                  {color(0), color(1), color(2)}, open ? 1.0f - at.through : 1.0f));
         }
     }
-    std::sort(frame.parts.begin(), frame.parts.end(),
-              [](const PixelPart& a, const PixelPart& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : a.first < b.first; });
+    std::sort(frame.parts.begin(), frame.parts.end(), part_before);
 }
 
 // Returns a frame with room for the requested data.

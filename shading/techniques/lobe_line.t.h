@@ -45,7 +45,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     // Find the number of samples
     real one = lit(1.0);
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
-    real count = lobe_line_count(line, per_width, to_real(int_lit(limit)));
+    real count = lobe_line_count(line, per_width, max(lobe_line_limit(line, to_real(int_lit(limit))), one));
     // Take the middle sample
     line_sum sum;
     sum.cube = prefiltered_env(f);
