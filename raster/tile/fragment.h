@@ -109,7 +109,7 @@ BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
 BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_params& view, const LaneSetup& t, integer pixel_x,
                                     integer pixel_y, integer samples, bool lights)
 {
-    visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights);
+    visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights, wants_bends(f, m));
     if (m.relief != 0)
         see_relief(f, m, relief_plane_of(f, t), p);
     return p;

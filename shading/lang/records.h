@@ -35,7 +35,7 @@ const int kSamplesLobe = 2;     // samples the lobe itself; other techniques are
 const int kTakesRoundLobes = 4; // treats every lobe as round with the same roughness; lights then do so too
 const int kReadsBox = 8;        // reads the environment's box-filtered mip chain
 const int kGgxGrid = 16;        // its grid holds GGX slopes; otherwise Beckmann slopes
-const int kSharesSamples = 32;  // shares samples within a 2x2 quad of fragments, see shared_samples.k.h
+const int kSharesSamples = 32;  // shares samples with the pixels around, see shared_samples.k.h
 const int kAutoRound = 64;      // `auto` takes this technique for materials without a grain
 const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
 

@@ -195,9 +195,11 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
     light = plus_lights(f, m, x, p.position, light);
     // Keep the shared part apart
     shared_sample_record r;
-    if (shares)
+    if (shares) {
+        x.normal_dx = p.normal_dx;
+        x.normal_dy = p.normal_dy;
         r = shared_light(f, x, traits, technique_shared(f, t, x, quad_offset(px & int_lit(1), py & int_lit(1))), light);
-    else
+    } else
         r = unshared_record(light);
     // Blend to facets far away
     if (texture_used(m, kNormalTex) && the_material(m).facets > 0) {

@@ -70,7 +70,7 @@ real alpha_of_pair(int slot, int px, int py, int covered)
     triangle_setup t = load_setup(slot);
     int m = t.info >> 2;
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, materials[m].uses_color != 0, materials[m].textured != 0,
-                               frame.positions != 0);
+                               frame.positions != 0, false);
     if (materials[m].relief != 0)
         see_relief(0, m, relief_plane_of(0, t), p);
     return fetch_alpha(0, m, p);

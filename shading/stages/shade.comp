@@ -36,7 +36,7 @@ shared_sample_record shade_pair(int slot, int px, int py, int covered, int pixel
     triangle_setup t = load_setup(slot);
     int m = t.info >> 2;
     bool uses_color = materials[m].uses_color != 0, textured = materials[m].textured != 0, lights = frame.positions != 0;
-    visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, uses_color, textured, lights);
+    visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, uses_color, textured, lights, wants_bends(0, m));
     if (materials[m].relief != 0)
         see_relief(0, m, relief_plane_of(0, t), p);
     material_inputs at = fetch_material(0, m, p);

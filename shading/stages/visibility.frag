@@ -51,7 +51,7 @@ bool survives_alpha(int m, int px, int py)
         return true;
     triangle_setup t = load_setup(slot);
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
-                               materials[m].textured != 0, false);
+                               materials[m].textured != 0, false, false);
     if (materials[m].relief != 0)
         see_relief(0, m, relief_plane_of(0, t), p);
     real alpha = fetch_alpha(0, m, p);

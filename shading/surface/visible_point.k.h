@@ -10,7 +10,7 @@ struct visible_point {
 #define BN_POINT(type, words, name, asked) type name;
 #define BN_INTERPOLATED(type, words, name, asked, first) type name;
 #include "shading/visible_point.def"
-    real3 normal_dx, normal_dy; // change of `normal` per pixel, right and down; only for the frame's specular_aa; never recorded
+    real3 normal_dx, normal_dy; // change of `normal` per pixel, right and down; only where point_of() gets `bends`; never recorded
 };
 
 struct vertex_words { // words of a vertex (DrawTables::shading), or a blend of several

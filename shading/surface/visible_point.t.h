@@ -23,6 +23,12 @@ BN_FN real3 blend_normal(frame_ref f, triangle_ref t, real3 b)
     return real3_of_words(a, 0);
 }
 
+// Returns true where the light of a material reads normal_dx and normal_dy.
+BN_FN bool wants_bends(frame_ref f, material_ref m)
+{
+    return the_frame(f).specular_aa != 0 || (the_material(m).technique_traits & kSharesSamples) != 0;
+}
+
 struct corner_coordinates { // both coordinate sets at a triangle's vertices
     real4 of0, of1, of2;
 };
@@ -41,10 +47,11 @@ BN_FN real4 blend_corners(BN_IN(corner_coordinates) c, real3 b)
 }
 
 // Makes the visible point. view: the frame's. px, py: pixel in the image. samples: mask of the samples that the triangle
-// covers there. uses_color, textured, lights: requested values (shading/visible_point.def). The point lies at the pixel
-// centre if the triangle covers the centre; else at the mean of the covered samples, which lies in the triangle.
+// covers there. uses_color, textured, lights: requested values (shading/visible_point.def). bends: asks for normal_dx and
+// normal_dy. The point lies at the pixel centre if the triangle covers the centre; else at the mean of the covered samples, which lies in
+// the triangle.
 BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref t, integer px, integer py, integer samples, bool uses_color,
-                             bool textured, bool lights)
+                             bool textured, bool lights, bool bends)
 {
     // Find the weights at the pixel centre
     integer corner_x = shl(px, 8) - int_lit(the_frame(f).center_x);
@@ -84,7 +91,6 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
             p.position = select(t.piece, along_ray, p.position);
         }
     }
-    bool bends = the_frame(f).specular_aa != 0;
     if (!textured && !bends)
         return p;
     // Find the weights at the quad's other pixels in x and y: right of or below an even pixel, left of or above an odd one

@@ -38,14 +38,18 @@ BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
     return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
-// Returns the mean radiance over the lobe; multiply by its albedo. per_width: see lobe_line_count(). offset: place of
-// samples in their cells, (0,1).
-BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real per_width, real offset)
+// Returns the mean radiance over the lobe; multiply by its albedo. offset: place of samples in their cells, (0,1). alike:
+// similarity of the pixels around, [0,1]. A fragment whose neighbours are unlike it takes more samples, in the middle of
+// their cells.
+BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real offset, real alike)
 {
     // Find the number of samples
     real one = lit(1.0);
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
-    real count = lobe_line_count(line, per_width, max(lobe_line_limit(line, to_real(int_lit(limit))), one));
+    real per_width = lit(kLineSamplesAlone) + lit(kLineSamplesShared - kLineSamplesAlone) * alike;
+    real most_samples = lobe_line_limit(line, to_real(int_lit(limit))) * (lit(1.0) - lit(0.33333333333333333) * alike);
+    real count = lobe_line_count(line, per_width, max(most_samples, one));
+    offset = lit(0.5) + (offset - lit(0.5)) * alike;
     // Take the middle sample
     line_sum sum;
     sum.cube = prefiltered_env(f);
@@ -65,22 +69,39 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20));
 }
 
+// Returns v mirrored at n, which need not be unit.
+BN_FN real3 mirrored_at(real3 n, real3 v)
+{
+    return n * (lit(2.0) * k_dot3(n, v) / max(k_dot3(n, n), lit(1e-20))) - v;
+}
+
+// Estimates the similarity of the pixel beside, [0,1], from the change of the surface's normal. r: the fragment's own
+// record without light.
+BN_FN real similarity_beside(BN_IN(shaded_point) x, BN_IN(shared_sample_record) r, real3 normal_step)
+{
+    shared_sample_record beside = r;
+    beside.mirror = mirrored_at(x.s.n + normal_step, x.s.v);
+    real alike = record_similarity(r, beside);
+    return select(alike >= lit(0.0), alike, lit(0.0)); // NaN where the pixel beside lies behind the eye
+}
+
 // Returns the shared record except `factor`.
 BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
     lobe_line line = lobe_line_for(f, x);
     shared_sample_record r = unshared_record(vec3_all(lit(0.0)));
-    r.light = lobe_line_radiance(f, x, line, lit(kLineSamplesShared), offset);
     r.width = line.width * line.part; // round lobes share nothing
-    r.mirror = x.s.n * (lit(2.0) * k_dot3(x.s.n, x.s.v)) - x.s.v;
+    r.mirror = mirrored_at(x.s.n, x.s.v);
     r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
+    real alike = (similarity_beside(x, r, x.normal_dx) + similarity_beside(x, r, x.normal_dy)) * lit(0.5);
+    r.light = lobe_line_radiance(f, x, line, offset, alike);
     return r;
 }
 
 // Samples alone, for fragments that cannot read their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(kLineSamplesAlone), lit(0.5)) * x.energy.albedo;
+    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5), lit(0.0)) * x.energy.albedo;
 }
 
 BN_KERNELS_END

@@ -118,7 +118,7 @@ TEST(visible_point, equals_interpolation_in_double_precision)
                         samples |= 1 << s, ++count, sum_x += f.pattern.x[s], sum_y += f.pattern.y[s];
                 if (!samples)
                     continue;
-                const visible_point p = point_of(f, view, t, px, py, samples, true, true, true);
+                const visible_point p = point_of(f, view, t, px, py, samples, true, true, true, false);
                 const int middle_x = corner_x + kSubpixel / 2, middle_y = corner_y + kSubpixel / 2;
                 const Exact center = exact_weights(t, middle_x, middle_y);
                 const int x = center.inside ? middle_x : corner_x + sum_x / count, y = center.inside ? middle_y : corner_y + sum_y / count;
