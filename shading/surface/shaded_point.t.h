@@ -36,7 +36,7 @@ struct shaded_point {
     real anisotropy_blend;        // the material's
     real3 dielectric_f0;
     real dielectric_f90;
-    integer pixel_id; // y * width + x, for random numbers
+    integer pixel_id;           // y * width + x, for random numbers
     real3 normal_dx, normal_dy; // of visible_point; only for techniques that share samples
     lobe_energy_terms energy;
     bool refracts;            // transmits light

@@ -47,8 +47,9 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     real one = lit(1.0);
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
     real per_width = lit(kLineSamplesAlone) + lit(kLineSamplesShared - kLineSamplesAlone) * alike;
-    real most_samples = lobe_line_limit(line, to_real(int_lit(limit))) * (lit(1.0) - lit(0.33333333333333333) * alike);
-    real count = lobe_line_count(line, per_width, max(most_samples, one));
+    real all = to_real(int_lit(limit));
+    real some = lobe_line_limit(line, all) * (one - lit(0.33333333333333333) * alike);
+    real count = lobe_line_count(line, per_width, max(some, min(all, lit(3.0))));
     offset = lit(0.5) + (offset - lit(0.5)) * alike;
     // Take the middle sample
     line_sum sum;

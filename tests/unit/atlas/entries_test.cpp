@@ -46,8 +46,7 @@ TEST(atlas_entries, every_step_of_every_role_is_a_setting)
                 ASSERT_TRUE(setting) << setting.error().line();
                 EXPECT_EQ(setting->options.frame.width, 64);
                 EXPECT_FALSE(setting->options.frame.background);
-                EXPECT_EQ(setting->options.backend == "reference",
-                          role == AtlasRole::truth && has_reference(entry.truth));
+                EXPECT_EQ(setting->options.backend == "reference", role == AtlasRole::truth && has_reference(entry.truth));
                 EXPECT_EQ(setting->in_double, role == AtlasRole::truth && entry.truth == AtlasTruth::doubles);
             }
 }
