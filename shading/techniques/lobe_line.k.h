@@ -147,12 +147,13 @@ BN_FN real lobe_line_count(lobe_line line, real per_width, real limit)
     return min(lit(1.0) + per_width * line.extent, limit);
 }
 
-// Returns the most samples that a line may take, a real. samples: of the frame. A lobe twelve times as long as it is wide
-// may take them all, a short one half of them. At a slant a short lobe is a long line too, but its far end is masked.
+// Returns the most samples that a line may take where all neighbours are alike, a real. samples: of the frame. A lobe twelve
+// times as long as it is wide may take two thirds of them, a short one one third. At a slant a short lobe is a long line too,
+// but its far end is masked.
 BN_FN real lobe_line_limit(lobe_line line, real samples)
 {
-    real share = line.alpha_x / max(line.alpha_y * lit(12.0), lit(1e-20));
-    return samples * min(max(share, lit(0.5)), lit(1.0));
+    real share = line.alpha_x / max(line.alpha_y * lit(18.0), lit(1e-20));
+    return samples * min(max(share, lit(0.33333333333333333)), lit(0.66666666666666667));
 }
 
 struct lobe_line_cell {

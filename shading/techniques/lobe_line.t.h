@@ -48,7 +48,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
     real per_width = lit(kLineSamplesAlone) + lit(kLineSamplesShared - kLineSamplesAlone) * alike;
     real all = to_real(int_lit(limit));
-    real some = lobe_line_limit(line, all) * (one - lit(0.33333333333333333) * alike);
+    real some = all + (lobe_line_limit(line, all) - all) * alike;
     real count = lobe_line_count(line, per_width, max(some, min(all, lit(3.0))));
     offset = lit(0.5) + (offset - lit(0.5)) * alike;
     // Take the middle sample

@@ -32,9 +32,9 @@ BN_FN real window_weight(int dx, int dy)
 }
 
 // Returns the similarity of two lobes, the weight of b's light for a, [0,1]: 1 for equal lobes. Across the line the weight
-// falls to 0 at the lobe's width and an eighth of its length at z = 1, added as squares. That eighth is the spacing of
-// sixteen samples in its middle. Along the line the weight falls to 0 at the width and half the length, over which light
-// spreads. So a fragment takes from others what its own samples do not resolve.
+// falls to 0 at .7 of the lobe's width and of an eighth of its length at z = 1, added as squares. That eighth is the spacing
+// of sixteen samples in its middle. Along the line the weight falls to 0 at .7 of the width and of half the length, over
+// which light spreads. So a fragment takes from others what its own samples do not resolve.
 BN_FN real record_similarity(shared_sample_record a, shared_sample_record b)
 {
     real3 turn = (a.mirror - b.mirror) * lit(0.5); // as slopes: a mirror turns twice as far as its normal
@@ -50,7 +50,7 @@ BN_FN real record_similarity(shared_sample_record a, shared_sample_record b)
     real along2 = along * along / max(long2, lit(1e-20));
     real across2 = max(k_dot3(turn, turn) - along2, lit(0.0)) + bend + wider * wider;
     real apart = across2 / (narrow2 + long2 * lit(0.015625)) + along2 / (narrow2 + long2 * lit(0.25));
-    return max(lit(1.0) - apart, lit(0.0));
+    return max(lit(1.0) - lit(2.0) * apart, lit(0.0));
 }
 
 // Makes the record of a colour that shares no samples.
