@@ -91,6 +91,15 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
             p.position = select(t.piece, along_ray, p.position);
         }
     }
+    // Difference the normals, without steps between quads
+    if (bends && the_frame(f).specular_aa == 0) {
+        real3 normal = blend_normal(f, t, center.b);
+        bary_weights right = weights_at(t, middle_x + int_lit(kSubpixel), middle_y);
+        bary_weights below = weights_at(t, middle_x, middle_y + int_lit(kSubpixel));
+        p.normal_dx = blend_normal(f, t, right.b) - normal;
+        p.normal_dy = blend_normal(f, t, below.b) - normal;
+        bends = false;
+    }
     if (!textured && !bends)
         return p;
     // Find the weights at the quad's other pixels in x and y: right of or below an even pixel, left of or above an odd one
@@ -98,7 +107,7 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
     integer odd_y = py & int_lit(1);
     bary_weights wx = weights_at(t, middle_x + int_lit(kSubpixel) - shl(odd_x, 9), middle_y);
     bary_weights wy = weights_at(t, middle_x, middle_y + int_lit(kSubpixel) - shl(odd_y, 9));
-    // Difference the normals
+    // Difference the normals in the quad, as textures are
     if (bends) {
         real3 normal = blend_normal(f, t, center.b);
         p.normal_dx = (blend_normal(f, t, wx.b) - normal) * to_real(int_lit(1) - shl(odd_x, 1));

@@ -148,7 +148,7 @@ BN_FN real lobe_line_count(lobe_line line, real per_width, real limit)
 }
 
 // Returns the most samples that a line may take where all neighbours are alike, a real. samples: of the frame. A lobe twelve
-// times as long as it is wide may take two thirds of them, a short one one third. At a slant a short lobe is a long line too,
+// times as long as it is wide may take two thirds of them, a short lobe a third. At a slant a short lobe is a long line too,
 // but its far end is masked.
 BN_FN real lobe_line_limit(lobe_line line, real samples)
 {

@@ -28,8 +28,8 @@ struct PatternFigures {
     double quad_ratio[2] = {}, tile_ratio[2] = {};
 };
 
-// Judges `test`. Two ways take the reference's noise out of every figure, and each may be null:
-//   second: an independent reference; products of both errors lack the noise of each
+// Judges `test`. Two ways take the reference's noise out of every figure. Each may be null.
+//   second: an independent reference. Products of both errors lack the noise of each.
 //   variance: of the reference's pixel means, floats; its expected share is subtracted. Pixels must be independent; the channels of a
 //             pixel deviate together, as in a path sample. `second` goes first where both are given. Where a variance is infinite, as after
 //             one pass, all figures but `pixels` are NaN.
