@@ -109,7 +109,7 @@ class TileSubject final : public Subject {
   private:
     Frame draw(const FrameDesc& desc, Frame recycled)
     {
-        Result<Frame> frame = session_.render(desc, std::move(recycled));
+        Result<Frame> frame = session_.render_any(desc, std::move(recycled));
         return frame ? std::move(*frame) : Frame{};
     }
     Session session_;
