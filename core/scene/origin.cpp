@@ -124,7 +124,7 @@ void warn_of_steps(Scene& scene)
         const AreaLight& light = scene.area_lights[static_cast<std::size_t>(scene.nodes[i].area_light)];
         Box box;
         for (const glm::vec3& p : light.points)
-            box.add(glm::dvec3(p) - glm::dvec3(light.radius)), box.add(glm::dvec3(p) + glm::dvec3(light.radius));
+            box.add(glm::dvec3(p) - static_cast<double>(light.radius)), box.add(glm::dvec3(p) + static_cast<double>(light.radius));
         if (!box.empty())
             lights.worst(i, box.farthest(), box.extent(), 1.0);
     }
