@@ -262,12 +262,13 @@ FrameDesc Session::drawn(const FrameDesc& desc) const
 
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
-    Result<Frame> frame = render_any(desc, std::move(recycled));
-    if (frame)
-        if (const std::uint64_t bad = count_not_finite(frame->color))
-            return Error{ExitCode::not_finite, parts_.scene->name, "",
-                         fmt::format("{} of {} pixels are NaN or Inf", bad, std::int64_t{desc.width} * desc.height)};
-    return frame;
+    return guarded(parts_.scene->name, [&]() {
+        Result<Frame> frame = render_any(desc, std::move(recycled));
+        if (const std::uint64_t bad = frame ? count_not_finite(frame->color) : 0)
+            frame = Error{ExitCode::not_finite, parts_.scene->name, "",
+                          fmt::format("{} of {} pixels are NaN or Inf", bad, std::int64_t{desc.width} * desc.height)};
+        return frame;
+    });
 }
 
 Result<Frame> Session::render_any(const FrameDesc& desc, Frame recycled)

@@ -1,5 +1,5 @@
-// A slightly domed brass plate, brushed by a direction texture: grooves in circles on a disc, grooves along rays in a
-// sunburst, and crosswise grooves in squares around both.
+// A slightly domed brass plate, brushed by a direction texture. Grooves run in circles on a disc, along rays in a
+// sunburst, and crosswise in squares around both.
 #include <cmath>
 
 #include "core/math/scalar_math.h"
