@@ -116,6 +116,12 @@ std::string setting_text(const ChartRow& row)
     return row.setting.sampled ? fmt::format("{} sample{}", row.setting.samples, row.setting.samples == 1 ? "" : "s") : "one fetch";
 }
 
+// Returns a figure of patterns; a reference without a variance gives none.
+std::string known(double value)
+{
+    return std::isfinite(value) ? number(value) : "unknown";
+}
+
 std::string table_html(const RowList& rows)
 {
     std::string out =
@@ -135,8 +141,8 @@ std::string table_html(const RowList& rows)
                         "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "",
                         escaped(describe(row->cell)), number(ms_of(*row)), number(p95_of(*row)), number(median(row->measured.cpu_ms)),
-                        number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs), number(100.0 * e.pattern_rms),
-                        number(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
+                        number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs), known(100.0 * e.pattern_rms),
+                        known(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
     }
     return out + "</table></div></details>\n";
 }

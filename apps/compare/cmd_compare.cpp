@@ -131,6 +131,8 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
         BN_TRY(check_match(options.second_reference, second, options.reference, pictures.reference));
     }
     for (std::size_t i = colours; i < images.size(); ++i) {
+        if (pictures.reference.channels == 4 && images[i]->channels == 3 && images[i]->type == PixelType::f32)
+            *images[i] = with_alpha(*images[i], [](std::size_t) { return 0.0f; }); // coverage has no noise
         BN_TRY(check_variance(names[i], *images[i], options, pictures.reference));
         pictures.variances.push_back(std::move(*images[i]));
     }

@@ -90,12 +90,23 @@ def rows(bench):
     mine = next(row for row in found if row["technique"] == "bent_normal" and row["env"] == "builtin:studio")
     for name in ("flip_mean", "flip_p99", "rel_mse", "max_abs"):
         check(abs(mine[name] - other[name]) < 1e-6 * max(1, abs(other[name])), f"{name}: {mine[name]} and by compare {other[name]}")
-    # Patterns: as compare finds them inside surfaces by the reference's variance.
-    bare = (*TINY[:8], "--roughness", "0.2", "--no-background")
-    bench.run("render", "builtin:spheres", *bare, "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
-    bench.run("render", "builtin:spheres", *bare, "--backend", "reference", "--samples", "64", "-o", "ref.exr", "--variance", "v.exr", "-q").expect(0)
-    other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--variance", "v.exr", "--metric", "pattern", "--json", "-", "-q").expect(0).out)
-    check(abs(mine["pattern_rms"] - other["pattern_rms"]) < 0.1 * other["pattern_rms"], f"{mine}, by compare {other}")
+
+
+@case("chart.patterns_are_what_compare_says_of_them", tier="nightly")
+def chart_patterns(bench):
+    needs_embree(bench)
+    words = ("builtin:sphere", "--env", "builtin:studio", "--size", "120x90", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
+    bench.run("chart", *words, "--techniques", "lobe_line", "--sweep", "samples=4,36", "--sweep", "roughness=0.4", "--sweep", "anisotropy=0.8", "--reference-samples", "512", "--runs", "1", "-o", "r").expect(0)
+    mine = {row["settings"]["samples"]: row for row in rows_of(bench, "r")}
+    words = ("render", *words, "--roughness", "0.4", "--anisotropy", "0.8", "--no-background", "-q", "-o")
+    bench.run(*words, "ref.exr", "--backend", "reference", "--samples", "512", "--variance", "v.exr").expect(0)
+    for samples in (4, 36):
+        bench.run(*words, "t.exr", "--technique", "lobe_line", "--samples", samples).expect(0)
+        out = bench.run("compare", "ref.exr", "t.exr", "--variance", "v.exr", "--metric", "pattern", "--json", "-", "-q").expect(1).out
+        other, row = json.loads(out), mine[samples]
+        for name in ("pattern_rms", "quad_ratio_x", "quad_ratio_y"):
+            check(abs(row[name] - other[name]) < 0.02 * other[name], f"{samples}, {name}: {row[name]}, by compare {other[name]}")
+    check(mine[4]["pattern_rms"] > 1.5 * mine[36]["pattern_rms"], f"{mine}")
 
 
 @case("chart.flip_of_shown_pictures_is_what_compare_says_of_them", tier="nightly")
