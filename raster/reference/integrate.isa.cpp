@@ -196,7 +196,8 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Surf
         const auto radiance = [&](const area_sample& l) { return area_radiance_at(f, i, s.position + l.wi * l.distance); };
         // Sample a point on the light
         if (f.strategy != ReferenceStrategy::brdf) {
-            const area_sample l = area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, vertex, i));
+            const area_sample l =
+                area_sample_at(f, i, s.position, area_light_point(*f.sobol, p.seed, position, shade, f.shades, vertex, i));
             const Reflection at = reflect(s.r, l.wi);
             const real weight = f.strategy == ReferenceStrategy::mis ? power_weight(l.pdf, at.pdf) : lit(1.0);
             const real3 value = at.value * radiance(l) * (weight / max(l.pdf, lit(1e-20)));
@@ -229,9 +230,9 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     real3 sum = zero, throughput = vec3_all(lit(1.0));
     LaneSurface s = first;
     for (int depth = 0; any(s.reflects); ++depth) {
-        const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, depth);
+        const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, f.shades, depth);
         // Sample the environment
-        if (f.strategy != ReferenceStrategy::brdf && !f.area_lights_only) {
+        if (f.strategy != ReferenceStrategy::brdf && !f.lights_only) {
             const EnvironmentEstimate e = by_environment(f, s.r, x.light);
             const real3 value = throughput * e.value;
             const mask wanted = both(s.reflects, any_light(value));
@@ -255,7 +256,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
             sum = sum + throughput * area_lights(p, s, b, &along, position, shade, depth);
         }
         const real3 carried = throughput * b.weight;
-        if (f.area_lights_only)
+        if (f.lights_only)
             break;
         // Add the environment where the ray is free
         const real3 outside = carried * environment_radiance(f, b.wi) * lobe_weight(f, b);
@@ -277,9 +278,9 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
 BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
 {
     const ReferenceParams& f = p.f;
-    const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, 0);
+    const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, f.shades, 0);
     const SurfaceBsdfSample b = sample_surface_bsdf(s.r, x.lobe, x.choice);
-    const real3 light = f.area_lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
+    const real3 light = f.lights_only ? vec3_all(lit(0.0)) : open_light(f, s.r, x, b) * s.r.x.s.occlusion;
     if (f.area_light_count == 0)
         return light;
     return light + area_lights(p, s, b, nullptr, position, shade, 0);
@@ -304,17 +305,19 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     // Add emission and background once per camera position
     const real3 zero = vec3_all(lit(0.0));
     real3 once = zero;
-    if (any(h.found) && !f.area_lights_only)
+    if (any(h.found) && !f.lights_only)
         once = select(h.found, s.emission, zero);
     if (f.background && !all(h.found))
         once = select(h.found, once, environment_radiance(f, rays.direction));
-    real3 sum = once * lit(kPassShades);
+    real3 sum = once * to_real(int_lit(f.shades));
     if (none(s.reflects))
         return sum;
     // Add lights and reflected light
     if (f.light_count > 0)
-        sum = sum + punctual_lights(p, s) * lit(kPassShades);
-    for (int shade = 0; shade < kPassShades; ++shade) {
+        sum = sum + punctual_lights(p, s) * to_real(int_lit(f.shades));
+    if (f.lights_only && f.area_light_count == 0)
+        return sum;
+    for (int shade = 0; shade < f.shades; ++shade) {
         const real3 light = f.mode == ReferenceMode::direct ? direct_light(p, s, position, shade) : traced_light(p, s, position, shade);
         sum = sum + select(s.reflects, light, zero);
     }
@@ -337,7 +340,7 @@ void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y,
         double sum = 0.0;
         for (int i = 0; i < kPassPositions; ++i)
             sum += static_cast<double>(channel[c][i]);
-        const double value = sum / kPassSamples, delta = value - state.mean[c];
+        const double value = sum / (kPassPositions * f.shades), delta = value - state.mean[c];
         state.mean[c] += delta / (static_cast<double>(pass) + 1.0);
         state.m2[c] += delta * (value - state.mean[c]);
     }

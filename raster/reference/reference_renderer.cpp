@@ -9,8 +9,10 @@
 #include "core/base/check.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/frame_record.h"
+#include "raster/rays/ray_tree.h"
 #include "raster/reference/accumulator.h"
 #include "raster/reference/checkpoint.h"
+#include "raster/reference/embree_scene.h"
 #include "raster/reference/ray_range.h"
 #include "raster/reference/scene_key.h"
 
@@ -49,9 +51,21 @@ Status check_options(const ReferenceOptions& o)
 {
     if (o.samples < 1 || o.samples > kMaxReferenceSamples)
         return Error{ExitCode::usage, "", "", "samples must lie in 1..2^32"};
+    if (o.shades < 1 || o.shades > kPassShades)
+        return Error{ExitCode::usage, "", "", "shades must lie in 1..4"};
     if (o.bounces < 0)
         return Error{ExitCode::usage, "", "", "bounces must not be negative"};
     return {};
+}
+
+// Returns an extracted light as a directional one.
+LightRecord directional_light(const ExtractedLightRecord& from)
+{
+    LightRecord light = {};
+    light.directional = 1;
+    for (int k = 0; k < 3; ++k)
+        light.direction[k] = -from.direction[k], light.radiant[k] = from.irradiance[k];
+    return light;
 }
 
 class ReferenceRenderer final : public Renderer {
@@ -66,8 +80,10 @@ class ReferenceRenderer final : public Renderer {
 
   private:
     ReferenceParams params(const FrameDesc& desc);
+    void add_extracted_lights(ReferenceParams& f);
     Result<Accumulator> integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats);
     void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks);
+    std::uint64_t pass_samples() const { return static_cast<std::uint64_t>(kPassPositions * options_.shades); }
     bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
 
     RenderInput input_;
@@ -77,7 +93,16 @@ class ReferenceRenderer final : public Renderer {
     FrameMaker maker_;
     EnvironmentSampler sampler_;
     std::vector<ReferenceScratch> workers_;
+    std::vector<LightRecord> lights_; // with lights_only
 };
+
+// Puts the extracted lights behind the punctual ones.
+void ReferenceRenderer::add_extracted_lights(ReferenceParams& f)
+{
+    lights_.assign(f.lights, f.lights + f.light_count);
+    std::transform(f.extracted_lights, f.extracted_lights + f.extracted_light_count, std::back_inserter(lights_), directional_light);
+    f.lights = lights_.data(), f.light_count = static_cast<int>(lights_.size());
+}
 
 ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 {
@@ -90,9 +115,14 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
     f.ray_epsilon = 1e-6f * glm::length(input_.tables.bounds_max - input_.tables.bounds_min);
     f.sampler = sampler_.view;
     f.mode = options_.mode, f.strategy = options_.strategy, f.bounces = options_.bounces;
-    f.full_textures = options_.full_textures, f.area_lights_only = options_.area_lights_only;
+    f.full_textures = options_.full_textures, f.shades = options_.shades;
+    f.lights_only = options_.area_lights_only || options_.lamps_only;
+    if (f.lights_only)
+        f.background = 0;
     if (options_.area_lights_only)
-        f.light_count = 0, f.background = 0;
+        f.light_count = 0;
+    if (options_.lamps_only)
+        f.area_light_count = 0, add_extracted_lights(f);
     f.sobol = &sobol_table();
     f.rays = rays_.get();
     f.trace = trace_packet;
@@ -116,9 +146,9 @@ constexpr std::uint64_t kRoundSamples = 1u << 22;
 
 // Returns the passes between two error checks: some million samples. They depend on the picture's size alone, so a run's end does not
 // depend on its speed.
-std::uint32_t passes_in_round(const FrameDesc& desc)
+std::uint32_t passes_in_round(const FrameDesc& desc, std::uint64_t pass_samples)
 {
-    const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * kPassSamples;
+    const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * pass_samples;
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
 
@@ -140,8 +170,8 @@ bool keeps(const ReferenceOptions& options)
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
 {
     constexpr std::uint32_t kFewestPasses = 8; // before the error estimate is trusted
-    const auto passes = static_cast<std::uint32_t>((options_.samples + kPassSamples - 1) / kPassSamples);
-    const std::uint32_t round = passes_in_round(desc);
+    const auto passes = static_cast<std::uint32_t>((options_.samples + pass_samples() - 1) / pass_samples());
+    const std::uint32_t round = passes_in_round(desc, pass_samples());
     Accumulator a(desc.width, desc.height);
     const bool kept_up = keeps(options_);
     const std::uint64_t key = kept_up ? reference_key(input_, desc, options_) : 0;
@@ -154,7 +184,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     }
     workers_.assign(static_cast<std::size_t>(input_.jobs.threads()), {});
     std::uint32_t done = least_passes(a);
-    stats.samples_before = std::uint64_t{done} * kPassSamples;
+    stats.samples_before = done * pass_samples();
     Progress progress("passes", passes > done ? passes - done : 0, options_.quiet);
     Clock::time_point written = Clock::now();
     // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
@@ -204,7 +234,7 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
     // Fill the frame and its statistics
     frame.color = mean_image(*a);
     frame.variance = variance_image(*a);
-    s.samples = std::uint64_t{least_passes(*a)} * kPassSamples;
+    s.samples = least_passes(*a) * pass_samples();
     s.relative_error = mean_relative_error(*a);
     RayCount count = {};
     for (const ReferenceScratch& w : workers_) {
@@ -236,7 +266,7 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 
 bool reference_available()
 {
-    return ray_scene_available();
+    return embree_available();
 }
 
 std::string checkpoint_of(const RenderInput& input, const FrameDesc& desc, const ReferenceOptions& options)
@@ -257,7 +287,8 @@ Status check_reference_checkpoint(const RenderInput& input, const FrameDesc& des
 Result<std::unique_ptr<Renderer>> make_reference_renderer(const RenderInput& input, const ReferenceOptions& options)
 {
     BN_TRY(check_ray_range(input.tables));
-    Result<std::unique_ptr<RayScene>> rays = make_ray_scene(input.scene, input.tables, input.jobs);
+    Result<std::unique_ptr<RayScene>> rays = options.own_rays ? make_tree_scene(input.scene, input.tables, input.jobs, options.isa)
+                                                              : make_embree_scene(input.scene, input.tables, input.jobs);
     BN_TRY(rays);
     return std::unique_ptr<Renderer>(std::make_unique<ReferenceRenderer>(input, options, std::move(*rays)));
 }

@@ -23,7 +23,10 @@ struct ReferenceOptions {
     ReferenceStrategy strategy = ReferenceStrategy::mis;
     int bounces = 8;                  // path mode: most bounces between surfaces
     std::uint64_t samples = 1024;     // per pixel; rounded up to whole passes
+    bool own_rays = false;            // by a tree of our own, not Embree's
     bool area_lights_only = false;    // no other light, and a black background
+    bool lamps_only = false;          // punctual lights alone, and extracted lights as points; a black background
+    int shades = 4;                   // light samples at each of a pass's 16 camera positions: 1 or 4
     bool full_textures = false;       // textures at full detail, not filtered over a pixel's footprint
     double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
     std::string checkpoint;           // file; empty: none
@@ -39,7 +42,7 @@ struct ReferenceOptions {
 
 inline constexpr std::uint64_t kMaxReferenceSamples = std::uint64_t{1} << 32; // per pixel
 
-bool reference_available(); // true if this program was built with Embree
+bool reference_available(); // true if this program was built with Embree; own_rays need none
 
 // Makes the renderer. Frame::stats.sampling holds the number of samples taken; Frame::variance is the mean's variance. The renderer
 // ignores FrameDesc's technique, samples and tile size, and uses msaa for triangle ids only.

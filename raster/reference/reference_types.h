@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "core/simd/fns.h"
+#include "raster/rays/ray_scene.h"
 #include "raster/reference/environment_sampler.h"
-#include "raster/reference/ray_scene.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/reference/sobol.h"
 #include "shading/lang/tables.h"
@@ -20,7 +20,8 @@ struct ReferenceParams : ShadingFrame {
     ReferenceMode mode;
     ReferenceStrategy strategy;
     std::int32_t bounces; // between surfaces, path mode only
-    bool full_textures, area_lights_only;
+    bool full_textures, lights_only;
+    std::int32_t shades; // light samples at each camera position, 1..kPassShades
     const SobolTable* sobol;
     const RayScene* rays;
     void (*trace)(const RayScene& scene, RayPacket& rays, RayKind kind);

@@ -59,11 +59,11 @@ struct ShadeSample { // random numbers at one path vertex
     real choice;
 };
 
-// Returns the random numbers of a vertex. vertex: 0 at the camera's hit, 1 after the first bounce...
-BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int vertex)
+// Returns the random numbers of a vertex. shades: at a camera position; vertex: 0 at the camera's hit, 1 after the first bounce...
+BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int shades, int vertex)
 {
     const std::uint32_t seed = hash_seed(pass_seed, static_cast<std::uint32_t>(2 + vertex));
-    const integer index = shuffled(position * int_lit(kPassShades) + int_lit(shade), hash_seed(seed, 99));
+    const integer index = shuffled(position * int_lit(shades) + int_lit(shade), hash_seed(seed, 99));
     ShadeSample s;
     s.light = vec2_of(owen_sobol(table, index, 0, seed), owen_sobol(table, index, 1, seed));
     s.lobe = vec2_of(owen_sobol(table, index, 2, seed), owen_sobol(table, index, 3, seed));
@@ -72,11 +72,12 @@ BN_INLINE ShadeSample shade_sample(const SobolTable& table, std::uint32_t pass_s
 }
 
 // Returns the random point on an area light for a vertex, [0,1)^2.
-BN_INLINE real2 area_light_point(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int vertex, int light)
+BN_INLINE real2 area_light_point(const SobolTable& table, std::uint32_t pass_seed, integer position, int shade, int shades, int vertex,
+                                 int light)
 {
     const std::uint32_t of_vertex = hash_seed(pass_seed, 0x6000u + static_cast<std::uint32_t>(vertex));
     const std::uint32_t seed = hash_seed(of_vertex, static_cast<std::uint32_t>(light));
-    const integer index = shuffled(position * int_lit(kPassShades) + int_lit(shade), hash_seed(seed, 99));
+    const integer index = shuffled(position * int_lit(shades) + int_lit(shade), hash_seed(seed, 99));
     return vec2_of(owen_sobol(table, index, 0, seed), owen_sobol(table, index, 1, seed));
 }
 

@@ -119,6 +119,10 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.add(options.mode, options.strategy, options.mode == ReferenceMode::path ? options.bounces : 0);
     if (options.full_textures) // otherwise equal to the key of earlier checkpoints
         key.add(options.full_textures);
+    if (options.own_rays) // they meet edges by another rounding
+        key.add(options.own_rays);
+    if (options.shades != kPassShades || options.lamps_only)
+        key.add(options.shades, options.lamps_only);
     if (options.area_lights_only)
         key.add('a');
     if (options.mode != ReferenceMode::direct && !input.tables.area_lights.empty()) // in older versions area lights occluded each other

@@ -6,7 +6,7 @@
 namespace burnish {
 
 inline constexpr int kPassPositions = 16; // camera positions per pixel and pass
-inline constexpr int kPassShades = 4;     // light samples at each position
+inline constexpr int kPassShades = 4;     // light samples at each position, at most
 inline constexpr int kPassSamples = kPassPositions * kPassShades;
 inline constexpr int kSobolDimensions = 5;
 

@@ -19,7 +19,7 @@ ROOMS = {
     "core": ("base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/gltf"),
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
-    "raster": ("frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
+    "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
     "apps": ("report", "cli", "options", "info", "risks", "render", "compare", "export", "bake", "chart", "parity", "profile",
              "lab/mip", "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab"),
 }

@@ -94,11 +94,14 @@ TEST(sobol, every_point_is_uniform_over_the_seeds_and_pairs_of_points_are_as_ind
              "dimensions 2 and 4");
         test(
             [&](std::uint32_t s) {
-                return vec2_of(camera_position(table, s, point % 16).x, shade_sample(table, s, point % 16, 1, 0).light.x);
+                return vec2_of(camera_position(table, s, point % 16).x, shade_sample(table, s, point % 16, 1, kPassShades, 0).light.x);
             },
             "camera and light");
-        test([&](std::uint32_t s) { return vec2_of(shade_sample(table, s, 3, 1, 0).lobe.x, shade_sample(table, s, 3, 1, 1).lobe.x); },
-             "vertex 0 and 1");
+        test(
+            [&](std::uint32_t s) {
+                return vec2_of(shade_sample(table, s, 3, 1, kPassShades, 0).lobe.x, shade_sample(table, s, 3, 1, kPassShades, 1).lobe.x);
+            },
+            "vertex 0 and 1");
         test([&](std::uint32_t s) { return vec2_of(owen_sobol(table, point, 0, s), owen_sobol(table, point, 0, hash_seed(s, 5))); },
              "two passes");
     }

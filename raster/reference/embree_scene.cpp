@@ -1,4 +1,4 @@
-#include "raster/reference/ray_scene.h"
+#include "raster/reference/embree_scene.h"
 
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/global_control.h>
@@ -207,12 +207,12 @@ std::string EmbreeScene::description() const
 
 } // namespace
 
-bool ray_scene_available()
+bool embree_available()
 {
     return true;
 }
 
-Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
+Result<std::unique_ptr<RayScene>> make_embree_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     return EmbreeScene::make(scene, tables, jobs);
 }

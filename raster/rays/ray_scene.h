@@ -1,20 +1,14 @@
-// The scene for rays: triangles of the draw tables under their global ids. The only interface to Embree.
+// The scene for rays: triangles of the draw tables under their global ids. Implementations: ray_tree.h, and Embree for references.
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <string>
-
-#include "core/base/result.h"
-#include "core/jobs/jobs.h"
-#include "core/scene/draw_tables.h"
-#include "core/scene/scene.h"
 
 namespace burnish {
 
 inline constexpr int kRays = 16; // per packet
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
 
-// Sixteen rays with their hits, a field per row: Embree's layout for packets of sixteen.
+// Sixteen rays with their hits, a field per row. Embree's layout for packets of sixteen, so that its library reads it too.
 struct alignas(64) RayPacket {
     float org_x[kRays], org_y[kRays], org_z[kRays], tnear[kRays];
     float dir_x[kRays], dir_y[kRays], dir_z[kRays], time[kRays];
@@ -40,10 +34,5 @@ class RayScene {
     virtual void trace(RayPacket& rays, RayKind kind) const = 0;
     virtual std::string description() const = 0; // the library and its version
 };
-
-bool ray_scene_available();
-// Builds Embree's tree on oneTBB's threads if `jobs` uses these, else on the calling thread. Errors: ExitCode::unavailable if the program
-// was built without Embree.
-Result<std::unique_ptr<RayScene>> make_ray_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs);
 
 } // namespace burnish
