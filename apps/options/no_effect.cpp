@@ -32,7 +32,7 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
             if (out.frame.background || option != std::string_view("--msaa")) // of which alpha is the share
                 warn(option, of_backend);
-    if (out.frame.area_way == kAreaWay_off)
+    if (out.frame.area_way == kAreaWay_off && out.shadows == Shadows::ratio)
         warn("--shadows", "--area-lights off");
     if (!out.moment.seconds)
         if (given.given("--animation"))

@@ -52,9 +52,9 @@ std::vector<Option> output_rows(RenderArguments& to)
          "Mean of a pixel's samples in 8-bit pictures: linear (before tonemapping), display (after tonemapping) or "
          "weighted (by 1 / (1 + luminance))",
          choice(to.plain.resolve, {"linear", "display", "weighted"})},
-        {"--shadows", "NAME", "Shadows of area lights: off, or ratio (rays of the reference scale the light from --area-lights)",
-         choice(to.plain.shadow_ratio, {"off", "ratio"})},
-        {"--shadow-samples", "N", "Samples a pixel for --shadows ratio", integer(to.plain.shadow_samples, 1, 1 << 20)},
+        {"--shadows", "NAME", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)",
+         choice(to.plain.shadows, {"off", "ratio", "on"})},
+        {"--shadow-samples", "N", "Samples a pixel for --shadows", integer(to.plain.shadow_samples, 1, 1 << 20)},
         {"--aov", "NAMES", "Layers of .exr outputs, separated by commas: {}", choices(to.plain.aov, layer_names()), ""},
         {"--show", "NAME",
          "Contents of 8-bit outputs: {}. The last three are false colours: texture level, lobe shape in the picture, lobe normal",
@@ -94,6 +94,11 @@ std::vector<Option> picture_rows(RenderArguments& to)
          number(f.anisotropy, -1.0, 1.0), ""},
         {"--time", "S", "Time in the scene's animation, {} seconds", number(to.plain.moment.seconds, 0.0, 1e6), "the scene at rest"},
         {"--animation", "N", "Animation that --time refers to, by index", integer(to.plain.moment.animation, 0, kMaxAnimations)},
+        {"--floor", "NAME",
+         "Floor below the scene, with soft contact shadows: off, shadow (fades into the environment), stage (bends up into a backdrop) or "
+         "mirror "
+         "(a stage that reflects the scene)",
+         choice(to.plain.floor, {"off", "shadow", "stage", "mirror"}), "stage for built-in scenes, else off"},
         {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
          area_lights(to.plain.lights)},
         {"--as-table", "FILE|FOLDER",

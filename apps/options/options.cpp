@@ -6,6 +6,7 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "core/image/io/image_io.h"
+#include "core/scene/builtin/builtin.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
@@ -64,16 +65,12 @@ Status check_layers(const RenderOptions& out)
 
 Status check_shadows(const OptionTable& given, const RenderOptions& out)
 {
-    if (!out.shadow_ratio)
-        return given.given("--shadow-samples") ? Status(usage_error("--shadow-samples", "needs --shadows ratio")) : Status();
+    if (out.shadows == Shadows::off)
+        return given.given("--shadow-samples") ? Status(usage_error("--shadow-samples", "needs --shadows ratio or on")) : Status();
     if (out.backend == "reference")
         return usage_error("--shadows", "the reference has its own: --reference-mode shadowed");
-    if (out.resolve != Resolve::linear)
-        return usage_error("--shadows", "needs --resolve linear");
     if (out.backend == "vulkan" && out.vulkan.pipeline != VulkanPipeline::ids)
         return usage_error("--shadows", "needs --pipeline ids");
-    if (!reference_available())
-        return Error{ExitCode::unavailable, "", "--shadows", "this program was built without Embree 3, which 'ratio' needs"};
     return {};
 }
 
@@ -109,6 +106,32 @@ bool changes_scene(const Option& option)
     return option.group == "Materials" || option.name == "--time" || option.name == "--animation";
 }
 
+FloorSettings floor_of(const RenderOptions& options)
+{
+    FloorSettings floor;
+    floor.threads = options.threads;
+    floor.shaded = options.backend != "reference" || options.reference.mode == ReferenceMode::direct;
+    switch (options.floor) {
+    case FloorChoice::off:
+        break;
+    case FloorChoice::shadow:
+        floor.kind = FloorKind::shadow;
+        break;
+    case FloorChoice::stage:
+        floor.kind = FloorKind::stage;
+        break;
+    case FloorChoice::mirror:
+        floor.kind = FloorKind::mirror;
+        break;
+    case FloorChoice::usual: {
+        const bool shown = options.frame.background && options.scene.starts_with("builtin:");
+        floor.kind = shown && builtin_is_staged(options.scene.substr(8)) ? FloorKind::stage : FloorKind::off;
+        break;
+    }
+    }
+    return floor;
+}
+
 bool needs_parts(const RenderOptions& options)
 {
     const bool displayed =
@@ -124,8 +147,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         return usage_error("--light",
                            fmt::format("{} are given, more than {} (--limit-lights)", out.lights.size(), out.limits.area_lights));
     BN_TRY(check_technique(arguments, out));
-    const bool keeps_samples =
-        !out.shadow_ratio && out.backend != "reference" && (out.backend != "vulkan" || out.vulkan.pipeline == VulkanPipeline::ids);
+    const bool keeps_samples = out.backend != "reference" && (out.backend != "vulkan" || out.vulkan.pipeline == VulkanPipeline::ids);
     if (!given.given("--resolve") && !keeps_samples)
         out.resolve = Resolve::linear;
     out.mips.brdf = out.frame.brdf, out.mips.use_cache = out.environment.use_cache;

@@ -15,12 +15,16 @@
 #include "core/scene/material_overrides.h"
 #include "core/scene/scene.h"
 #include "raster/reference/reference_renderer.h"
+#include "raster/session/floor.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
 #include "shading/bake/mip/settings.h"
 
 namespace burnish {
+
+enum class Shadows { off, ratio, on };                // ratio: of area lights; on: of punctual and extracted lights too
+enum class FloorChoice { off, shadow, stage, mirror, usual }; // usual: as floor_of() says
 
 struct RenderOptions {
     std::string scene = "builtin:teapot";
@@ -30,12 +34,13 @@ struct RenderOptions {
     std::string ltc_table;              // of area lights; empty: the program's own
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
+    FloorChoice floor = FloorChoice::usual;
     std::vector<std::string> outputs;
     std::vector<std::string> aov;       // layers of .exr outputs
     Shown show = Shown::light;          // false colour of 8-bit outputs
     std::string risks;                  // picture of the atlas's risks for the technique; "-": text only; empty: none
-    bool shadow_ratio = false;          // area lights cast shadows, by ray-traced samples
-    int shadow_samples = 64;            // a pixel
+    Shadows shadows = Shadows::off;     // of lights, by ray-traced samples
+    int shadow_samples = 16;            // a pixel
     Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
     std::string stats_file;             // empty: none; "-": standard output
     std::string trace_file;             // empty: none
@@ -69,6 +74,10 @@ struct RenderOptions {
     bool quiet = false;
     int verbosity = 0;
 };
+
+// Returns the floor of `burnish render`. By default built-in scenes stand on the stage if the background is drawn, except those with a
+// floor of their own.
+FloorSettings floor_of(const RenderOptions& options);
 
 // Returns true if pictures need the samples of pixels: 8-bit ones that are not plain means. The reference keeps no samples.
 bool needs_parts(const RenderOptions& options);

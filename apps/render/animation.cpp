@@ -144,7 +144,8 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
         parts.environment = *environment;
     }
     if (scene) {
-        const auto data = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
+        const auto data =
+            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights, floor_of(options));
         BN_TRY(data);
         parts.scene = *data;
     }

@@ -10,6 +10,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/options/scene_with_view.h"
+#include "apps/render/mirror.h"
 #include "apps/render/shadows.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
@@ -131,7 +132,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     {
         const TraceSpan span("load scene");
         const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
+            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights, floor_of(options));
         BN_TRY(data);
         parts.scene = *data;
     }
@@ -140,7 +141,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     if (options.backend != "reference") // the reference bakes nothing, so it checks later
         BN_TRY(check_frame(parts.scene->scene, options.frame));
     BN_TRY(choose_view(options, parts.scene->scene, parts.scene->tables));
-    if (options.shadow_ratio && parts.scene->tables.area_lights.empty())
+    if (options.shadows == Shadows::ratio && parts.scene->tables.area_lights.empty())
         report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")
         warn_of_missing_behind_glass(parts.scene->scene, report);
@@ -182,7 +183,9 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     ask_for_layers(options.aov, desc);
     if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
         return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));
-    const bool shadows = options.shadow_ratio && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
+    const bool shadows = casts_shadows(options, desc, session);
+    const bool mirrors = options.floor == FloorChoice::mirror && options.backend != "reference";
+    desc.triangle_ids = desc.triangle_ids || mirrors;
     desc.layers = desc.layers || shadows || options.show != Shown::light;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     // Render the frames, and compare their hashes
@@ -200,9 +203,13 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         last = std::move(*frame);
         progress.step();
     }
-    // Add shadows, false colours and risks
+    // Add shadows, reflections, false colours and risks
     if (shadows) {
         BN_TRY(add_shadows(options, desc, session, last));
+        figures.hash = pixel_hash(last.color);
+    }
+    if (mirrors) {
+        BN_TRY(add_reflection(desc, session, last));
         figures.hash = pixel_hash(last.color);
     }
     if (options.show != Shown::light)

@@ -1,38 +1,76 @@
 #include "apps/render/shadows.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "raster/frame/shadow_ratio.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
+namespace {
+
+enum class Lights { area, lamps }; // lamps: punctual and extracted lights
+
+bool shade(Lights kind, const RenderOptions& options, const FrameDesc& desc, const Session& session)
+{
+    if (kind == Lights::area)
+        return options.shadows != Shadows::off && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
+    return options.shadows == Shadows::on && (!session.tables().lights.empty() || !session.parts().environment->extracted_lights.empty());
+}
+
+// Traces the light of one kind, with and without occluders, and returns the ratio.
+Result<Image> traced_ratio(Lights kind, const RenderOptions& options, const FrameDesc& desc, const Session& session, const Frame& lit)
+{
+    Image light[2];
+    for (const bool open : {false, true}) {
+        const TraceSpan span(open ? "lights without shadows" : "lights with shadows");
+        SessionOptions rays;
+        rays.backend = Backend::reference, rays.isa = options.isa;
+        rays.reference.mode = open ? ReferenceMode::direct : ReferenceMode::shadowed;
+        rays.reference.own_rays = true, rays.reference.shades = 1;
+        rays.reference.samples = static_cast<std::uint64_t>(options.shadow_samples);
+        (kind == Lights::area ? rays.reference.area_lights_only : rays.reference.lamps_only) = true;
+        rays.reference.quiet = options.quiet;
+        Result<Session> traced = Session::make(session.parts(), rays);
+        BN_TRY(traced);
+        Result<Frame> frame = traced->render(desc);
+        BN_TRY(frame);
+        light[open] = std::move(frame->color);
+    }
+    // Layers are in world space, and so is this view. Points of lamps are not chosen at random.
+    return shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs, kind == Lights::area);
+}
+
+} // namespace
+
+bool casts_shadows(const RenderOptions& options, const FrameDesc& desc, const Session& session)
+{
+    return shade(Lights::area, options, desc, session) || shade(Lights::lamps, options, desc, session);
+}
 
 Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
 {
     FrameDesc plain = desc; // only the colour is needed
-    plain.layers = plain.parts = plain.triangle_ids = false;
-    Image light[2];
-    for (const bool open : {false, true}) {
-        const TraceSpan span(open ? "area lights without shadows" : "area lights with shadows");
-        SessionOptions reference;
-        reference.backend = Backend::reference, reference.isa = reference.reference.isa = options.isa;
-        reference.reference.mode = open ? ReferenceMode::direct : ReferenceMode::shadowed;
-        reference.reference.samples = static_cast<std::uint64_t>(options.shadow_samples);
-        reference.reference.area_lights_only = true;
-        reference.reference.quiet = options.quiet;
-        Result<Session> rays = Session::make(session.parts(), reference);
-        BN_TRY(rays);
-        Result<Frame> frame = rays->render(plain);
-        BN_TRY(frame);
-        light[open] = std::move(frame->color);
+    plain.layers = plain.triangle_ids = plain.parts = false;
+    const Image open = lit.color;
+    const std::vector<PixelPart> open_parts = lit.parts;
+    for (const Lights kind : {Lights::area, Lights::lamps}) {
+        if (!shade(kind, options, desc, session))
+            continue;
+        const Result<Image> ratio = traced_ratio(kind, options, plain, session, lit);
+        BN_TRY(ratio);
+        FrameDesc without = plain;
+        without.parts = desc.parts;
+        if (kind == Lights::area)
+            without.area_way = kAreaWay_off;
+        else
+            without.lamps = false;
+        Result<Frame> unlit = session.render(without);
+        BN_TRY(unlit);
+        const TraceSpan span("shadows");
+        darken(lit.color, open, unlit->color, *ratio);
+        darken(lit.parts, open_parts, unlit->parts, *ratio);
     }
-    FrameDesc without = plain;
-    without.area_way = kAreaWay_off;
-    Result<Frame> unlit = session.render(without);
-    BN_TRY(unlit);
-    const TraceSpan span("shadows");
-    // Layers are in world space, and so is this view.
-    lit.color = with_shadows(lit.color, unlit->color, shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs));
     return {};
 }
 

@@ -139,8 +139,9 @@ void append_triangles(const Scene& scene, const Primitive& primitive, bool mirro
     }
 }
 
-void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t node, const Placement& place, DrawTables& out)
+void append_draw(const Scene& scene, std::uint32_t primitive_id, std::int32_t node, const Placement& place, DrawTables& out)
 {
+    const Primitive& primitive = scene.primitives[primitive_id];
     BN_CHECK_OP(primitive.index_count % 3, ==, 0u);
     BN_CHECK_OP(std::uint64_t{primitive.first_index} + primitive.index_count, <=, scene.indices.size());
     BN_CHECK_OP(std::uint64_t{primitive.first_vertex} + primitive.vertex_count, <=, scene.vertices.size());
@@ -157,7 +158,8 @@ void append_draw(const Scene& scene, const Primitive& primitive, std::int32_t no
     draw.first_triangle = static_cast<std::uint32_t>(out.triangle_count());
     draw.triangle_count = primitive.index_count / 3;
     draw.material = primitive.material;
-    draw.node = node;
+    draw.node = node, draw.primitive = primitive_id;
+    draw.stage = scene.nodes[static_cast<std::size_t>(node)].stage;
     if (!append_vertices(scene.vertices, primitive, place, out))
         return;
     append_triangles(scene, primitive, place.mirrored, draw, out);
@@ -193,17 +195,16 @@ void append_light(const Light& light, const glm::mat4& world, std::vector<Punctu
 
 void set_bounds(DrawTables& out)
 {
-    if (out.draws.empty()) {
-        out.bounds_min = glm::vec3(-0.5f);
-        out.bounds_max = glm::vec3(0.5f);
-        return;
-    }
-    out.bounds_min = out.draws[0].bounds_min;
-    out.bounds_max = out.draws[0].bounds_max;
+    bool any = false;
     for (const Draw& draw : out.draws) {
-        out.bounds_min = glm::min(out.bounds_min, draw.bounds_min);
-        out.bounds_max = glm::max(out.bounds_max, draw.bounds_max);
+        if (draw.stage)
+            continue;
+        out.bounds_min = any ? glm::min(out.bounds_min, draw.bounds_min) : draw.bounds_min;
+        out.bounds_max = any ? glm::max(out.bounds_max, draw.bounds_max) : draw.bounds_max;
+        any = true;
     }
+    if (!any)
+        out.bounds_min = glm::vec3(-0.5f), out.bounds_max = glm::vec3(0.5f);
 }
 
 } // namespace
@@ -257,7 +258,7 @@ DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion)
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
         BN_CHECK_OP(std::uint64_t{mesh.first_primitive} + mesh.primitive_count, <=, scene.primitives.size());
         for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
-            append_draw(scene, scene.primitives[mesh.first_primitive + k], static_cast<std::int32_t>(i), place, out);
+            append_draw(scene, mesh.first_primitive + k, static_cast<std::int32_t>(i), place, out);
     }
     set_bounds(out);
     return out;

@@ -41,6 +41,7 @@ struct Mesh {
 struct Node {
     std::string name;
     std::int32_t parent = kNone, mesh = kNone, camera = kNone, light = kNone, area_light = kNone;
+    bool stage = false;           // its mesh is a floor or backdrop, which views do not frame
     glm::mat4 local{1.0f};        // to the parent's space
     glm::dvec3 local_beyond{0.0}; // what floats leave of its translation
     glm::mat4 world{1.0f};        // to world space, from the scene's origin; update_world() fills it

@@ -117,9 +117,15 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
         top = std::max(top, y - ty * z), bottom = std::max(bottom, -y - ty * z);
         nearest = std::min(nearest, z);
     };
-    for (std::uint32_t vertex : tables.indices)
-        touch({tables.px[vertex], tables.py[vertex], tables.pz[vertex]});
-    if (tables.indices.empty())
+    bool any = false;
+    for (const Draw& draw : tables.draws) {
+        if (draw.stage)
+            continue;
+        any = any || draw.triangle_count > 0;
+        for (std::size_t i = std::size_t{3} * draw.first_triangle; i < std::size_t{3} * (draw.first_triangle + draw.triangle_count); ++i)
+            touch({tables.px[tables.indices[i]], tables.py[tables.indices[i]], tables.pz[tables.indices[i]]});
+    }
+    if (!any)
         for (int i = 0; i < 8; ++i)
             touch({(i & 1 ? tables.bounds_max : tables.bounds_min).x, (i & 2 ? tables.bounds_max : tables.bounds_min).y,
                    (i & 4 ? tables.bounds_max : tables.bounds_min).z});

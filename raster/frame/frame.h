@@ -70,6 +70,7 @@ struct FrameDesc {
     bool override_anisotropy = false;
     int tile_size = 64;          // 32 or 64; never changes the picture
     int texture_anisotropy = 16; // most taps along the major axis, 1..16
+    bool lamps = true;           // light by punctual lights and extracted lights; area_way decides on area lights
     bool background = true;      // draw the environment behind the scene; otherwise black
     bool triangle_ids = false;   // fill Frame::triangle_ids
     bool profile = false;        // fill Frame::profile if the renderer can; never changes the picture

@@ -84,12 +84,12 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     // Environment: cubes and extracted lights
     f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
     f.whole = cube_record(input.environment.picture());
-    f.extracted_light_count = static_cast<int>(input.environment.extracted_lights.size());
+    f.extracted_light_count = d.lamps ? static_cast<int>(input.environment.extracted_lights.size()) : 0;
     std::transform(input.environment.extracted_lights.begin(), input.environment.extracted_lights.end(), f.extracted_lights,
                    extracted_light_record);
     f.dfg_size = input.dfg.size, f.lobe_albedo_size = kLobeAlbedoSize;
     // Lamps and area lights
-    f.light_count = static_cast<int>(input.tables.lights.size());
+    f.light_count = d.lamps ? static_cast<int>(input.tables.lights.size()) : 0;
     if (d.area_way != kAreaWay_off && !input.tables.area_lights.empty()) {
         f.area_light_count = static_cast<int>(input.tables.area_lights.size());
         f.ltc = ltc_tables(input).record;

@@ -47,8 +47,10 @@ double alike(const Guide& a, const Guide& b)
 
 } // namespace
 
-Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs)
+Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs,
+                   bool noisy)
 {
+    const int reach = noisy ? kReach : 0;
     const int width = open.width, height = open.height;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     BN_CHECK(shadowed.width == width && shadowed.height == height && layers.size() == pixels);
@@ -73,8 +75,8 @@ Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelL
             const Guide& here = guides[at(x, y)];
             // Sum both estimates over neighbours on the same surface
             glm::dvec3 arrives(0.0), without(0.0);
-            for (int j = std::max(y - kReach, 0); j <= std::min(y + kReach, height - 1); ++j)
-                for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, width - 1); ++i) {
+            for (int j = std::max(y - reach, 0); j <= std::min(y + reach, height - 1); ++j)
+                for (int i = std::max(x - reach, 0); i <= std::min(x + reach, width - 1); ++i) {
                     const Guide& there = guides[at(i, j)];
                     const bool self = i == x && j == y;
                     if (!self && !(here.seen && there.seen))
@@ -94,14 +96,23 @@ Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelL
     return ratio;
 }
 
-Image with_shadows(const Image& lit, const Image& unlit, const Image& ratio)
+void darken(Image& picture, const Image& lit, const Image& unlit, const Image& ratio)
 {
-    Image result = lit;
-    auto* const to = reinterpret_cast<float*>(result.bytes.data());
+    float* const to = picture.f32();
     for (std::size_t i = 0; i < lit.bytes.size() / sizeof(float); ++i)
         if (const float r = ratio.f32()[i]; r != 1.0f)
-            to[i] = unlit.f32()[i] + (lit.f32()[i] - unlit.f32()[i]) * r;
-    return result;
+            to[i] = std::max(to[i] - (lit.f32()[i] - unlit.f32()[i]) * (1.0f - r), 0.0f);
+}
+
+void darken(std::vector<PixelPart>& parts, const std::vector<PixelPart>& lit, const std::vector<PixelPart>& unlit, const Image& ratio)
+{
+    BN_CHECK(parts.size() == lit.size() && lit.size() == unlit.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const float* const r = ratio.f32() + std::size_t{3} * parts[i].pixel;
+        for (std::size_t c = 0; c < 3; ++c)
+            if (r[c] != 1.0f)
+                parts[i].color[c] = std::max(parts[i].color[c] - (lit[i].color[c] - unlit[i].color[c]) * (1.0f - r[c]), 0.0f);
+    }
 }
 
 } // namespace burnish

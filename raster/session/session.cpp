@@ -110,7 +110,7 @@ Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings&
 }
 
 Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& name, Scene scene, const Limits& limits,
-                                                           const MipSettings& given)
+                                                           const MipSettings& given, const FloorSettings& floor = {})
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(name, [&]() -> Made {
@@ -130,10 +130,15 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         BN_TRY(lay_heights(data->scene, limits, name));
         settle_origin(data->scene);
         BN_TRY(add_emitters(data->scene, limits.area_lights, name));
+        update_world(data->scene);
+        Result<Column<float>> visibility = lay_floor(data->scene, floor, limits, name);
+        BN_TRY(visibility);
+        data->visibility = std::move(*visibility);
         data->mips.materials.resize(data->scene.materials.size());
         update_world(data->scene);
         BN_TRY(check_draw_size(data->scene, limits, name));
         data->tables = make_draw_tables(data->scene);
+        darken_vertices(data->tables, data->visibility);
         BN_TRY(check_draw_range(data->scene, data->tables, name));
         warn_of_steps(data->scene);
         warn_of_unfiltered(data->scene, data->mips);
@@ -158,7 +163,7 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
 
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const MaterialOverrides& overrides,
                                                          const MipSettings& mips, const Moment& moment,
-                                                         const std::vector<AreaLight>& lights)
+                                                         const std::vector<AreaLight>& lights, const FloorSettings& floor)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
@@ -172,7 +177,7 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
             add_area_light(*scene, light);
         }
         activity.emplace("placing triangles and choosing mip filters");
-        return make_settled_data(spec, std::move(*scene), limits, mips);
+        return make_settled_data(spec, std::move(*scene), limits, mips, floor);
     });
 }
 
@@ -222,7 +227,9 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
         parts.turned.reset();
         if (parts.environment->rotation_deg != 0.0f) {
             const glm::dmat4 motion(sky_from_world(parts.environment->rotation_deg));
-            parts.turned = std::make_shared<const DrawTables>(make_draw_tables(parts.scene->scene, &motion));
+            DrawTables turned = make_draw_tables(parts.scene->scene, &motion);
+            darken_vertices(turned, parts.scene->visibility);
+            parts.turned = std::make_shared<const DrawTables>(std::move(turned));
         }
         Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
         BN_TRY(renderer);

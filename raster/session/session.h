@@ -22,6 +22,7 @@
 #include "core/scene/scene.h"
 #include "raster/frame/frame.h"
 #include "raster/reference/reference_renderer.h"
+#include "raster/session/floor.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
@@ -37,14 +38,16 @@ struct SceneData { // a scene and its draw tables
     std::string name;
     Scene scene; // world matrices are up to date
     DrawTables tables;
-    SceneMips mips; // how levels of its maps are made, and those that were made beforehand
+    SceneMips mips;                // how levels of its maps are made, and those that were made beforehand
+    Column<float> visibility = {}; // of the sky from the tables' first vertices, which it darkens; empty: none (lay_floor())
 };
 
 // "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
-// scene, in world space.
+// scene, in world space. floor: that is laid under the scene.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
                                                          const MaterialOverrides& overrides = {}, const MipSettings& mips = {},
-                                                         const Moment& moment = {}, const std::vector<AreaLight>& lights = {});
+                                                         const Moment& moment = {}, const std::vector<AreaLight>& lights = {},
+                                                         const FloorSettings& floor = {});
 // From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
 // left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
 // "/primitives/0/indices/17".

@@ -1,5 +1,6 @@
 """Area lights: --light, extras.burnish.areaLight of nodes, --limit-lights, --area-lights, and their errors."""
 
+import json
 import math
 import struct
 
@@ -226,17 +227,68 @@ def shadows(bench):
     size = (*FLOOR, "--size", "160x120")
     bench.run("render", "ball.gltf", *size, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "512", "-o", "truth.png",
               timeout=300).expect(0)
-    bench.run("render", "ball.gltf", *size, *SHADOWS, "-o", "ratio.png").expect(0)
     bench.run("render", "ball.gltf", *size, "-o", "open.png").expect(0)
-    bench.run("compare", "truth.png", "ratio.png", "--fail-flip", "0.01").expect(0)
+    for samples, most in (("16", "0.012"), ("64", "0.01")):  # by default 16
+        bench.run("render", "ball.gltf", *size, *SHADOWS, "--shadow-samples", samples, "-o", "ratio.png").expect(0)
+        bench.run("compare", "truth.png", "ratio.png", "--fail-flip", most).expect(0)
     bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+
+
+@case("lights.shadows_of_lamps_and_of_the_sun_are_the_reference_s", budget=8)
+def all_shadows(bench):
+    """--shadows on: a lamp over a ball on a floor, and the built-in sky's sun, against the reference's shadowed mode."""
+    needs_embree(bench)
+    gltf = json.loads(ball_over_plane(True))
+    gltf.update(extensionsUsed=["KHR_lights_punctual"], extensions={"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 30}]}})
+    gltf["nodes"].append({"translation": [1.0, 2.0, 0.5], "extensions": {"KHR_lights_punctual": {"light": 0}}})
+    gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
+    scratch(bench, "lamp.gltf", json.dumps(gltf))
+    lamp = ("lamp.gltf", *FLOOR[:FLOOR.index("--light")], "--size", "160x120")
+    bench.run("render", *lamp, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "256", "-o", "truth.png", timeout=300).expect(0)
+    bench.run("render", *lamp, "--shadows", "on", "-o", "on.png").expect(0)
+    bench.run("render", *lamp, "--shadows", "ratio", "-o", "ratio.png").expect(0)
+    bench.run("render", *lamp, "-o", "open.png").expect(0)
+    bench.run("compare", "truth.png", "on.png", "--fail-flip", "0.01").expect(0)
+    bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+    check((bench.folder / "ratio.png").read_bytes() == (bench.folder / "open.png").read_bytes(), "a ratio for area lights shades lamps")
+    # The sun, whose environment is otherwise black: its disk is extracted, so its light has a hard shadow
+    sunny = ("ball.gltf", "--env", "builtin:sky", *FLOOR[FLOOR.index("--f0"):FLOOR.index("--light")], "--size", "160x120")
+    scratch(bench, "ball.gltf", ball_over_plane(True))
+    hashes = [bench.figures(*sunny, *more)["pixel_hash"] for more in ((), ("--shadows", "on"), ("--shadows", "on", "--threads", "1", "--isa", "scalar"))]
+    check(hashes[0] != hashes[1] and hashes[1] == hashes[2], f"{hashes}")
+
+
+@case("lights.shadows_reach_the_parts_of_pixels")
+def shaded_parts(bench):
+    """--resolve display shades each part of a pixel, so an edge in a shadow is as dark as its sides."""
+    scratch(bench, "ball.gltf", ball_over_plane(True))
+    small = ("ball.gltf", *FLOOR, "--size", "60x45", "--msaa", "4", *SHADOWS)
+    for resolve in ("linear", "display"):
+        bench.run("render", *small, "--resolve", resolve, "-o", resolve + ".png").expect(0)
+    bench.run("compare", "linear.png", "display.png", "--fail-flip", "0.02").expect(0)
+    bench.run("render", *small[:-2], "--resolve", "display", "-o", "open.png").expect(0)
+    bench.run("compare", "open.png", "display.png", "--fail-flip", "0.02").expect(1)
+
+
+@case("lights.floor_lies_below_scenes_that_ask_for_it")
+def floors(bench):
+    teapot = ("builtin:teapot", "--env", "builtin:studio", "--size", "64x48", "--msaa", "1", "--technique", "bent_normal")
+    by = {floor: bench.figures(*teapot, *(("--floor", floor) if floor else ()))["pixel_hash"] for floor in ("", "off", "shadow", "stage")}
+    check(by[""] == by["stage"] and len(set(by.values())) == 3, f"{by}")
+    check(bench.figures(*teapot, "--no-background")["pixel_hash"] == bench.figures(*teapot, "--no-background", "--floor", "off")["pixel_hash"],
+          "a picture without background has a stage")
+    check(bench.figures(*teapot, "--threads", "3", "--isa", "scalar")["pixel_hash"] == by["stage"], "threads or lanes change the floor")
+    scratch(bench, "ball.gltf", ball_over_plane(True))
+    ball = ("ball.gltf", "--size", "64x48", "--msaa", "1")
+    bare, off, shadow = (bench.figures(*ball, *more)["pixel_hash"] for more in ((), ("--floor", "off"), ("--floor", "shadow")))
+    check(bare == off and bare != shadow, "a file has a floor that nobody asked for")
+    bench.run("render", *teapot, "--floor", "grass", "-o", "a.png").expect(2).expect_one_line("--floor", "stage")
 
 
 @case("lights.shadows_that_cannot_be_say_one_line", "input")
 def no_shadows(bench):
     needs_embree(bench)
     bench.run("render", *SMALL, *SHADOWS, "--backend", "reference", "-o", "a.png").expect(2).expect_one_line("--shadows", "shadowed")
-    bench.run("render", *SMALL, *SHADOWS, "--resolve", "display", "-o", "a.png").expect(2).expect_one_line("--shadows", "--resolve")
     bench.run("render", *SMALL, "--shadow-samples", "9", "-o", "a.png").expect(2).expect_one_line("--shadow-samples", "--shadows")
     bench.run("parity", "builtin:plate", *SHADOWS).expect(2).expect_one_line("--shadows")
     run = bench.run("render", *SMALL, *SHADOWS, "-o", "b.png").expect(0)

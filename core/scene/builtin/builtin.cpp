@@ -22,7 +22,8 @@ constexpr Maker<Scene> kScenes[] = {
                "highlights run across grooves"},
      make_plate},
     {{"lights",
-      "a dark room under area lights: plates with level, upright and round highlights, and spheres; for the environment builtin:night"},
+      "a dark room under area lights: plates with level, upright and round highlights, and spheres; for the environment builtin:night",
+      false},
      make_lights},
     {{"glass", "balls and a ring of glass on a steel disc with highlights along circles, for technique mc and the reference"}, make_glass},
     {{"bumps",
@@ -31,7 +32,8 @@ constexpr Maker<Scene> kScenes[] = {
     {{"lacquer", "balls under clear coats on satin plastic: carbon weave (highlights across its threads), car paint, and steel (highlights "
                  "around it)"},
      make_lacquer},
-    {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters"}, make_shaderballs},
+    {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters",
+      false}, make_shaderballs},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},
@@ -103,6 +105,14 @@ const std::vector<BuiltinInfo>& builtin_environments()
 {
     static const std::vector<BuiltinInfo> list = infos(kEnvironments);
     return list;
+}
+
+bool builtin_is_staged(const std::string& name)
+{
+    for (const BuiltinInfo& info : builtin_scenes())
+        if (name == info.name)
+            return info.staged;
+    return false;
 }
 
 Result<Scene> make_builtin_scene(const std::string& name)

@@ -11,6 +11,7 @@ namespace burnish {
 struct BuiltinInfo {
     const char* name; // without "builtin:"
     const char* summary;
+    bool staged = true; // scenes: is shown on a floor before a backdrop, having none of its own
 };
 const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, shaderballs
 const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
@@ -18,6 +19,9 @@ const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 // Parametric failure scenes, which break a method as one number grows. The name takes =AMOUNT; without it, the default
 // amount applies.
 const std::vector<BuiltinInfo>& builtin_failure_scenes();
+
+// Returns true for a built-in scene that is shown on the stage. name: without "builtin:".
+bool builtin_is_staged(const std::string& name);
 
 Result<Scene> make_builtin_scene(const std::string& name); // built-in scenes and failure scenes
 

@@ -52,7 +52,8 @@ TEST(shadow_ratio, is_one_where_nothing_is_in_the_way_and_where_there_is_no_ligh
         for (int i = 0; i < kRatioSide * kRatioSide * 3; ++i)
             ASSERT_EQ(ratio.f32()[i], 1.0f) << i;
         const Image lit = filled_by([](int x, int y) { return 0.1f * static_cast<float>(x) + 0.3f * static_cast<float>(y); });
-        const Image same = with_shadows(lit, filled_by(noise_at), ratio);
+        Image same = lit;
+        darken(same, lit, filled_by(noise_at), ratio);
         for (int i = 0; i < kRatioSide * kRatioSide * 3; ++i)
             ASSERT_EQ(same.f32()[i], lit.f32()[i]) << i;
     }
@@ -63,7 +64,8 @@ TEST(shadow_ratio, of_noise_is_its_mean_and_light_without_area_lights_stays)
     const Image open = filled_by([](int, int) { return 2.0f; });
     const Image ratio = ratio_of(filled_by(noise_at), open, Edge::none);
     const Image lit = filled_by([](int, int) { return 5.0f; }), unlit = filled_by([](int, int) { return 1.0f; });
-    const Image shaded = with_shadows(lit, unlit, ratio);
+    Image shaded = lit;
+    darken(shaded, lit, unlit, ratio);
     for (int y = 4; y < kRatioSide - 4; ++y)
         for (int x = 4; x < kRatioSide - 4; ++x) {
             const int i = 3 * (kRatioSide * y + x);
