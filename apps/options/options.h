@@ -23,7 +23,7 @@
 
 namespace burnish {
 
-enum class Shadows { off, ratio, on };                // ratio: of area lights; on: of punctual and extracted lights too
+enum class Shadows { off, ratio, on };                        // ratio: of area lights; on: of punctual and extracted lights too
 enum class FloorChoice { off, shadow, stage, mirror, usual }; // usual: as floor_of() says
 
 struct RenderOptions {

@@ -28,7 +28,7 @@ struct Draw { // one primitive of one node
     std::uint32_t first_vertex = 0, vertex_count = 0;
     std::int32_t material = 0, node = kNone;
     std::uint32_t primitive = 0;
-    bool stage = false; // a floor or backdrop, outside of the tables' bounds
+    bool stage = false;                           // a floor or backdrop, outside of the tables' bounds
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f}; // world space
 };
 

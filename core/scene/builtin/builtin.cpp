@@ -32,8 +32,8 @@ constexpr Maker<Scene> kScenes[] = {
     {{"lacquer", "balls under clear coats on satin plastic: carbon weave (highlights across its threads), car paint, and steel (highlights "
                  "around it)"},
      make_lacquer},
-    {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters",
-      false}, make_shaderballs},
+    {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters", false},
+     make_shaderballs},
 };
 constexpr Maker<Image> kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},
