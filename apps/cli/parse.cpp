@@ -16,8 +16,8 @@ namespace {
 // Reads the whole of [first, last) as one value. std::from_chars ignores the locale, so "0,5" means the same on every machine.
 template <class T> bool read_all(const char* first, const char* last, T& value)
 {
-    if (first != last && *first == '+')
-        ++first;
+    if (first != last && *first == '+' && ++first != last && *first == '-')
+        return false;
     const std::from_chars_result read = std::from_chars(first, last, value);
     return read.ec == std::errc() && read.ptr == last;
 }

@@ -125,11 +125,18 @@ int flush_stdout(int code)
     return fail(Error{ExitCode::output_failed, "standard output", "", "cannot be written"});
 }
 
+// Returns true for --quiet, and for -q alone or behind other flags of one letter.
+bool says_quiet(const std::string& word)
+{
+    const std::size_t at = word.find_first_not_of('v', 1);
+    return word == "--quiet" || (word.starts_with('-') && at != std::string::npos && word[at] == 'q');
+}
+
 // Warns if fewer threads did the work than were asked for. Prints nothing after an error, so an error stays one line.
 void warn_of_missing_threads(int code, const std::vector<std::string>& words)
 {
     const std::string missing = missing_threads();
-    const bool quiet = std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "--quiet" || word == "-q"; });
+    const bool quiet = std::any_of(words.begin(), words.end(), says_quiet);
     if (code != 0 || missing.empty() || quiet)
         return;
     Report report(false, 0);

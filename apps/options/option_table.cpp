@@ -54,7 +54,7 @@ std::vector<Option> output_rows(RenderArguments& to)
          choice(to.plain.resolve, {"linear", "display", "weighted"})},
         {"--shadows", "NAME", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)",
          choice(to.plain.shadows, {"off", "ratio", "on"})},
-        {"--shadow-samples", "N", "Samples a pixel for --shadows", integer(to.plain.shadow_samples, 1, 1 << 20)},
+        {"--shadow-samples", "N", "Samples a pixel for --shadows, in steps of 16", integer(to.plain.shadow_samples, 1, 1 << 20)},
         {"--aov", "NAMES", "Layers of .exr outputs, separated by commas: {}", choices(to.plain.aov, layer_names()), ""},
         {"--show", "NAME",
          "Contents of 8-bit outputs: {}. The last three are false colours: texture level, lobe shape in the picture, lobe normal",
@@ -98,7 +98,7 @@ std::vector<Option> picture_rows(RenderArguments& to)
          "Floor below the scene, with soft contact shadows: off, shadow (fades into the environment), stage (bends up into a backdrop) or "
          "mirror "
          "(a stage that reflects the scene)",
-         choice(to.plain.floor, {"off", "shadow", "stage", "mirror"}), "stage for built-in scenes, else off"},
+         choice(to.plain.floor, {"off", "shadow", "stage", "mirror"}), "stage for most built-in scenes, else off"},
         {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
          area_lights(to.plain.lights)},
         {"--as-table", "FILE|FOLDER",

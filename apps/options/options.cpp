@@ -74,6 +74,16 @@ Status check_shadows(const OptionTable& given, const RenderOptions& out)
     return {};
 }
 
+Status check_floor(const RenderOptions& out)
+{
+    const bool mirror = out.floor == FloorChoice::mirror;
+    if (mirror && out.backend == "reference" && out.reference.mode == ReferenceMode::direct)
+        return usage_error("--floor", "mirror: the reference reflects it with --reference-mode path alone");
+    if ((mirror || out.floor == FloorChoice::shadow) && out.backend == "vulkan" && out.vulkan.pipeline != VulkanPipeline::ids)
+        return usage_error("--floor", "needs --pipeline ids");
+    return {};
+}
+
 Status check_technique(const RenderArguments& in, RenderOptions& out)
 {
     FrameDesc& frame = out.frame;
@@ -97,8 +107,9 @@ bool changes_pictures(const Option& option, bool names)
     const ValueKind kind = option.value.kind;
     const bool taken = kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
                        (names && kind == ValueKind::name && option.name != "--technique");
-    return taken && (option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
-                     option.group == "Parameters of techniques" || option.name == "--exposure");
+    return taken && option.name != "--floor" &&
+           (option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
+            option.group == "Parameters of techniques" || option.name == "--exposure");
 }
 
 bool changes_scene(const Option& option)
@@ -161,6 +172,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         BN_TRY(check_vulkan_options(out));
     BN_TRY(check_layers(out));
     BN_TRY(check_shadows(given, out));
+    BN_TRY(check_floor(out));
     BN_TRY(check_camera(out));
     warn_of_no_effect(given, out);
     out.environment.quiet = out.quiet;

@@ -59,7 +59,9 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
         report.event("samples",
                      fmt::format("emulated: {} passes of one sample, as the device cannot take {} at once", frame.msaa, frame.msaa));
     if (figures.frame.depth_interpolated)
-        report.event("depth", "interpolated by the device, which has no 64-bit floats: equal depths may be ordered otherwise");
+        report.warning(
+            "the device has no 64-bit floats: it interpolates depth, so equal depths may be ordered otherwise, and triangles that "
+            "reach a million times as far as the near plane may lack pieces");
     report.detail("fragments",
                   fmt::format("{} shaded, {} of {} triangles drawn, {} pixels show the background", figures.frame.visible_fragments,
                               figures.frame.triangles_drawn, figures.frame.triangles, figures.frame.background_pixels));

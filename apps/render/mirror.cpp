@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+#include "apps/render/shadows.h"
+
 namespace burnish {
 namespace {
 
@@ -51,7 +53,7 @@ struct FloorMirror {
 
 } // namespace
 
-Status add_reflection(const FrameDesc& desc, Session& session, Frame& lit)
+Status add_reflection(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
 {
     const std::vector<Draw>& draws = session.tables().draws;
     const auto floor = std::find_if(draws.begin(), draws.end(), [](const Draw& draw) { return draw.stage; });
@@ -60,8 +62,12 @@ Status add_reflection(const FrameDesc& desc, Session& session, Frame& lit)
     FrameDesc plain = desc;
     plain.layers = plain.parts = plain.triangle_ids = plain.stages = plain.profile = false;
     plain.view = mirrored(desc.view, floor->bounds_max.y);
-    const Result<Frame> below = session.render(plain);
+    const bool shadows = casts_shadows(options, plain, session);
+    plain.layers = shadows;
+    Result<Frame> below = session.render(plain);
     BN_TRY(below);
+    if (shadows)
+        BN_TRY(add_shadows(options, plain, session, *below));
     const FloorMirror mirror{desc, *floor, *below};
     const auto msaa = static_cast<std::size_t>(desc.msaa);
     // Returns the share of a pixel's sample that shows the floor.

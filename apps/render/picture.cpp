@@ -156,6 +156,9 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     }
     figures.bake_ms = bake.ms();
     BN_TRY(check_paths(options, parts.environment->files));
+    if (options.shadows == Shadows::on && parts.scene->tables.lights.empty() && parts.scene->tables.area_lights.empty() &&
+        parts.environment->extracted_lights.empty())
+        report.warning("--shadows has no effect: there are no lights besides the environment");
     figures.env = parts.environment->name;
     figures.environment_from_cache = parts.environment->from_cache;
     figures.extracted_lights = turned_extracted_lights(*parts.environment);
@@ -209,7 +212,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         figures.hash = pixel_hash(last.color);
     }
     if (mirrors) {
-        BN_TRY(add_reflection(desc, session, last));
+        BN_TRY(add_reflection(options, desc, session, last));
         figures.hash = pixel_hash(last.color);
     }
     if (options.show != Shown::light)

@@ -122,7 +122,7 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
         if (draw.stage)
             continue;
         any = any || draw.triangle_count > 0;
-        for (std::size_t i = std::size_t{3} * draw.first_triangle; i < std::size_t{3} * (draw.first_triangle + draw.triangle_count); ++i)
+        for (std::size_t i = std::size_t{3} * draw.first_triangle, end = i + std::size_t{3} * draw.triangle_count; i < end; ++i)
             touch({tables.px[tables.indices[i]], tables.py[tables.indices[i]], tables.pz[tables.indices[i]]});
     }
     if (!any)

@@ -13,6 +13,7 @@ constexpr int kBins = 16;
 constexpr int kHeuristicLevels = 56;          // below, halves by count bound the depth
 constexpr std::size_t kLeastTriangles = 4096; // of a subtree that a thread builds alone
 constexpr float kWidenBounds = 0x1p-21f;      // of the coordinate
+static_assert(kHeuristicLevels + 32 < kDeepestTree, "halves of 2^32 triangles end");
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Box {
@@ -163,12 +164,16 @@ class Builder {
 
 class TreeScene final : public RayScene {
   public:
-    TreeScene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa) : fns_(pick<TraceFns>(isa))
+    TreeScene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa, const std::vector<bool>& left_out)
+        : fns_(pick<TraceFns>(isa))
     {
         std::vector<std::uint32_t> surfaces, open_lights;
         std::vector<std::uint8_t> single_sided(tables.triangle_count());
         for (std::uint32_t i = 0; i < tables.triangle_count(); ++i) {
-            const Material& material = scene.materials[tables.triangle_material[i]];
+            const std::uint32_t id = tables.triangle_material[i];
+            if (id < left_out.size() && left_out[id])
+                continue;
+            const Material& material = scene.materials[id];
             single_sided[i] = !material.double_sided;
             (material.emitter == kOpenEmitter ? open_lights : surfaces).push_back(i);
         }
@@ -217,6 +222,7 @@ RayTree make_ray_tree(const DrawTables& tables, const std::vector<std::uint32_t>
     jobs.parallel_for(apart.size(),
                       [&](std::size_t i, int) { Builder(items, alone).build(apart[i].range, apart[i].level, apart[i].nodes, nullptr); });
     // Put the subtrees in place
+    const std::size_t uppermost = nodes.size();
     for (const Subtree& s : apart) {
         const auto base = static_cast<std::uint32_t>(nodes.size()), which = static_cast<std::uint32_t>(&s - apart.data());
         for (RayNode node : s.nodes) {
@@ -224,7 +230,7 @@ RayTree make_ray_tree(const DrawTables& tables, const std::vector<std::uint32_t>
                 node.first[k] += node.count[k] ? 0 : base;
             nodes.push_back(node);
         }
-        for (std::uint32_t n = 0; n < base; ++n)
+        for (std::size_t n = 0; n < uppermost; ++n)
             for (int k = 0; k < 2; ++k)
                 if (nodes[n].count[k] == 0 && nodes[n].first[k] == (Builder::kApart | which))
                     nodes[n].first[k] = base;
@@ -242,9 +248,10 @@ RayTree make_ray_tree(const DrawTables& tables, const std::vector<std::uint32_t>
     return tree;
 }
 
-std::unique_ptr<RayScene> make_tree_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa)
+std::unique_ptr<RayScene> make_tree_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa,
+                                          const std::vector<bool>& left_out)
 {
-    return std::make_unique<TreeScene>(scene, tables, jobs, isa);
+    return std::make_unique<TreeScene>(scene, tables, jobs, isa, left_out);
 }
 
 } // namespace burnish

@@ -25,7 +25,9 @@ struct RayTree { // empty: no triangle
 RayTree make_ray_tree(const DrawTables& tables, const std::vector<std::uint32_t>& ids, const std::vector<std::uint8_t>& single_sided,
                       const Jobs& jobs);
 
-// Makes the scene of rays by trees: one over surfaces, and one over surfaces that show an open area light.
-std::unique_ptr<RayScene> make_tree_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa);
+// Makes the scene of rays by trees: one over surfaces, and one over surfaces that show an open area light. left_out: materials whose
+// triangles no ray meets, by index; those beyond its end are met.
+std::unique_ptr<RayScene> make_tree_scene(const Scene& scene, const DrawTables& tables, const Jobs& jobs, Isa isa,
+                                          const std::vector<bool>& left_out = {});
 
 } // namespace burnish

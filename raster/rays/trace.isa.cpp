@@ -35,7 +35,7 @@ struct Rays {
 
 // Bounds are widened by this part of the distance, since distances to bounds and to triangles round differently.
 constexpr double kWiden = 1e-5;
-constexpr double kRounding = 2e-6, kMostSlack = 1e-3;
+constexpr double kRounding = 2e-6, kMostSlack = 1e-3, kEdgeOn = 1e-7;
 
 BN_INLINE real inverse_of(real d)
 {
@@ -84,7 +84,8 @@ BN_INLINE mask meet(Rays& r, const RayTriangle& t, RayKind kind, mask wanted)
         return mask_from_bits(0);
     const real products = greatest(r.direction) * max(greatest(a), max(greatest(b), greatest(c))) * max(greatest(ca), greatest(ab));
     const real slack = min(products * lit(kRounding), widest);
-    mask hit = both(wanted, either(least >= -slack, most <= slack));
+    // A triangle seen from its edge has no certain distance
+    mask hit = both(both(wanted, abs(sum) > products * lit(kEdgeOn)), either(least >= -slack, most <= slack));
     if (none(hit))
         return hit;
     // Find the distance
@@ -152,18 +153,21 @@ void trace(const RayTreeView& tree, RayPacket& k, RayKind kind)
 {
     for (int first = 0; tree.any && first < kRays; first += kLanes) {
         const mask valid = load_int(k.valid + first) != int_lit(0);
-        if (none(valid))
-            continue;
         Rays r;
         r.origin = {load(k.org_x + first), load(k.org_y + first), load(k.org_z + first)};
         r.direction = {load(k.dir_x + first), load(k.dir_y + first), load(k.dir_z + first)};
+        // Leave out rays with a NaN or Inf, which would pass all bounds
+        const mask sound = both(dot(r.origin, r.origin) <= splat(3e38f), dot(r.direction, r.direction) <= splat(3e38f));
+        const mask open = both(valid, sound);
+        if (none(open))
+            continue;
         r.inverse = {inverse_of(r.direction.x), inverse_of(r.direction.y), inverse_of(r.direction.z)};
         r.tnear = load(k.tnear + first), r.tfar = load(k.tfar + first);
         r.u = load(k.u + first), r.v = load(k.v + first);
         const mask had = load_int(reinterpret_cast<const std::int32_t*>(k.geometry + first)) != int_lit(-1);
         r.id = select(had, load_int(reinterpret_cast<const std::int32_t*>(k.triangle + first)), int_lit(-1));
         mask found = mask_from_bits(0);
-        trace_lanes(tree, r, kind, valid, found);
+        trace_lanes(tree, r, kind, open, found);
         if (kind == RayKind::occlusion) {
             store(k.tfar + first, select(found, splat(-__builtin_inff()), r.tfar));
             continue;

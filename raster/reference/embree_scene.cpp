@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "core/base/check.h"
@@ -54,14 +55,6 @@ class EmbreeScene final : public RayScene {
 
 constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's geometry ids of the parts
 
-// Keeps oneTBB, which Embree uses to build trees, from starting threads. If the system refuses a thread, oneTBB ends the process.
-void keep_tbb_idle()
-{
-    static const tbb::global_control* const only_callers =
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism, 1); // for the whole process, so never deleted
-    static_cast<void>(only_callers);
-}
-
 // Converts Embree's error. what: as in "Embree cannot ...".
 Error error_of(RTCError code, const std::string& what)
 {
@@ -108,8 +101,10 @@ Status EmbreeScene::add_part(const DrawTables& tables, unsigned part)
 Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
+    // Embree builds trees with oneTBB, which ends the process if the system refuses a thread. Keep it from starting threads meanwhile
+    std::optional<tbb::global_control> only_callers;
     if (!jobs.by_onetbb())
-        keep_tbb_idle();
+        only_callers.emplace(tbb::global_control::max_allowed_parallelism, 1);
     self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");

@@ -93,7 +93,7 @@ class ReferenceRenderer final : public Renderer {
     FrameMaker maker_;
     EnvironmentSampler sampler_;
     std::vector<ReferenceScratch> workers_;
-    std::vector<LightRecord> lights_; // with lights_only
+    std::vector<LightRecord> lights_; // with lamps_only
 };
 
 // Puts the extracted lights behind the punctual ones.

@@ -26,7 +26,7 @@ struct ReferenceOptions {
     bool own_rays = false;            // by a tree of our own, not Embree's
     bool area_lights_only = false;    // no other light, and a black background
     bool lamps_only = false;          // punctual lights alone, and extracted lights as points; a black background
-    int shades = 4;                   // light samples at each of a pass's 16 camera positions: 1 or 4
+    int shades = 4;                   // light samples at each of a pass's 16 camera positions, 1 to 4
     bool full_textures = false;       // textures at full detail, not filtered over a pixel's footprint
     double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
     std::string checkpoint;           // file; empty: none

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "core/base/hash.h"
@@ -103,7 +104,8 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     key.add(kReferenceVersion);
     FrameRecord frame = frame_record(input, reference_desc(d));
     frame.specular = frame.irradiance = {}; // the reference reads the full environment, with or without extracted lights
-    frame.whole.levels = 1, frame.extracted_light_count = 0;
+    frame.whole.levels = 1;
+    const int extracted_lights = std::exchange(frame.extracted_light_count, 0);
     std::fill(std::begin(frame.extracted_lights), std::end(frame.extracted_lights), ExtractedLightRecord{});
     frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
@@ -123,6 +125,8 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
         key.add(options.own_rays);
     if (options.shades != kPassShades || options.lamps_only)
         key.add(options.shades, options.lamps_only);
+    for (int i = 0; options.lamps_only && i < extracted_lights; ++i)
+        key.add(frame.extracted_lights[i]);
     if (options.area_lights_only)
         key.add('a');
     if (options.mode != ReferenceMode::direct && !input.tables.area_lights.empty()) // in older versions area lights occluded each other

@@ -25,6 +25,7 @@ constexpr int kCoveRings = 48;   // on the backdrop
 constexpr double kFloorRadius = 3.0;
 constexpr double kWallRadius = 6.0, kCoveRadius = 2.5, kWallHeight = 6.0, kTop = 9.0;
 constexpr int kFloorRays = 256, kVertexRays = 64; // of a vertex
+constexpr std::size_t kMostDarkened = 1u << 20;   // vertices of a scene that is darkened
 constexpr double kLift = 1e-4;                    // of a ray's origin above the scene's lowest place
 constexpr double kBelow = 2e-3;                   // of the floor below that place, so that a ground of the scene's own hides the floor
 
@@ -131,6 +132,22 @@ std::vector<float> visibility_of(const std::vector<Seer>& seers, int ray_count, 
     return seen;
 }
 
+// Returns the materials that hide nothing of the sky from a floor.
+std::vector<bool> clear_materials(const Scene& scene)
+{
+    std::vector<bool> clear;
+    for (const Material& m : scene.materials)
+        clear.push_back(m.unlit || m.alpha_mode == AlphaMode::blend || m.transmission > 0.0f);
+    return clear;
+}
+
+// Returns true if vertex colours may hold the visibility of the sky: they dim the light of lamps in the scene too.
+bool darkens_vertices(const DrawTables& tables)
+{
+    const bool lamps = std::any_of(tables.lights.begin(), tables.lights.end(), [](const PunctualLight& l) { return !l.directional; });
+    return !lamps && tables.area_lights.empty() && tables.px.size() <= kMostDarkened;
+}
+
 // Returns the visibility of the vertices on dielectrics without vertex colours, and makes their primitives use colours. lift: of rays above
 // their surfaces, metres.
 Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, double lift, const RayScene& rays, const Jobs& jobs)
@@ -198,7 +215,9 @@ class FloorBuilder {
             s.shade = shade(sector % kSectors, ring);
             return s;
         });
-        add_node(scene_, name, add_mesh(scene_, name, primitive), glm::mat4(1.0f));
+        glm::mat4 place(1.0f);
+        place[3] = glm::vec4(glm::vec3(scene_.origin), 1.0f); // the vertices are already in drawing coordinates
+        add_node(scene_, name, add_mesh(scene_, name, primitive), place);
         scene_.nodes.back().stage = true;
     }
 
@@ -212,7 +231,7 @@ class FloorBuilder {
 
 void darken_vertices(DrawTables& tables, const Column<float>& visibility)
 {
-    for (std::size_t v = 0; v < visibility.size(); ++v)
+    for (std::size_t v = 0; v < std::min(visibility.size(), tables.shading.size()); ++v)
         for (int c = 0; c < 3; ++c)
             tables.shading[v].color[c] *= visibility[v];
 }
@@ -237,14 +256,15 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
     if (settings.shaded) {
         const TraceSpan span("contact shadows");
         const Jobs jobs(settings.threads);
-        const std::unique_ptr<RayScene> rays = make_tree_scene(scene, tables, jobs, best_isa());
+        const std::unique_ptr<RayScene> rays = make_tree_scene(scene, tables, jobs, best_isa(), clear_materials(scene));
         std::vector<Seer> seers(seen.size());
         for (int ring = 0; ring <= kFloorRings; ++ring)
             for (int sector = 0; sector < kSectors; ++sector)
                 seers[static_cast<std::size_t>(ring) * kRow + static_cast<std::size_t>(sector)] = {
                     builder.position(ring == 0 ? 0 : sector, {floor_radius(ring), kBelow + kLift}), {0.0, 1.0, 0.0}};
         seen = visibility_of(seers, kFloorRays, *rays, jobs);
-        of_vertices = visibility_of_vertices(scene, tables, kLift * radius, *rays, jobs);
+        if (darkens_vertices(tables))
+            of_vertices = visibility_of_vertices(scene, tables, kLift * radius, *rays, jobs);
     }
     // Add the surfaces
     const bool fades = settings.kind == FloorKind::shadow;

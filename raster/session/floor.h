@@ -14,7 +14,7 @@ enum class FloorKind {
     off,
     shadow, // a floor that fades into the environment
     stage,  // a floor that bends up into a backdrop
-    mirror, // a stage with a polished floor: a dielectric with an index of 1.5; references alone draw what it reflects
+    mirror, // a stage with a polished floor, of an index of 1.5; rasterizers leave its reflection to the caller
 };
 
 struct FloorSettings {
@@ -24,10 +24,10 @@ struct FloorSettings {
 };
 
 // Adds nodes for the floor at the scene's lowest place, and for its backdrop. No view frames them. Visibility is the share of a uniform
-// sky, weighted by the cosine, that a vertex sees past the scene's surfaces; the floor's vertex colours hold it. Returns the visibility of
-// the scene's own vertices on dielectrics, by vertex of the draw tables, [0,1]; 1 for vertices of other materials and with colours of their
-// own. Empty: no vertex is darker. scene: world matrices are up to date. Errors: ExitCode::bad_input where the tables exceed the limits;
-// `file` names the scene.
+// sky, weighted by the cosine, that a vertex sees past the scene's surfaces. Blended, transmissive and unlit surfaces hide nothing. The
+// floor's vertex colours hold its visibility. Returns the visibility of the scene's own vertices, by vertex of the draw tables, [0,1]. It
+// is 1 on metals and where vertices have colours. It is empty in scenes with point, spot or area lights, and beyond a million vertices.
+// scene: world matrices are up to date. Errors: ExitCode::bad_input where the tables exceed the limits; `file` names the scene.
 Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, const Limits& limits, const std::string& file);
 
 // Multiplies vertex colours by visibility. Vertices beyond its end keep their colours.

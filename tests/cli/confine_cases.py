@@ -115,7 +115,10 @@ FEW_THREADS = {
     "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 4)),
     "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
     "report": (("chart", "builtin:plate", *CHART[1:]), (0, 4)),
+    "lit.png": ((*PLATE, "--env", "sky.exr", "--threads", "4"), (0, 4)),
+    "found.json": (("compare", "a.pfm", "b.pfm", "--threads", "4", "-q"), (0,)),
 }
+OUTPUT = {"found.json": "--json"}  # -o for all others
 
 
 def bytes_of(path):
@@ -132,17 +135,21 @@ def with_few_threads(bench, names, counts, user):
         bench.run("--version", user=user).expect(0)
     except Exception as error:
         raise Skipped(f"another user cannot run the program here: {error}") from error
+    for picture, more in (("sky.exr", ("--size", "64x32")), ("a.pfm", ()), ("b.pfm", ("--samples", "4"))):  # inputs
+        bench.run(*PLATE, *more, "-o", picture).expect(0)
+        (bench.folder / picture).chmod(0o644)
     for name in names:
         words, codes = FEW_THREADS[name]
+        words += (OUTPUT.get(name, "-o"), name)
         path = bench.folder / name
-        done = bench.run(*words, "-o", name, user=user, env=env)
+        done = bench.run(*words, user=user, env=env)
         if done.code == 77:
             continue  # the library or the device is missing
         done.expect(0)
         whole = bytes_of(path)
         for count in counts:
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-            done = bench.run(*words, "-o", name, user=user, processes=count, env=env, timeout=60.0)
+            done = bench.run(*words, user=user, processes=count, env=env, timeout=60.0)
             check(done.code in codes, f"{name} by {count}: {done.describe()}")
             if done.code == 0:
                 check(name == "report" or bytes_of(path) == whole, f"{name} by {count}: other bytes")

@@ -118,6 +118,28 @@ def impossible_names(bench):
     check(bench.left_behind() == ["a.png", "b.png", "file"], f"left: {bench.left_behind()}")
 
 
+@case("file.names_that_cannot_be_by_every_option", tier="nightly")
+def impossible_names_everywhere(bench):
+    """Outputs end with 7 and inputs with 4, in one line with the name, by every option that names a file."""
+    (bench.folder / "a.png").symlink_to("b.png")
+    (bench.folder / "b.png").symlink_to("a.png")
+    scratch(bench, "file", b"")
+    bench.run("render", *SMALL, "-o", "p.pfm").expect(0)
+    before = sorted(bench.left_behind())
+    compare = ("compare", "p.pfm", "p.pfm")
+    for stem in ("n" * 300, "a", "file/o", "/".join(["x" * 200] * 30)):
+        name = lambda ending: stem + ending
+        for words in (("render", *SMALL, "--trace", name(".json")), ("render", *SMALL, "--risks", name(".png")), (*compare, "--json", name(".json")),
+                      (*compare, "--html", name(".html")), (*compare, "--error-map", name(".png")), ("bake", "mip", "builtin:bumps", "-o", name(".mip")),
+                      ("export", "glsl", "--technique", "bent_normal", "-o", name(".glsl"))):
+            if stem != "a" or words[-1] == "a.png":
+                bench.run(*words).expect(7).expect_one_line(words[-1][:100])
+        for words in (("render", name(".gltf")), ("render", *SMALL, "--env", name(".exr")), ("render", *SMALL, "--normal-map", name(".png")),
+                      ("render", "builtin:bumps", "--mip-pyramid", name(".mip")), ("compare", "p.pfm", name(".png"))):
+            bench.run(*words).expect(4).expect_one_line(words[-1][:100])
+    check(sorted(bench.left_behind()) == before, f"left: {bench.left_behind()}")
+
+
 # A link, its target, and the place of the file written through the link; None: exit code 7.
 LINKS = (("l.png", "missing.png", "missing.png"), ("l.png", "sub/missing.png", "sub/missing.png"), ("sub/l.png", "../missing.png", "missing.png"),
          ("l.png", "{}/sub/whole.png", "sub/whole.png"), ("l.png", "m.png", "sub/end.png"), ("l.png", "gone/missing.png", None),

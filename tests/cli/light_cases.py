@@ -7,7 +7,7 @@ import struct
 from bake_cases import SHIPPED
 from direction_cases import SMALL
 from gltf_files import data_uri, png, text, triangle
-from harness import case, check, scratch
+from harness import Skipped, case, check, scratch
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
@@ -251,6 +251,12 @@ def all_shadows(bench):
     bench.run("compare", "truth.png", "on.png", "--fail-flip", "0.01").expect(0)
     bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
     check((bench.folder / "ratio.png").read_bytes() == (bench.folder / "open.png").read_bytes(), "a ratio for area lights shades lamps")
+    # A lamp stands behind an area light that faces away from the floor: the surface that shows the light lets the lamp's light pass
+    quad = ("--light", "quad:points=0.6,1.4,0.1/0.6,1.4,0.7/1.2,1.4,0.7/1.2,1.4,0.1:radiance=0.001,0.001,0.001")
+    for words, name in ((quad, "open"), ((quad[0], quad[1] + ":solid"), "solid")):
+        bench.run("render", *lamp, *words, "--shadows", "on", "--area-lights", "off", "-o", name + ".png").expect(0)
+    bench.run("compare", "on.png", "open.png", "--fail-flip", "0.01").expect(0)  # the light's surface itself is seen
+    bench.run("compare", "on.png", "solid.png", "--fail-flip", "0.02").expect(1)
     # The sun, whose environment is otherwise black: its disk is extracted, so its light has a hard shadow
     sunny = ("ball.gltf", "--env", "builtin:sky", *FLOOR[FLOOR.index("--f0"):FLOOR.index("--light")], "--size", "160x120")
     scratch(bench, "ball.gltf", ball_over_plane(True))
@@ -270,6 +276,15 @@ def shaded_parts(bench):
     bench.run("compare", "open.png", "display.png", "--fail-flip", "0.02").expect(1)
 
 
+@case("lights.shadows_and_floors_are_the_same_on_a_device", tier="nightly")
+def on_device(bench):
+    words = ("builtin:teapot", "--env", "builtin:sky", "--size", "48x36", "--msaa", "1", "--technique", "bent_normal", "--shadows", "on", "--floor", "mirror")
+    done = bench.run("render", *words, "--backend", "vulkan", "--device", "lavapipe", "--stats", "-", timeout=300.0)
+    if done.code == 77:
+        raise Skipped(done.err.strip())
+    check(json.loads(done.expect(0).out)["pixel_hash"] == bench.figures(*words)["pixel_hash"], "the device draws another picture")
+
+
 @case("lights.floor_lies_below_scenes_that_ask_for_it")
 def floors(bench):
     teapot = ("builtin:teapot", "--env", "builtin:studio", "--size", "64x48", "--msaa", "1", "--technique", "bent_normal")
@@ -282,6 +297,12 @@ def floors(bench):
     ball = ("ball.gltf", "--size", "64x48", "--msaa", "1")
     bare, off, shadow = (bench.figures(*ball, *more)["pixel_hash"] for more in ((), ("--floor", "off"), ("--floor", "shadow")))
     check(bare == off and bare != shadow, "a file has a floor that nobody asked for")
+    for words, named in ((("--floor", "mirror", "--backend", "reference"), "--reference-mode"),
+                         (("--floor", "mirror", "--backend", "vulkan", "--pipeline", "forward"), "--pipeline")):
+        done = bench.run("render", *teapot, *words, "-o", "a.png")
+        if done.code != 77:  # no Embree or no device
+            done.expect(2).expect_one_line("--floor", named)
+    bench.run("chart", "builtin:plate", "--sweep", "floor=off,stage", "-o", "page").expect(2).expect_one_line("floor")
     bench.run("render", *teapot, "--floor", "grass", "-o", "a.png").expect(2).expect_one_line("--floor", "stage")
 
 

@@ -92,7 +92,7 @@ def no_dates(bench):
 
 def run_page(bench, page):
     """Returns the faults of a page's commands, which run in sequence in a new folder."""
-    folder = bench.folder / page.stem
+    folder = bench.folder / f"{page.parent.name}_{page.stem}"
     folder.mkdir()
     for name, data in pages.STAND_INS.items():
         shutil.copy(bench.data_file(data), folder / name)

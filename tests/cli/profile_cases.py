@@ -39,7 +39,7 @@ def fragments(bench):
     for options in (("--msaa", "1", *alone), ("--msaa", "8", "builtin:spheres", *alone), ("--tile-size", "32", *alone), ("--technique", "lobe_line")):
         shares = "lobe_line" in options
         options = (*SMALL, *options)
-        stats = bench.figures(*options)
+        stats = bench.figures(*options, "--floor", "off")
         for isa, lanes in (("scalar", 1), ("avx2", 8)):
             found = profile(bench, *options, "--frames", "2", "--threads", "2", "--isa", isa)
             check(found["pixel_hash"] == stats["pixel_hash"], f"{options}: the picture changes when it is profiled")
@@ -92,7 +92,7 @@ def same_picture(bench):
     for resolve in ("linear", "display"):
         words = ("builtin:spheres", "--size", "96x64", "--msaa", "4", "--exposure", "3", "--env-size", "64", "--env-samples", "32", "--resolve", resolve)
         bench.run("profile", *words, "--frames", "1", "-o", "p.png").expect(0)
-        bench.run("render", *words, "-o", f"{resolve}.png").expect(0)
+        bench.run("render", *words, "--floor", "off", "-o", f"{resolve}.png").expect(0)
         check((bench.folder / "p.png").read_bytes() == (bench.folder / f"{resolve}.png").read_bytes(), f"--resolve {resolve}: another picture")
     check((bench.folder / "linear.png").read_bytes() != (bench.folder / "display.png").read_bytes(), "both ways are one: nothing is tested")
     words = ("builtin:sphere", "--size", "48x32", "--env-size", "64", "--env-samples", "32", "--no-background")
@@ -105,7 +105,7 @@ def same_picture(bench):
 def usage(bench):
     bench.run("profile", *SMALL, "--backend", "reference").expect(2).expect_one_line("--backend")
     bench.run("profile", *SMALL, "--stats", "-").expect(2).expect_one_line("--stats")
-    for words in (("--aov", "depth", "-o", "a.exr"), ("--risks", "-"), ("--animate", "roughness=0:1"), ("--turntable", "4"), ("--shadows", "ratio")):
+    for words in (("--aov", "depth", "-o", "a.exr"), ("--risks", "-"), ("--animate", "roughness=0:1"), ("--turntable", "4"), ("--shadows", "ratio"), ("--floor", "stage")):
         bench.run("profile", *SMALL, *words).expect(2).expect_one_line(words[0], "belongs to burnish render")
     bench.run("profile", *SMALL, "--json", "a", "--svg", "a").expect(2).expect_one_line("twice")
     bench.run("profile", *SMALL, "--json", "").expect(2).expect_one_line("--json")

@@ -14,7 +14,7 @@ FREE = ("absolute|canonical|weakly_canonical|relative|proximate|copy|copy_file|c
         "rename|resize_file|space|status|symlink_status|temp_directory_path")
 CALL = re.compile(rf"\b(?:fs|filesystem)::(?P<name>{FREE})(?P<open>\()")
 ITERATOR = re.compile(r"\b(?:fs|filesystem)::(?P<name>(?:recursive_)?directory_iterator)(?: (?P<variable>\w+))?(?P<open>\()")
-ENTRY = re.compile(r"(?:\.|->)(?:is_directory|is_regular_file|is_symlink|is_other|file_size|last_write_time|symlink_status|hard_link_count)\(\)")
+ENTRY = re.compile(r"(?:\.|->)(?:is_directory|is_regular_file|is_symlink|is_other|file_size|last_write_time|symlink_status|hard_link_count|exists|refresh)\(\)")
 CODE = re.compile(r"\bstd::error_code\s*&?\s*(\w+(?:\s*,\s*\w+)*)")
 STATUS = re.compile(r"\b(?:fs|filesystem)::file_status (\w+)")
 OF_STATUS = re.compile(r"exists|is_\w+")

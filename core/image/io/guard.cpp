@@ -164,8 +164,9 @@ Status check_pnm_scale(const ImageBytes& file, std::size_t at)
             ++at;
         const char *first = reinterpret_cast<const char*>(file.data) + begin, *last = first + (at - begin);
         float scale = 0.0f;
-        const std::from_chars_result read = std::from_chars(first + (first != last && *first == '+'), last, scale);
-        if (read.ec != std::errc() || read.ptr != last || !std::isfinite(scale) || scale == 0.0f)
+        const bool plus = first != last && *first == '+', two_signs = plus && first + 1 != last && first[1] == '-';
+        const std::from_chars_result read = std::from_chars(first + plus, last, scale);
+        if (two_signs || read.ec != std::errc() || read.ptr != last || !std::isfinite(scale) || scale == 0.0f)
             return file.error(fmt::format("byte {}", begin), "a scale that is a number and not 0 should stand here");
         return {};
     }

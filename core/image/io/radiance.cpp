@@ -26,6 +26,8 @@ template <std::size_t count> std::optional<std::array<double, count>> numbers_of
     std::array<double, count> out{};
     for (double& value : out) {
         text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+        if (text.starts_with("+-"))
+            return std::nullopt;
         if (text.starts_with('+'))
             text.remove_prefix(1);
         const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/scene/builtin/builtin.h"
+#include "core/scene/origin.h"
 #include "raster/session/floor.h"
 #include "tests/unit/reference/scenes.h"
 
@@ -45,6 +46,7 @@ struct Floored {
 Floored floored(Scene scene, FloorKind kind, int threads = 2)
 {
     update_world(scene);
+    settle_origin(scene);
     Floored f{std::move(scene), {}, {}};
     FloorSettings settings;
     settings.kind = kind, settings.threads = threads;
@@ -110,6 +112,31 @@ TEST(floor, is_framed_by_no_view_and_lies_below_the_scene)
             if (draw.stage) {
                 EXPECT_LT(draw.bounds_min.y, bare.bounds_min.y);
             }
+    }
+}
+
+TEST(floor, lies_below_scenes_far_away)
+{
+    const auto floor_of = [](const glm::vec3& away) {
+        Scene scene = ball_scene(lambert(0.5f), false);
+        for (Node& node : scene.nodes)
+            node.local[3] += glm::vec4(away, 0.0f);
+        const Floored f = floored(std::move(scene), FloorKind::stage);
+        glm::vec3 low(0.0f), high(0.0f);
+        for (const Draw& draw : f.tables.draws)
+            if (draw.stage)
+                low = glm::min(low, draw.bounds_min - f.tables.bounds_min), high = glm::max(high, draw.bounds_max - f.tables.bounds_min);
+        return std::pair(low, high);
+    };
+    const auto [low, high] = floor_of(glm::vec3(0.0f));
+    EXPECT_LT(low.x, -5.0f);
+    EXPECT_GT(high.x, 5.0f);
+    for (const glm::vec3& away : {glm::vec3(0.0f, 0.0f, 40.0f), {4.6e6f, -128.0f, 1.2e6f}}) {
+        const auto [far_low, far_high] = floor_of(away);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(far_low[axis], low[axis], 1e-4f) << away.z;
+            EXPECT_NEAR(far_high[axis], high[axis], 1e-4f) << away.z;
+        }
     }
 }
 

@@ -63,12 +63,12 @@ double form_factor(const AreaLight& light)
 }
 
 // Returns the light of a Lambertian plate at the origin, from a side where no light is between plate and camera.
-Estimate seen(const std::vector<AreaLight>& lights, float sky, ReferenceMode mode, bool only_lights = false)
+Estimate seen(const std::vector<AreaLight>& lights, float sky, ReferenceMode mode, bool only_lights = false, bool own_rays = false)
 {
     FrameDesc d = desc_of(8, 8, view_from({-1.0f, 0.0f, 0.1f}, 1e-4f));
     d.background = false;
     ReferenceOptions o;
-    o.mode = mode, o.samples = 2048, o.bounces = 2, o.area_lights_only = only_lights;
+    o.mode = mode, o.samples = 2048, o.bounces = 2, o.area_lights_only = only_lights, o.own_rays = own_rays;
     return estimate(render_reference(Stage(lit_by(plane_scene(lambert(static_cast<float>(kAlbedo))), lights, true), sky, 2), d, o));
 }
 
@@ -81,8 +81,9 @@ struct Arrangement {
 
 void expect_light(const Arrangement& a)
 {
-    for (const ReferenceMode mode : {ReferenceMode::shadowed, ReferenceMode::path}) {
-        const Estimate e = seen(a.lights, a.sky, mode);
+    for (const auto& [mode, own_rays] :
+         {std::pair(ReferenceMode::shadowed, false), {ReferenceMode::path, false}, {ReferenceMode::path, true}}) {
+        const Estimate e = seen(a.lights, a.sky, mode, false, own_rays);
         const double expected = kAlbedo * a.expected;
         std::printf("%-40s mode %d: %.6f, expected %.6f (%+.3f %%), deviation %.1g\n", a.name, static_cast<int>(mode), e.mean, expected,
                     expected > 0.0 ? 100.0 * (e.mean / expected - 1.0) : 0.0, e.deviation);
