@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/jobs/jobs.h"
@@ -26,6 +27,7 @@ constexpr double kFloorRadius = 3.0;
 constexpr double kWallRadius = 6.0, kCoveRadius = 2.5, kWallHeight = 6.0, kTop = 9.0;
 constexpr int kFloorRays = 256, kVertexRays = 64; // of a vertex
 constexpr std::size_t kMostDarkened = 1u << 20;   // vertices of a scene that is darkened
+constexpr double kSpread = 0.015;                 // around a vertex, about the distance to the next
 constexpr double kLift = 1e-4;                    // of a ray's origin above the scene's lowest place
 constexpr double kBelow = 2e-3;                   // of the floor below that place, so that a ground of the scene's own hides the floor
 
@@ -99,25 +101,40 @@ struct Seer { // a place that looks at the sky
     glm::dvec3 place, normal;
 };
 
-// Returns the share of the sky that each place sees.
-std::vector<float> visibility_of(const std::vector<Seer>& seers, int ray_count, const RayScene& rays, const Jobs& jobs)
+// Returns points of the unit disc, one for each ray of a place (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+std::vector<glm::dvec2> disc_points(int count)
+{
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i < count; ++i) {
+        const double a = 0.7548776662466927 * i, b = 0.5698402909980532 * i, angle = 2.0 * kPi * (b - std::floor(b));
+        points.push_back(glm::dvec2(det_cos(angle), det_sin(angle)) * std::sqrt(a - std::floor(a)));
+    }
+    return points;
+}
+
+// Returns the share of the sky that each place sees. spread: the radius around a place where its rays begin, metres. With it a thin wall
+// that stands on the place hides what it hides beside the place.
+std::vector<float> visibility_of(const std::vector<Seer>& seers, int ray_count, double spread, const RayScene& rays, const Jobs& jobs)
 {
     const std::vector<glm::dvec3> sky = sky_directions(ray_count);
+    const std::vector<glm::dvec2> begins = disc_points(ray_count);
     std::vector<float> seen(seers.size());
     jobs.parallel_for((seers.size() + kRays - 1) / kRays, [&](std::size_t packet, int) {
         RayPacket k = {};
-        glm::dvec3 across[kRays], along[kRays], normal[kRays];
+        glm::dvec3 place[kRays], across[kRays], along[kRays], normal[kRays];
         int free[kRays] = {};
         for (std::size_t i = 0; i < kRays; ++i) {
             const Seer& seer = seers[std::min(packet * kRays + i, seers.size() - 1)];
-            k.org_x[i] = static_cast<float>(seer.place.x), k.org_y[i] = static_cast<float>(seer.place.y);
-            k.org_z[i] = static_cast<float>(seer.place.z);
-            normal[i] = seer.normal;
+            place[i] = seer.place, normal[i] = seer.normal;
             across[i] = glm::dvec3(any_tangent(glm::vec3(seer.normal)));
             along[i] = glm::cross(normal[i], across[i]);
         }
-        for (const glm::dvec3& d : sky) {
+        for (std::size_t ray = 0; ray < sky.size(); ++ray) {
+            const glm::dvec3 d = sky[ray];
+            const glm::dvec2 begin = begins[ray] * spread;
             for (std::size_t i = 0; i < kRays; ++i) {
+                const glm::dvec3 from = place[i] + across[i] * begin.x + along[i] * begin.y;
+                k.org_x[i] = static_cast<float>(from.x), k.org_y[i] = static_cast<float>(from.y), k.org_z[i] = static_cast<float>(from.z);
                 const glm::dvec3 to = across[i] * d.x + along[i] * d.y + normal[i] * d.z;
                 k.dir_x[i] = static_cast<float>(to.x), k.dir_y[i] = static_cast<float>(to.y), k.dir_z[i] = static_cast<float>(to.z);
                 k.tnear[i] = 0.0f, k.tfar[i] = std::numeric_limits<float>::infinity(), k.valid[i] = -1;
@@ -173,12 +190,27 @@ Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, dou
     Column<float> all;
     if (vertices.empty())
         return all;
-    const std::vector<float> seen = visibility_of(seers, kVertexRays, rays, jobs);
+    const std::vector<float> seen = visibility_of(seers, kVertexRays, 0.0, rays, jobs);
     all.resize(tables.px.size());
     std::fill(all.data(), all.data() + all.size(), 1.0f);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         all[vertices[i]] = seen[i];
     return all;
+}
+
+// Returns the bounds of all that is no light; of the lights where there is nothing else.
+std::pair<glm::dvec3, glm::dvec3> bounds_of_things(const Scene& scene, const DrawTables& tables)
+{
+    glm::dvec3 low(tables.bounds_min), high(tables.bounds_max);
+    bool any = false;
+    for (const Draw& draw : tables.draws) {
+        if (scene.materials[static_cast<std::size_t>(draw.material)].emitter != kNoEmitter)
+            continue;
+        low = any ? glm::min(low, glm::dvec3(draw.bounds_min)) : glm::dvec3(draw.bounds_min);
+        high = any ? glm::max(high, glm::dvec3(draw.bounds_max)) : glm::dvec3(draw.bounds_max);
+        any = true;
+    }
+    return {low, high};
 }
 
 struct Ground { // where the floor lies
@@ -246,7 +278,7 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
     if (tables.draws.empty())
         return of_vertices;
     // Find the ground under the scene
-    const glm::dvec3 low(tables.bounds_min), high(tables.bounds_max);
+    const auto [low, high] = bounds_of_things(scene, tables);
     const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
     const Ground ground{{0.5 * (low.x + high.x), low.y - kBelow * radius, 0.5 * (low.z + high.z)}, radius};
     FloorBuilder builder(scene, ground);
@@ -262,7 +294,7 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
             for (int sector = 0; sector < kSectors; ++sector)
                 seers[static_cast<std::size_t>(ring) * kRow + static_cast<std::size_t>(sector)] = {
                     builder.position(ring == 0 ? 0 : sector, {floor_radius(ring), kBelow + kLift}), {0.0, 1.0, 0.0}};
-        seen = visibility_of(seers, kFloorRays, *rays, jobs);
+        seen = visibility_of(seers, kFloorRays, kSpread * radius, *rays, jobs);
         if (darkens_vertices(tables))
             of_vertices = visibility_of_vertices(scene, tables, kLift * radius, *rays, jobs);
     }
