@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/jobs/cores.h"
+#include "core/jobs/threads.h"
 
 namespace burnish {
 namespace {
@@ -54,6 +56,18 @@ class EmbreeScene final : public RayScene {
 };
 
 constexpr unsigned kSurfaces = 0, kOpenLights = 1; // Embree's geometry ids of the parts
+
+// Keeps oneTBB, which Embree uses to build trees, from starting threads while `meanwhile` lives. A thread that the system refuses ends the
+// process, also when the limit goes; so it stays for the whole process where the system refuses threads.
+void keep_tbb_idle(std::optional<tbb::global_control>& meanwhile)
+{
+    static const bool refused = given_threads(usable_cores()).count < usable_cores();
+    meanwhile.emplace(tbb::global_control::max_allowed_parallelism, 1);
+    if (refused) {
+        static const tbb::global_control* const for_ever = new tbb::global_control(tbb::global_control::max_allowed_parallelism, 1);
+        static_cast<void>(for_ever);
+    }
+}
 
 // Converts Embree's error. what: as in "Embree cannot ...".
 Error error_of(RTCError code, const std::string& what)
@@ -101,10 +115,9 @@ Status EmbreeScene::add_part(const DrawTables& tables, unsigned part)
 Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const DrawTables& tables, const Jobs& jobs)
 {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
-    // Embree builds trees with oneTBB, which ends the process if the system refuses a thread. Keep it from starting threads meanwhile
     std::optional<tbb::global_control> only_callers;
     if (!jobs.by_onetbb())
-        only_callers.emplace(tbb::global_control::max_allowed_parallelism, 1);
+        keep_tbb_idle(only_callers);
     self->device_ = rtcNewDevice(nullptr);
     if (!self->device_)
         return error_of(rtcGetDeviceError(nullptr), "be started");
