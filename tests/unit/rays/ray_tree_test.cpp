@@ -136,7 +136,9 @@ TEST(ray_tree, leaks_nowhere)
     const DrawTables ball = make_draw_tables(*scene);
     const Scene box = scene_of(tessellated_box(1.0f, 9), true);
     const DrawTables walls = make_draw_tables(box);
-    for (const auto& [shown, tables] : {std::pair<const Scene*, const DrawTables*>(&*scene, &ball), {&box, &walls}}) {
+    for (const bool of_box : {false, true}) {
+        const Scene* const shown = of_box ? &box : &*scene;
+        const DrawTables* const tables = of_box ? &walls : &ball;
         const std::unique_ptr<RayScene> rays = make_tree_scene(*shown, *tables, jobs, best_isa());
         const glm::vec3 middle = 0.5f * (tables->bounds_min + tables->bounds_max);
         const glm::vec3 half = 0.5f * (tables->bounds_max - tables->bounds_min);
