@@ -29,27 +29,13 @@ BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t,
     sum.weights = sum.weights + w;
 }
 
-// Returns the share of a round dielectric lobe's light that Fresnel's rise towards grazing angles does not add. That rise favours light
-// near the mirror direction of a grazing eye, and the line is fitted to lobes without it. The share goes to 1 for metals, and for long
-// lobes, whose line lies mostly along their grain.
-BN_FN real share_without_rise(BN_IN(shaded_point) x)
-{
-    real f0 = max(x.s.f0.x, max(x.s.f0.y, x.s.f0.z));
-    real even = f0 * (x.energy.dfg.scale + x.energy.dfg.bias);
-    real rise = max(x.s.f90.y - f0, lit(0.0)) * x.energy.dfg.bias;
-    real metal = k_saturate(f0 * lit(4.0) - lit(1.0)); // from .25 to .5
-    real added = rise / max(even + rise, lit(1e-6));
-    real round = min(x.lobe.sigma_v / max(x.lobe.sigma_u, lit(1e-6)), lit(1.0));
-    return lit(1.0) - added * (lit(1.0) - metal) * (round * round);
-}
-
-// Returns the line of a point's lobe, shortened where the lobe blends to a round one, and by Fresnel's rise.
+// Returns the line of a point's lobe, shortened where the lobe blends to a round one.
 BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
 {
     real part = lit(1.0);
     if (the_frame(f).blends_to_isotropic != 0)
         part = x.anisotropy_blend;
-    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part * share_without_rise(x));
+    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
 }
 
 // Returns the mean radiance over the lobe; multiply by its albedo. offset: place of samples in their cells, (0,1). alike:
