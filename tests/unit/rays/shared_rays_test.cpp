@@ -59,7 +59,7 @@ Floored floored(Scene scene, FloorKind kind, int threads = 2)
     return f;
 }
 
-// A ball of radius r whose centre is h above a place, d away, hides h r^2 / d^3 of the sky's cosine while all of it is above the horizon.
+// A ball's centre is h above a place and d away. If all of the ball is above the horizon, it hides h r^2 / d^3 of the sky's cosine.
 TEST(contact_shadows, below_a_ball_are_the_closed_form)
 {
     const Floored f = floored(ball_scene(lambert(0.5f), false), FloorKind::shadow);
