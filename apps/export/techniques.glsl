@@ -16,13 +16,11 @@
 #define lobe_used(at) true
 
 // Settings of a technique, common to all shading points. specular, box, whole: size (texels along a face's side) and level count of the
-// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. blends_to_isotropic: 1 to blend anisotropic
-// lobes into split_isotropic as they become round. lobe: the model; lobe_traits: 1 for GGX, the default. The others are options of
+// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. lobe: the model; lobe_traits: 1 for GGX, the default. The others are options of
 // `burnish render`.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
-    int blends_to_isotropic;
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_RECORD_##kind(id)
 #include "shading/models.def"
     int lobe, lobe_traits;
@@ -37,7 +35,6 @@ settings usual_settings(int specular_size, int specular_levels, int sample_count
     f.box = f.specular;
     f.grid_count = kGridCount;
     f.samples = sample_count;
-    f.blends_to_isotropic = 0;
 #define BN_DEFAULT_number(id, fallback) f.id = fallback;
 #define BN_DEFAULT_whole(id, fallback) f.id = fallback;
 #define BN_DEFAULT_flag(id, fallback) f.id = fallback;
@@ -186,7 +183,6 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.energy.albedo = f0 * dfg.x + f90 * dfg.y;
     x.energy.phong_albedo = lit(-1.0);
     x.energy.phong_set = -1;
-    x.anisotropy_blend = anisotropy_blend_of(x.lobe.sigma_u, x.lobe.sigma_v);
     x.energy.gain = vec3(1.0);
     x.energy.compensation = vec3(1.0);
     x.pixel_id = pixel;

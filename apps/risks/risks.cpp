@@ -63,7 +63,6 @@ struct Active { // a rule that this picture may break
     std::size_t rule;
     float least; // limit of the rule's measure
     std::string beyond;
-    std::array<bool, 2> told; // applies to round lobes, to anisotropic lobes
 };
 
 bool names(const char* beginnings, const std::string& technique)
@@ -91,9 +90,7 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
     SettingReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
         const Rule& rule = kRules[r];
-        const std::array<bool, 2> told = {names(rule.readers, technique_of(desc, false).name),
-                                          names(rule.readers, technique_of(desc, true).name)};
-        if (!told[0] && !told[1])
+        if (!names(rule.readers, technique_of(desc).name))
             continue;
         const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets
         if (!row)
@@ -101,7 +98,7 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
         BN_TRY(setting);
         const RiskInputs at = inputs_of_setting(setting->options);
-        out.push_back({r, kEarly * rule.measure(at), onset_words(*setting, at), told});
+        out.push_back({r, kEarly * rule.measure(at), onset_words(*setting, at)});
     }
     return out;
 }
@@ -277,7 +274,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     std::uint32_t asked = 0;
     for (std::size_t a = 0; a < active.size(); ++a) {
         const Rule& rule = kRules[active[a].rule];
-        beyond[a] = active[a].told[at.anisotropy[0] > 0.0f] ? rule.measure(i) / active[a].least : 0.0f;
+        beyond[a] = rule.measure(i) / active[a].least;
         asked |= beyond[a] > 1.0f ? 1u << static_cast<unsigned>(rule.change) : 0u;
     }
     if (asked == 0)
@@ -389,7 +386,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
     for (std::size_t a = 0; a < active->size(); ++a) {
         const Active& rule = (*active)[a];
         if (all.of[a])
-            map.findings.push_back({technique_of(desc, rule.told[1]).name, kRules[rule.rule].entry, kRules[rule.rule].says, rule.beyond,
+            map.findings.push_back({technique_of(desc).name, kRules[rule.rule].entry, kRules[rule.rule].says, rule.beyond,
                                     static_cast<double>(all.of[a]) / shaded});
     }
     std::stable_sort(map.findings.begin(), map.findings.end(),

@@ -259,17 +259,22 @@ const TechniqueInfo& technique_with(int trait) // first technique with this trai
 
 const TechniqueInfo& automatic_technique()
 {
-    static const TechniqueInfo &round = technique_with(kAutoRound), &grain = technique_with(kAutoGrain);
-    static const std::string summary = std::string(round.name) + " for isotropic materials, " + grain.name + " for anisotropic ones";
-    static const TechniqueInfo info = {"auto", summary.c_str(), grain.sampling, grain.default_samples, grain.most_samples, 0};
+    static const TechniqueInfo& chosen = technique_with(kAutomatic);
+    static const std::string summary = std::string("the best known: ") + chosen.name;
+    static const TechniqueInfo info = {"auto", summary.c_str(), chosen.sampling, chosen.default_samples, chosen.most_samples, 0};
     return info;
 }
 
-const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic)
+const TechniqueInfo& technique_of(const FrameDesc& desc)
 {
     if (desc.technique == automatic_technique().name)
-        return technique_with(anisotropic ? kAutoGrain : kAutoRound);
+        return technique_with(kAutomatic);
     return *find_technique(desc.technique);
+}
+
+int traits_for(const TechniqueInfo& technique, bool anisotropic)
+{
+    return (technique.traits & kRoundAlone) && !anisotropic ? technique.traits - kSharesSamples : technique.traits;
 }
 
 const TechniqueInfo* find_technique(const std::string& name)

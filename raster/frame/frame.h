@@ -173,11 +173,12 @@ struct TechniqueInfo {
     int default_samples, most_samples;
     int traits; // sum of traits in shading/lang/records.h
 };
-const std::vector<TechniqueInfo>& techniques();                             // from shading/models.def
-const TechniqueInfo* find_technique(const std::string& name);               // accepts automatic_technique() too; null if unknown
-const TechniqueInfo& automatic_technique();                                 // "auto": picks one of techniques() per material
-const TechniqueInfo& technique_of(const FrameDesc& desc, bool anisotropic); // resolves "auto" for a material
-int effective_samples(const TechniqueInfo& technique, int samples);         // of the requested `samples`
+const std::vector<TechniqueInfo>& techniques();                     // from shading/models.def
+const TechniqueInfo* find_technique(const std::string& name);       // accepts automatic_technique() too; null if unknown
+const TechniqueInfo& automatic_technique();                         // "auto": stands for one of techniques()
+const TechniqueInfo& technique_of(const FrameDesc& desc);           // resolves "auto"
+int traits_for(const TechniqueInfo& technique, bool anisotropic);   // traits on a material with or without anisotropy
+int effective_samples(const TechniqueInfo& technique, int samples); // of the requested `samples`
 
 struct ParameterInfo {            // a parameter of techniques
     const char* name;             // the field of FrameDesc; angles lack the suffix _rad

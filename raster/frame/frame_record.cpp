@@ -99,7 +99,6 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.positions = f.light_count > 0 || f.area_light_count > 0 || d.layers;
     f.background = d.background;
     f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
-    f.blends_to_isotropic = &technique_of(d, true) != &technique_of(d, false);
     put_parameters(d, tilts(input.scene, d), f);
     if (!has_mapped_normals(input.scene, d)) // then nothing reads the horizon
         f.horizon = 0;
@@ -139,30 +138,14 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
 {
     const int lobe = lobe_of(desc, tilts(input_.scene, desc));
     for (MaterialRecord& m : materials_) {
-        const TechniqueInfo& t = technique_of(desc, m.anisotropic != 0);
+        const TechniqueInfo& t = technique_of(desc);
         m.technique = static_cast<int>(&t - techniques().data());
-        m.technique_traits = m.unlit ? 0 : t.traits;
+        m.technique_traits = m.unlit ? 0 : traits_for(t, m.anisotropic != 0);
         m.refracts = refracts(m, lobe);
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
         m.lights_lobe = round && lobe == lobe_with(kDefaultLobe) ? lobe_with(kRoundLobe) : lobe;
     }
 }
-
-namespace {
-
-// Returns anisotropy_blend_of() for the material's factors. A roughness texture makes some places smoother, and so more brushed; a textured
-// material counts as smooth. With or without a texture, brushing fades in continuously as its strength grows from 0.
-float anisotropy_blend_by_factors(const ShadingFrame& f, const MaterialRecord& material)
-{
-    constexpr float kSmooth = 0.3f;
-    MaterialRecord m = material;
-    if (texture_used(m, kMetalRoughTex) && m.roughness_fixed == 0)
-        m.roughness = std::min(m.roughness, kSmooth);
-    const lobe_shape shape = only_lobe_shape(f, m);
-    return anisotropy_blend_of(shape.sigma_u, shape.sigma_v);
-}
-
-} // namespace
 
 // Returns the first pair of a lobe's albedo table. Bakes the table on the first request.
 int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
@@ -221,9 +204,7 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     const bool compensated = compensates_phong(desc, input_.scene);
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = m.phong_slice = m.phong_set = -1, m.anisotropy_blend = 1.0f;
-        if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
-            m.anisotropy_blend = anisotropy_blend_by_factors(f, m);
+        m.albedo_slice = m.phong_slice = m.phong_set = -1;
         if (!one_lobe_shape(m) || desc.specular_aa)
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);
@@ -249,7 +230,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
     ShadingFrame f = {};
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     for (const MaterialRecord& m : in_frame(overrides(input_.scene, input_.mips, desc) ? scene_.overridden : scene_.materials, desc)) {
-        const bool sampled = (technique_of(desc, m.anisotropic != 0).traits & kPhongGrid) && desc.as_tables == 0;
+        const bool sampled = (technique_of(desc).traits & kPhongGrid) && desc.as_tables == 0;
         if ((!sampled && !compensated) || m.unlit || !one_lobe_shape(m) || desc.specular_aa)
             continue;
         const double root2 = 1.4142135623730951;

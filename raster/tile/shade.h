@@ -36,7 +36,8 @@ BN_INLINE shared_sample_record shade_fragments(frame_ref f, material_ref m, cons
                                                const visible_point& p, integer x, integer y)
 {
     using Tag = technique_tag<kTechnique>;
-    return light_of_fragment(f, m, Tag{}, at, shape, p, x, y, (Tag::kTraits & kSharesSamples) != 0);
+    const bool alone = (Tag::kTraits & kRoundAlone) != 0 && m.anisotropic == 0;
+    return light_of_fragment(f, m, Tag{}, at, shape, p, x, y, (Tag::kTraits & kSharesSamples) != 0 && !alone);
 }
 
 template <Technique kTechnique>

@@ -61,7 +61,7 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
         setup_of = b.common;
         const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false);
         const shared_sample_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
-        if constexpr ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0)
+        if ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0 && (m.technique_traits & kSharesSamples) != 0)
             store_shared_samples(t, b, light);
         else
             store_batch(t, b, light.rest);
@@ -79,7 +79,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     }
     // Use plain code if frame and material need nothing more
     constexpr int kTraits = kTechniqueTraits[static_cast<int>(kTechnique)];
-    constexpr bool kAlsoRound = (kTraits & kAutoRound) != 0;
+    constexpr bool kAlsoRound = (kTraits & kAutomatic) != 0;
     using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;
     constexpr std::uint32_t kWorthACopy = 8 * kLanes; // below this, copies and hoisted values do not pay
     if (plan.uniform && end - begin >= kWorthACopy && PlainFrame::fits(t.f) && Material::fits(m)) {

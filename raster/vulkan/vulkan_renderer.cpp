@@ -124,7 +124,7 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     const bool anisotropic = desc.override_anisotropy ? desc.anisotropy != 0.0f
                                                       : std::any_of(materials.begin(), materials.end(),
                                                                     [](const MaterialRecord& m) { return m.anisotropic != 0; });
-    const bool shares = (technique_of(desc, anisotropic).traits & kSharesSamples) != 0;
+    const bool shares = (traits_for(technique_of(desc), anisotropic) & kSharesSamples) != 0;
     const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =
         std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuSharedSampleWords : 1),

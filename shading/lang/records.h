@@ -36,8 +36,8 @@ const int kTakesRoundLobes = 4; // treats every lobe as round with the same roug
 const int kReadsBox = 8;        // reads the environment's box-filtered mip chain
 const int kGgxGrid = 16;        // its grid holds GGX slopes; otherwise Beckmann slopes
 const int kSharesSamples = 32;  // shares samples with the pixels around, see shared_samples.k.h
-const int kAutoRound = 64;      // `auto` takes this technique for materials without a grain
-const int kAutoGrain = 128;     // `auto` takes this technique for materials with a grain
+const int kAutomatic = 64;      // `auto` takes this technique
+const int kRoundAlone = 128;    // shares no samples on materials without anisotropy
 
 const int kFetchesTransmitted = 8192; // of a call, not of a technique: the material transmits light that one fetch stands for
 const int kSamplesInterface = 256;    // samples both sides of transmissive surfaces; others fetch transmitted light once
@@ -139,8 +139,6 @@ struct FrameRecord {
     int positions;    // something reads the positions of visible points
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
     int background, samples, texture_taps;
-    int blends_to_isotropic; // round and anisotropic lobes have different techniques: the anisotropic one blends to the round one as lobes
-                             // become round
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
 #define BN_RECORD_flag(id) int id;
@@ -203,9 +201,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int refracts;                    // transmits light
     int coatings;                    // bit i: has coating i of shading/coatings.def in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
-    float anisotropy_blend; // anisotropy_blend_of() of its factors where the technique shares samples; 1 elsewhere and where slopes widen
-                            // lobes
-    int albedo_slice;       // first pair of the albedo slice for a lobe with constant widths; else -1
+    int albedo_slice;                // first pair of the albedo slice for a lobe with constant widths; else -1
     int phong_slice; // the same for the Ashikhmin-Shirley lobe, where the technique samples this lobe or the frame compensates it; else -1
     int frame_map;   // the frame's; kFrameQuaternion where textures hold a mip filter's lobes, which are made for it
     int phong_set;   // first sample of this lobe's half vectors in the grid; -1: each fragment computes its own

@@ -13,6 +13,7 @@
 #include "shading/surface/facets.t.h"
 #include "shading/surface/make_shaded_point.t.h"
 #include "shading/surface/shaded_point.t.h"
+#include "shading/techniques/lobe_line.t.h"
 #include "shading/techniques/mc.t.h"
 #include "shading/techniques/shared_samples.k.h"
 #include "shading/techniques/split_isotropic.t.h"
@@ -43,7 +44,7 @@ struct coating_light {
 };
 
 // Shades a coating. lobe: its lobe, index in shading/models.def. traits: the technique's. A technique that samples lobes samples
-// the coating's too; the others take its environment light from one prefiltered fetch.
+// the coating's too; one that shares samples takes its environment light from a line of samples, others from one prefiltered fetch.
 BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe, BN_IN(material_inputs) at, BN_IN(surface_frame) axes,
                                      BN_IN(visible_point) p, integer pixel_id, int traits)
 {
@@ -55,6 +56,8 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe
     if ((traits & kSamplesLobe) != 0)
         light = environment_light(f, c, kSamplesLobe + kTestsHorizon,
                                   mc_of_lobe(f, c, make_bsdf_lobe(lobe, c.lobe, c.s.n, c.s.v, c.geometric_axes)));
+    else if ((traits & kSharesSamples) != 0)
+        light = environment_light(f, c, kSamplesLobe, lobe_line_specular(f, c));
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));
     // Add extracted lights, lamps and area lights

@@ -34,7 +34,6 @@ BN_FN void make_coating_point(frame_ref f, BN_IN(coating) layer, BN_IN(surface_f
     c.geometric_axes = axes;
     c.has_surface_horizon = has_surface_horizon;
     c.diffuse = false;
-    c.anisotropy_blend = lit(0.0);
     // Look up directional albedo
     if (the_frame(f).dfg_fit != 0)
         c.energy.dfg = dfg_fit(c.s.n_dot_v, layer.roughness);

@@ -87,7 +87,6 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
-    x.anisotropy_blend = splat(the_material(m).anisotropy_blend);
     // Reflect from within as a mirror does, with total reflection
     x.refracts = the_material(m).refracts != 0;
     x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;

@@ -33,7 +33,6 @@ struct shaded_point {
     surface_frame geometric_axes; // the geometry's
     bool has_surface_horizon;     // a normal map or a tilt turns s.n from geometric_axes.n; the surface's horizon cuts off light
     bool diffuse;                 // s.diffuse may be above 0
-    real anisotropy_blend;        // the material's
     real3 dielectric_f0;
     real dielectric_f90;
     integer pixel_id;           // y * width + x, for random numbers

@@ -20,12 +20,13 @@
 
 BN_KERNELS_BEGIN
 
-#define kLineSamplesAlone 2.6  // lobe_line_count() for fragments on their own
+#define kLineSamplesAlone 4.0  // lobe_line_count() for fragments that share no samples
+#define kLineSamplesUnlike 2.6 // for fragments whose neighbours are unlike them
 #define kLineSamplesShared 1.7 // where neighbours' samples lie between a fragment's own
+#define kLineWidening 0.7      // relative widening of a fragment's only sample
 
 struct lobe_line {
     real3 o;      // to the eye, unit
-    real part;    // share of the line to take
     real2 along;  // slopes at z = 1
     real width;   // sqrt(l2) / o.z, the round lobe's width at z = 0
     real level;   // alpha of the prefiltered level at z = 0, seen from above: see lobe_line_at()
@@ -33,17 +34,15 @@ struct lobe_line {
     real lift;    // rise of a sample, per width of its round lobe
     real upright; // added to the height of microfacet normals: slopes of wide lobes count less
     real3 axis;   // o minus the rise common to all samples
-    real blunt;   // 1 - part^2: levels widen along the line as the line is long
     real extent;  // sqrt(l1 / l2 - 1): length of the line in widths
     real even;    // [0,1): 0: samples take equal shares of the lobe, 1: equal distances in widths; see lobe_line_at()
     real stretch; // Smith's |(alpha_x o.x, alpha_y o.y, o.z)|
     real alpha_x, alpha_y;
 };
 
-// Makes the line. o: to the eye, ellipse frame; sigma_x >= sigma_y: slope deviations; part: share of the line to take,
-// [0,1]. At a slant, a round lobe is a line, too. A smaller part shrinks it to the lobe of split_isotropic: the mirror
-// direction at the lobe's own width.
-BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
+// Makes the line. o: to the eye, ellipse frame; sigma_x >= sigma_y: slope deviations. At a slant, a round lobe is a
+// line, too.
+BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y)
 {
     real root2 = lit(1.4142135623730951);
     // Bring the eye above the horizon
@@ -70,17 +69,15 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     real steep = d - h;
     real2 e = select(h >= lit(0.0), vec2_of(d + h, shear), vec2_of(abs(shear), select(shear < lit(0.0), -steep, steep)));
     real inv = one / max(sqrt(k_dot2(e, e)), lit(1e-20));
-    real rest = sqrt(one - ratio) * inv * part;
+    real rest = sqrt(one - ratio) * inv;
     r.along = vec2_of(r.alpha_x * e.x * rest, r.alpha_y * e.y * rest);
     // Choose the level's width
     r.width = sqrt(l1 * ratio) / r.o.z;
-    real own = lit(0.5) * (r.alpha_x + r.alpha_y) / r.o.z;
-    real taken = r.width * part;
-    real grazing = (lit(0.78) + lit(0.22) * r.o.z) * taken;
-    r.level = own * (one - part) + (lit(0.66) - lit(0.13) * ratio) * grazing;
+    real grazing = (lit(0.78) + lit(0.22) * r.o.z) * r.width;
+    r.level = (lit(0.66) - lit(0.13) * ratio) * grazing;
     r.widen = lit(1.29) * r.width * grazing;
     // Correct the mean direction of wide lobes
-    real square = r.width * taken;
+    real square = r.width * r.width;
     real narrow2 = square * r.o.z * r.o.z;
     real3 axis = r.o * (one + lit(0.64) * narrow2);
     axis.z = axis.z - lit(1.19) * square * r.o.z;
@@ -88,10 +85,8 @@ BN_FN lobe_line lobe_line_of(real3 o, real sigma_x, real sigma_y, real part)
     r.upright = lit(0.13) * narrow2;
     r.lift = lit(1.92) * square;
     // Measure the line and its samples' spacing
-    r.blunt = one - part * part;
-    r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12))) * part;
+    r.extent = sqrt((one - ratio) / max(ratio, lit(1e-12)));
     r.even = r.extent / (r.extent + lit(6.0));
-    r.part = part;
     r.stretch = sqrt(x * x + y * y + r.o.z * r.o.z);
     return r;
 }
@@ -100,6 +95,7 @@ struct lobe_line_sample {
     real3 direction; // not unit, ellipse frame
     real weight;     // at least 0: visible area and Smith's height-correlated masking
     real radius;     // alpha of the prefiltered level
+    real v_dot_h;    // cosine between the eye and the half vector, [0,1]
 };
 
 // Makes the sample at t in [-1,1]. Its z is c / sqrt(1 - c^2) with c = (1 + e) t / (1 + e t^2), e = line.even. The marginal
@@ -126,9 +122,11 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
     lobe_line_sample r;
     r.direction = w * (lit(2.0) * w_dot_o) - line.axis * w2;
     // Choose the level's width
-    real size = seen / w2 * sqrt(scale2 - line.blunt * c * c);
+    real share = seen / w2;
+    real size = share * scale;
     r.direction.z = r.direction.z + line.lift * size * seen;
     r.radius = (line.level + line.widen * size) * size;
+    r.v_dot_h = min(sqrt(share * seen), one);
     // Weight by visible area and masking
     real ix = line.alpha_x * r.direction.x;
     real iy = line.alpha_y * r.direction.y;

@@ -12,50 +12,54 @@ BN_KERNELS_BEGIN
 
 struct line_sum {
     cube_desc cube;
-    cube_sum light;
-    real weights;
+    cube_terms light;
+    real3 rise;    // of reflectance, from normal to grazing incidence
+    real3 weights; // by channel
 };
 
-// Adds the sample at t with its own level.
+// Adds the sample at t with its own level, weighted by Schlick's reflectance at its half vector.
 BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t, real weight, BN_INOUT(line_sum) sum)
 {
-    // Find the sample's direction and level
+    // Find the sample's direction, level and reflectance
     lobe_line_sample at = lobe_line_at(line, t);
     real w = at.weight * weight;
     real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
-    cube_sum_levels levels = cube_sum_levels_at(sum.light, lod, w);
+    real away = lit(1.0) - at.v_dot_h;
+    real away2 = away * away;
+    real3 reflectance = x.s.f0 + sum.rise * (away2 * away2 * away);
     // Add the weighted fetch
-    cube_sum_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), levels);
-    sum.weights = sum.weights + w;
+    cube_terms_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), lod, reflectance, w);
+    sum.weights = sum.weights + reflectance * w;
 }
 
-// Returns the line of a point's lobe, shortened where the lobe blends to a round one.
-BN_FN lobe_line lobe_line_for(frame_ref f, BN_IN(shaded_point) x)
+// Returns the line of a point's lobe.
+BN_FN lobe_line lobe_line_for(BN_IN(shaded_point) x)
 {
-    real part = lit(1.0);
-    if (the_frame(f).blends_to_isotropic != 0)
-        part = x.anisotropy_blend;
-    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v, part);
+    return lobe_line_of(to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u, x.lobe.sigma_v);
 }
 
 // Returns the mean radiance over the lobe; multiply by its albedo. offset: place of samples in their cells, (0,1). alike:
-// similarity of the pixels around, [0,1]. A fragment whose neighbours are unlike it takes more samples, in the middle of
-// their cells.
-BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) line, real offset, real alike)
+// similarity of the pixels around, [0,1]. alone: samples for each width of the line's length where alike is 0. A fragment whose
+// neighbours are unlike it takes more samples, in the middle of their cells.
+BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_line) own, real offset, real alike, real alone)
 {
     // Find the number of samples
     real one = lit(1.0);
     int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
-    real per_width = lit(kLineSamplesAlone) + lit(kLineSamplesShared - kLineSamplesAlone) * alike;
+    real per_width = alone + (lit(kLineSamplesShared) - alone) * alike;
     real all = to_real(int_lit(limit));
-    real some = all + (lobe_line_limit(line, all) - all) * alike;
-    real count = lobe_line_count(line, per_width, max(some, min(all, lit(3.0))));
+    real some = all + (lobe_line_limit(own, all) - all) * alike;
+    real count = lobe_line_count(own, per_width, max(some, min(all, lit(3.0))));
     offset = lit(0.5) + (offset - lit(0.5)) * alike;
+    // Widen levels where few samples stand for the whole line
+    lobe_line line = own;
+    line.level = line.level * (one + lit(kLineWidening) / count * (one - alike));
     // Take the middle sample
     line_sum sum;
     sum.cube = prefiltered_env(f);
-    sum.weights = lit(0.0);
-    cube_sum_begin(sum.light, sum.cube);
+    sum.rise = x.s.f90 - x.s.f0;
+    sum.weights = vec3_all(lit(0.0));
+    cube_terms_begin(sum.light, sum.cube, true);
     real middle = (offset - lit(0.5)) * lit(2.0) / count;
     add_line_sample(x, line, middle, one, sum);
     // Take pairs of samples outwards
@@ -67,7 +71,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
         add_line_sample(x, line, right, cell.weight, sum);
         add_line_sample(x, line, -left, cell.weight, sum);
     }
-    return cube_sum_value(sum.light) / max(sum.weights, lit(1e-20));
+    return cube_terms_value(sum.light) / max(sum.weights, vec3_all(lit(1e-20)));
 }
 
 // Returns v mirrored at n, which need not be unit.
@@ -89,20 +93,20 @@ BN_FN real similarity_beside(BN_IN(shaded_point) x, BN_IN(shared_sample_record) 
 // Returns the shared record except `factor`.
 BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, real offset)
 {
-    lobe_line line = lobe_line_for(f, x);
+    lobe_line line = lobe_line_for(x);
     shared_sample_record r = unshared_record(vec3_all(lit(0.0)));
-    r.width = line.width * line.part; // round lobes share nothing
+    r.width = line.width;
     r.mirror = mirrored_at(x.s.n, x.s.v);
     r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
     real alike = (similarity_beside(x, r, x.normal_dx) + similarity_beside(x, r, x.normal_dy)) * lit(0.5);
-    r.light = lobe_line_radiance(f, x, line, offset, alike);
+    r.light = lobe_line_radiance(f, x, line, offset, alike, lit(kLineSamplesUnlike));
     return r;
 }
 
 // Samples alone, for fragments that cannot read their neighbours.
 BN_FN real3 lobe_line_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    return lobe_line_radiance(f, x, lobe_line_for(f, x), lit(0.5), lit(0.0)) * x.energy.albedo;
+    return lobe_line_radiance(f, x, lobe_line_for(x), lit(0.5), lit(0.0), lit(kLineSamplesAlone)) * x.energy.albedo;
 }
 
 BN_KERNELS_END

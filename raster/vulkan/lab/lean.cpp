@@ -26,9 +26,8 @@ constexpr const char* kLeanTechniques[] = {
     "filtered_is_ggx", "mc",          "as_mc"};
 
 // Traits of a material, as in surface.glsl.
-constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAnisotropyBlended = 32,
-                       kAlphaTest = 64, kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048,
-                       kPhongTable = 4096;
+constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32, kUnlit = 64,
+                       kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048;
 
 struct LeanFrame { // std140: frame.glsl
     glm::mat4 clip_from_world;
@@ -290,7 +289,7 @@ LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const
     r.f0 = glm::mix(r.dielectric, glm::vec4(vec3(m.base_color), 1.0f), m.metallic);
     r.diffuse = glm::vec4(vec3(m.base_color) * (1.0f - m.metallic), m.alpha_cutoff);
     r.factors = glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength);
-    r.emissive = glm::vec4(vec3(m.emissive), f.blends_to_isotropic ? m.anisotropy_blend : 1.0f);
+    r.emissive = glm::vec4(vec3(m.emissive), 0.0f);
     // Lobe: widths, roughness, grain and stretch
     ShadingFrame shapes = {};
     shapes.override_anisotropy = desc.override_anisotropy, shapes.anisotropy = desc.anisotropy;
@@ -327,7 +326,6 @@ void LeanDrawer::fill_materials(const FrameDesc& desc)
         trait(one_lobe_shape(m), kOneShape);
         trait(m.uses_color != 0, kVertexColors);
         trait(m.double_sided != 0, kTwoSided);
-        trait(m.anisotropic && m.anisotropy_blend != 1.0f, kAnisotropyBlended);
         trait(m.alpha_mode == kAlpha_mask, kAlphaTest);
         trait(m.unlit != 0, kUnlit);
         trait(one_lobe_shape(m) && folded.lobe.x + folded.lobe.y <= 1e-6f, kMirror);

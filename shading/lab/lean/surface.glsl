@@ -9,8 +9,8 @@ layout(constant_id = 1) const int kSamples = 1; // as many as the technique take
 layout(constant_id = 2) const int kTextures = 0; // a bit per used slot (core/scene/material.def)
 layout(constant_id = 3) const int kTraits = 0; // the material's traits, see below
 
-const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAnisotropyBlended = 32, kAlphaTest = 64,
-          kUnlit = 128, kMirror = 256, kEmits = 512, kOneEta = 1024, kFactorRoughness = 2048, kPhongTable = 4096;
+const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32,
+          kUnlit = 64, kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048;
 const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8;
 
 bool has(int trait) { return (kTraits & trait) != 0; }
@@ -23,7 +23,7 @@ layout(std140, set = 0, binding = 1) uniform LeanMaterial
     vec4 f0; // both parts mixed, at normal and at grazing incidence; without colour or metalness textures
     vec4 diffuse; // albedo of the diffuse part, likewise; w: alpha cutoff
     vec4 factors; // metallic, roughness, normal scale, occlusion strength
-    vec4 emissive; // w: anisotropic share in the blend to round lobes
+    vec4 emissive;
     vec4 lobe; // slope deviations along and across, roughness, eta or anisotropy strength
     vec4 grain; // the axis along tangent and bitangent, or a texture's rotation; bent normal's stretch and level
     vec4 place[30]; // by slot: linear part of the coordinate transform; shift, most taps, set
@@ -140,13 +140,12 @@ vec2 lobe_albedo(vec3 o, vec2 sigma, float roughness)
     return mix(below, above, w - slab);
 }
 
-// Returns directional albedo of the surface's lobe, with the blend to round lobes.
+// Returns directional albedo of the surface's lobe.
 vec2 directional_albedo(Surface s)
 {
-    if (has(kAnisotropic) && !has(kAnisotropyBlended))
+    if (has(kAnisotropic))
         return lobe_albedo(s.o, s.sigma, s.roughness);
-    vec2 round = textureLod(round_albedo, vec2(s.n_dot_v, s.roughness) * frame.tables.x + frame.tables.y, 0.0).xy;
-    return has(kAnisotropic) ? mix(round, lobe_albedo(s.o, s.sigma, s.roughness), material.emissive.w) : round;
+    return textureLod(round_albedo, vec2(s.n_dot_v, s.roughness) * frame.tables.x + frame.tables.y, 0.0).xy;
 }
 
 // Finds the lobe's widths and axes from the shading frame's tangent and bitangent.

@@ -168,27 +168,31 @@ vec3 major_axis_adaptive(Surface s)
 struct Line {
     vec3 o, axis;
     vec2 along, alpha;
-    float level, widen, upright, lift, blunt, even, stretch;
+    float level, widen, upright, lift, even, stretch;
 };
 
-vec4 line_sample(Surface s, Line line, float t, float weight)
+struct LineSum {
+    vec3 light, weights; // by channel
+};
+
+void line_sample(Surface s, Line line, float t, float weight, inout LineSum sum)
 {
     float t2 = t * t, bend = line.even * t2, scale = 1.0 + bend;
     float root = sqrt(max((1.0 - t2) * (1.0 - line.even * bend), 1e-3)) + line.upright, c = t + line.even * t;
     vec3 w = vec3(-line.along * c, root);
-    float w2 = dot(w, w), w_dot_o = dot(w, line.o), seen = max(w_dot_o, 0.0);
-    float size = seen / w2 * sqrt(max(scale * scale - line.blunt * c * c, 0.0));
+    float w_dot_o = dot(w, line.o), seen = max(w_dot_o, 0.0), w2 = dot(w, w), share = seen / w2, size = share * scale;
     vec3 i = w * (2.0 * w_dot_o) - line.axis * w2 + vec3(0.0, 0.0, line.lift * size * seen);
     float up = max(i.z, 0.0), smith = up * line.stretch + line.o.z * length(vec3(line.alpha * i.xy, i.z));
     float visible = weight * seen * up * (1.0 - bend) / (root * scale * scale * max(smith, 1e-20));
-    float radius = (line.level + line.widen * size) * size;
-    return vec4(specular_at(to_world(s, i), level_of(radius)), 1.0) * visible;
+    float radius = (line.level + line.widen * size) * size, away = 1.0 - min(sqrt(share * seen), 1.0), away2 = away * away;
+    vec3 reflectance = (s.f0 + (s.f90 - s.f0) * (away2 * away2 * away)) * visible;
+    sum.light += specular_at(to_world(s, i), level_of(radius)) * reflectance;
+    sum.weights += reflectance;
 }
 
 vec3 lobe_line(Surface s)
 {
     // Find the visible ellipse of the lobe, and its major axis
-    float part = material.emissive.w;
     Line line;
     line.o = s.o;
     line.alpha = s.sigma * kRoot2;
@@ -197,29 +201,28 @@ vec3 lobe_line(Surface s)
     float d = sqrt(h * h + shear * shear), l1 = max(m + d, 1e-20), least = line.alpha.x * z.y;
     float ratio = min(least * least / (l1 * l1), 1.0);
     vec2 e = h >= 0.0 ? vec2(d + h, shear) : vec2(abs(shear), shear < 0.0 ? h - d : d - h);
-    line.along = line.alpha * e * (sqrt(1.0 - ratio) * inversesqrt(max(dot(e, e), 1e-30)) * part);
-    // Set up level, width and corrections by the anisotropic part
-    float width = sqrt(l1 * ratio) / line.o.z, own = 0.5 * (line.alpha.x + line.alpha.y) / line.o.z;
-    float square = width * width * part, grazing = (0.8 + 0.2 * line.o.z) * part;
-    line.level = own * (1.0 - part) + (0.6 - 0.08 * ratio) * width * grazing;
+    line.along = line.alpha * e * (sqrt(1.0 - ratio) * inversesqrt(max(dot(e, e), 1e-30)));
+    // Set up level, width and corrections
+    float width = sqrt(l1 * ratio) / line.o.z, square = width * width, grazing = 0.8 + 0.2 * line.o.z;
+    line.level = (0.6 - 0.08 * ratio) * width * grazing;
     line.widen = 1.4 * width * width * grazing;
     line.axis = line.o * (1.0 + 0.45 * square * line.o.z * line.o.z) - vec3(0.0, 0.0, 1.55 * square * line.o.z);
     line.upright = 0.44 * square * line.o.z * line.o.z;
     line.lift = 1.3 * square;
-    line.blunt = 1.0 - part * part;
-    float extent = sqrt((1.0 - ratio) / max(ratio, 1e-12)) * part;
+    float extent = sqrt((1.0 - ratio) / max(ratio, 1e-12));
     line.even = extent / (extent + 6.0);
     line.stretch = length(vec3(p, line.o.z));
     // Take the middle sample, then pairs on both sides
     float count = min(1.0 + 1.6 * extent, float(kSamples - (kSamples % 2 == 0 ? 1 : 0)));
     float size = 2.0 / count;
-    vec4 sum = line_sample(s, line, 0.0, 1.0);
+    LineSum sum = LineSum(vec3(0.0), vec3(0.0));
+    line_sample(s, line, 0.0, 1.0, sum);
     for (int i = 1; float(2 * i - 1) < count; ++i) {
         float begin = (float(i) - 0.5) * size, left = clamp(1.0 - begin, 0.0, size), t = begin + 0.5 * left;
-        sum += line_sample(s, line, t, left / size);
-        sum += line_sample(s, line, -t, left / size);
+        line_sample(s, line, t, left / size, sum);
+        line_sample(s, line, -t, left / size, sum);
     }
-    return sum.rgb / max(sum.w, 1e-20) * s.albedo;
+    return sum.light / max(sum.weights, vec3(1e-20)) * s.albedo;
 }
 
 float beckmann_lambda_z(vec2 alpha, vec3 w) // w.z times Smith's Lambda, rational fit

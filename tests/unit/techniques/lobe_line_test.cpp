@@ -14,14 +14,14 @@ namespace {
 
 struct Line {
     double x, y, width, count, cells;
-    double direction[3], weight, radius;
+    double direction[3], weight, radius, v_dot_h;
 };
 
-Line line_of(const IsaFns& k, const double o[3], double alpha_x, double alpha_y, double limit = 15.0, double c = 0.0, double part = 1.0)
+Line line_of(const IsaFns& k, const double o[3], double alpha_x, double alpha_y, double limit = 15.0, double c = 0.0)
 {
-    const std::vector<double> in = {o[0], o[1], o[2], alpha_x * std::sqrt(0.5), alpha_y * std::sqrt(0.5), limit, c, part};
+    const std::vector<double> in = {o[0], o[1], o[2], alpha_x * std::sqrt(0.5), alpha_y * std::sqrt(0.5), limit, c};
     const std::vector<double> out = call(k, "lobe_line", in);
-    return {out[0], out[1], out[2], out[3], out[4], {out[5], out[6], out[7]}, out[8], out[9]};
+    return {out[0], out[1], out[2], out[3], out[4], {out[5], out[6], out[7]}, out[8], out[9], out[10]};
 }
 
 struct View {
@@ -193,23 +193,31 @@ TEST(lobe_line, takes_as_many_samples_as_its_cells_hold_and_never_more_than_the_
     EXPECT_NEAR(line_of(float_fns()[0], up, 0.3, 0.3).count, 1.0, 1e-3) << "a round lobe seen from above has no line";
 }
 
-// A line of no length gives the isotropic result, and a short line gives nearly that.
-TEST(lobe_line, of_no_length_is_the_mirror_direction_at_the_lobe_s_width)
+// A narrow lobe's half vector lies half-way between the eye and the sample.
+TEST(lobe_line, knows_the_angle_to_its_half_vectors)
 {
     for (const View& v : {view(1.0, 0.0), view(0.7, 0.4), view(0.2, 1.5), view(0.05, -0.8)})
-        for (double alpha : {0.04, 0.3, 0.8})
+        for (double thin : {1.0, 0.3})
             for (double c : {-0.95, 0.0, 0.3, 0.8}) {
-                const Line l = line_of(oracle_fns(), v.o, alpha, alpha, 15.0, c, 0.0);
+                const double alpha = 1e-3;
+                const Line l = line_of(oracle_fns(), v.o, alpha, alpha * thin, 15.0, c);
                 const double length = std::hypot(l.direction[0], l.direction[1], l.direction[2]);
-                EXPECT_NEAR(l.direction[0] / length, -v.o[0], 1e-12);
-                EXPECT_NEAR(l.direction[1] / length, -v.o[1], 1e-12);
-                EXPECT_NEAR(l.radius, alpha, 1e-12);
-                EXPECT_NEAR(l.count, 1.0, 1e-12);
-                const Line near = line_of(oracle_fns(), v.o, alpha, alpha * (1.0 - 1e-6), 15.0, c, 1e-5);
-                EXPECT_NEAR(near.direction[0], l.direction[0], 1e-3);
-                EXPECT_NEAR(near.direction[1], l.direction[1], 1e-3);
-                EXPECT_NEAR(near.radius, alpha, 1e-3 * alpha);
+                const double cosine = (l.direction[0] * v.o[0] + l.direction[1] * v.o[1] + l.direction[2] * v.o[2]) / length;
+                EXPECT_NEAR(l.v_dot_h, std::sqrt(0.5 * (1.0 + cosine)), 1e-5) << v.o[2] << ' ' << thin << ' ' << c;
             }
+}
+
+// A round lobe seen from straight above has no line: all its samples lie in the mirror direction.
+TEST(lobe_line, of_no_length_is_the_mirror_direction)
+{
+    const double up[3] = {0, 0, 1};
+    for (double alpha : {0.04, 0.3, 0.8})
+        for (double c : {-0.95, 0.0, 0.3, 0.8}) {
+            const Line l = line_of(oracle_fns(), up, alpha, alpha, 15.0, c);
+            EXPECT_NEAR(l.direction[0], 0.0, 1e-9);
+            EXPECT_NEAR(l.direction[1], 0.0, 1e-9);
+            EXPECT_NEAR(l.count, 1.0, 1e-6);
+        }
 }
 
 // Flipping the lobe's axis gives an equal lobe.
