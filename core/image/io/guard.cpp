@@ -61,6 +61,7 @@ std::optional<std::uint8_t> next_jpeg_marker(const ImageBytes& file, std::size_t
 
 Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
 {
+    ImageProbe probe{"jpeg"};
     bool framed = false;
     int scans = 0;
     for (std::size_t at = 2;;) {
@@ -69,7 +70,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
         if (!marker)
             return file.error(fmt::format("byte {}", file.size), "the file ends before its end-of-image marker");
         if (*marker == 0xD9 && framed && scans > 0)
-            return ImageProbe{"jpeg"};
+            return probe;
         if (*marker == 0xD8 || *marker == 0xD9 || *marker == 0x01)
             continue;
         // Check the segment's size
@@ -78,6 +79,10 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
         const std::uint64_t length = big_endian(file.data + at, 2);
         if (length < 2 || at + length > file.size)
             return file.error(fmt::format("byte {}", at), fmt::format("a segment of {} bytes does not fit", length));
+        // Take pieces of the colour profile (ICC.1:2022 annex B), which lie in order in usual files
+        constexpr std::string_view kPiece("ICC_PROFILE\0", 12);
+        if (*marker == 0xE2 && length >= 16 && starts_with(file, kPiece, at + 2))
+            probe.colour.profile.insert(probe.colour.profile.end(), file.data + at + 16, file.data + at + length);
         // Check the frame's sides
         const bool frame = *marker >= 0xC0 && *marker <= 0xCF && *marker != 0xC4 && *marker != 0xC8 && *marker != 0xCC;
         if (frame && length < 8)
@@ -103,8 +108,13 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
         return too_short(file);
     if (little_endian(file.data + 4, 4) + 8 > file.size)
         return file.error("byte 4", fmt::format("the file says {} bytes and has {}", little_endian(file.data + 4, 4) + 8, file.size));
+    ImageProbe probe{"webp"};
     std::uint64_t width = 0, height = 0;
     if (starts_with(file, "VP8X", 12)) {
+        if (file.size >= 38 && starts_with(file, "ICCP", 30)) { // the next chunk
+            const std::size_t length = static_cast<std::size_t>(little_endian(file.data + 34, 4));
+            probe.colour.profile.assign(file.data + 38, file.data + 38 + std::min(length, file.size - 38));
+        }
         width = little_endian(file.data + 24, 3) + 1;
         height = little_endian(file.data + 27, 3) + 1;
     } else if (starts_with(file, "VP8L", 12)) {
@@ -119,7 +129,7 @@ Result<ImageProbe> probe_webp(const ImageBytes& file, const Limits& limits)
     }
     BN_TRY(check_sides(file, static_cast<std::int64_t>(width), static_cast<std::int64_t>(height), limits));
     BN_TRY(check_proportion(file, width, height, 4));
-    return ImageProbe{"webp"};
+    return probe;
 }
 
 // Reads an unsigned decimal at `at` and moves `at` past it. Returns nothing for no number or an absurd one.

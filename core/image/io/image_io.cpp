@@ -9,7 +9,9 @@
 #include "core/base/exception.h"
 #include "core/base/file.h"
 #include "core/image/io/guard.h"
+#include "core/image/io/icc.h"
 #include "core/image/io/image_library.h"
+#include "core/image/io/inflate.h"
 #include "core/image/io/radiance.h"
 
 namespace burnish {
@@ -208,6 +210,17 @@ Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, con
     }
 }
 
+// Returns the warning about the colour profile, if any.
+std::string warning_of_profile(const StoredColour& colour)
+{
+    constexpr std::size_t kMostProfile = std::size_t{4} << 20;
+    if (colour.profile.empty())
+        return "";
+    const std::vector<std::uint8_t> profile =
+        colour.deflated ? inflated(colour.profile.data(), colour.profile.size(), kMostProfile) : colour.profile;
+    return profile_warning(profile.data(), profile.size());
+}
+
 } // namespace
 
 Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits, PictureNotes* notes)
@@ -230,6 +243,8 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
         return image;
     const StoredColour& colour = probe->colour;
     notes.warnings.insert(notes.warnings.end(), colour.warnings.begin(), colour.warnings.end());
+    if (const std::string warning = warning_of_profile(colour); !warning.empty())
+        notes.warnings.push_back(warning);
     if (!colour.primaries || image->type != PixelType::f32 || image->channels < 3)
         return image;
     if (const auto to_rec709 = matrix_to_rec709(*colour.primaries)) {

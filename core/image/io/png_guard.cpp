@@ -3,6 +3,7 @@
 // about them on stderr.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -114,6 +115,58 @@ Status check_colours(const ImageBytes& file, std::size_t at, std::string_view ty
     return {};
 }
 
+// Colour words of a PNG. The first that is present counts: cICP, iCCP, sRGB, then gAMA and cHRM.
+struct ColourChunks {
+    bool coded = false, profile = false, srgb = false;
+    std::string of_code, of_gamma, of_primaries; // warnings
+};
+
+void read_colour_chunk(std::string_view type, const std::uint8_t* data, std::size_t length, ColourChunks& chunks, StoredColour& colour)
+{
+    if (type == "cICP" && length == 4) {
+        chunks.coded = true;
+        if (data[0] != 1 || data[1] != 13) // Rec.709 primaries, sRGB's curve
+            chunks.of_code = fmt::format("its cICP names primaries {} and curve {}; its colours are taken as sRGB", data[0], data[1]);
+    } else if (type == "iCCP" && !chunks.profile) {
+        const void* const end = std::memchr(data, 0, std::min<std::size_t>(length, 80)); // of the name; a method follows
+        if (end == nullptr)
+            return;
+        const std::size_t begin = static_cast<std::size_t>(static_cast<const std::uint8_t*>(end) - data) + 2;
+        if (begin < length) {
+            chunks.profile = colour.deflated = true;
+            colour.profile.assign(data + begin, data + length);
+        }
+    } else if (type == "sRGB") {
+        chunks.srgb = true;
+    } else if (type == "gAMA" && length == 4) {
+        const std::uint32_t gamma = read32(data); // 100000 times the exponent
+        if (gamma < 40000 || gamma > 50000)
+            chunks.of_gamma = fmt::format("its gAMA is {:g}; its colours are taken as sRGB", gamma / 100000.0);
+    } else if (type == "cHRM" && length == 32) {
+        Primaries p; // the file has white first
+        for (std::size_t i = 0; i < 8; ++i)
+            p[(i + 6) % 8] = read32(data + 4 * i) / 100000.0;
+        for (std::size_t i = 0; i < 8; ++i)
+            if (std::abs(p[i] - kRec709Primaries[i]) > 0.005)
+                chunks.of_primaries = "its cHRM names other primaries than Rec.709; its colours are taken as sRGB";
+    }
+}
+
+// Keeps what counts.
+void settle_colour(const ColourChunks& chunks, StoredColour& colour)
+{
+    std::vector<std::string> found;
+    if (chunks.coded)
+        found = {chunks.of_code};
+    else if (!chunks.profile && !chunks.srgb)
+        found = {chunks.of_gamma, chunks.of_primaries};
+    if (chunks.coded)
+        colour.profile.clear();
+    for (const std::string& warning : found)
+        if (!warning.empty())
+            colour.warnings.push_back(warning);
+}
+
 } // namespace
 
 Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
@@ -124,6 +177,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
     Header header;
     std::size_t palette_entries = 0;
     bool pixels = false, pixels_over = false;
+    ColourChunks colours;
     for (std::size_t at = 8;;) {
         const std::string place = fmt::format("byte {}", at);
         if (at + 12 > file.size)
@@ -149,6 +203,8 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         BN_TRY(check_colours(file, at, type, length, header, palette_entries));
         pixels_over = pixels && type != "IDAT";
         pixels = pixels || type == "IDAT";
+        if (!pixels)
+            read_colour_chunk(type, file.data + at + 8, length, colours, probe.colour);
         // Pass on chunks that affect the samples
         if (known || type == "tRNS")
             probe.replacement.insert(probe.replacement.end(), file.data + at, file.data + at + 12 + length);
@@ -156,6 +212,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
             break;
         at += 12 + length;
     }
+    settle_colour(colours, probe.colour);
     if (probe.replacement.size() == file.size)
         probe.replacement.clear(); // no chunk was dropped
     if (!pixels || (header.colour_type == 3 && palette_entries == 0))

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct StoredColour {
     std::optional<Primaries> primaries;     // empty: Rec.709, or not declared
     std::array<double, 3> gain = {1, 1, 1}; // radiance = stored value * gain
     std::vector<std::string> warnings;      // one line each, for readers of colours
+    std::vector<std::uint8_t> profile;      // ICC profile of a format that stores display colours
+    bool deflated = false;                  // the profile is a zlib stream
 };
 
 // Returns the row-major matrix from RGB to linear Rec.709, with Bradford white adaptation. Nothing where the primaries

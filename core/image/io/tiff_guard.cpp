@@ -38,6 +38,20 @@ class Directory {
         return std::nullopt;
     }
 
+    // Returns an entry's bytes. Nothing where the entry is absent, is not of type UNDEFINED or BYTE, or lies past the file's end.
+    std::vector<std::uint8_t> bytes(unsigned tag) const
+    {
+        for (std::uint64_t i = 0, n = number(at_, 2); i < n; ++i) {
+            const std::uint64_t entry = at_ + 2 + 12 * i, type = number(entry + 2, 2), count = number(entry + 4, 4);
+            if (number(entry, 2) != tag || (type != 7 && type != 1) || count <= 4)
+                continue;
+            const std::uint64_t from = number(entry + 8, 4);
+            if (from <= file_.size && count <= file_.size - from)
+                return {file_.data + from, file_.data + from + count};
+        }
+        return {};
+    }
+
     bool has(unsigned tag) const
     {
         for (std::uint64_t i = 0, n = number(at_, 2); i < n; ++i)
@@ -95,8 +109,14 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
     if (photometric == kLogL || photometric == kLogLuv)
         return file.error("header: photometric interpretation", "CIE LogL and LogLuv pixels are not supported");
     ImageProbe probe{"tiff"};
-    if (directory.value(kSampleFormat).value_or(1) == kFloat && (directory.has(kPrimaries) || directory.has(kProfile)))
-        probe.colour.warnings.push_back("its primaries or colour profile are not read; its colours are taken as linear Rec.709");
+    if (directory.value(kSampleFormat).value_or(1) == kFloat) {
+        if (directory.has(kPrimaries) || directory.has(kProfile))
+            probe.colour.warnings.push_back("its primaries or colour profile are not read; its colours are taken as linear Rec.709");
+    } else {
+        probe.colour.profile = directory.bytes(kProfile);
+        if (probe.colour.profile.empty() && directory.has(kPrimaries))
+            probe.colour.warnings.push_back("its primaries are not read; its colours are taken as sRGB");
+    }
     return probe;
 }
 

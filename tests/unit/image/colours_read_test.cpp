@@ -206,5 +206,107 @@ TEST(colours, the_scale_of_pfm_files_multiplies)
         EXPECT_NE(refusal(pfm(scale)).reason.find("scale"), std::string::npos) << scale;
 }
 
+// Writes an ICC profile with these XYZ of red, green and blue (adapted to D50), and one gamma.
+std::string profile_of(const std::vector<double>& xyz, double gamma, const std::string& space = "RGB ")
+{
+    std::string tags, table;
+    const auto big = [](std::string& to, std::uint32_t v) {
+        for (int shift = 24; shift >= 0; shift -= 8)
+            to += static_cast<char>(v >> shift & 0xFF);
+    };
+    big(table, 4);
+    const std::size_t first = 128 + 4 + 4 * 12;
+    const auto add = [&](const std::string& name, const std::string& data) {
+        table += name;
+        big(table, static_cast<std::uint32_t>(first + tags.size()));
+        big(table, static_cast<std::uint32_t>(data.size()));
+        tags += data;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::string tag = "XYZ " + std::string(4, '\0');
+        for (std::size_t c = 0; c < 3; ++c)
+            big(tag, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(xyz[3 * i + c] * 65536))));
+        add(std::string(1, "rgb"[i]) + "XYZ", tag);
+    }
+    std::string curve = "curv" + std::string(4, '\0');
+    big(curve, 1);
+    const auto exponent = static_cast<unsigned>(std::lround(gamma * 256));
+    curve += {static_cast<char>(exponent >> 8), static_cast<char>(exponent & 0xFF)};
+    add("rTRC", curve);
+    std::string header(128, '\0');
+    header.replace(16, 4, space), header.replace(36, 4, "acsp");
+    return header + table + tags;
+}
+
+const std::vector<double> kSrgbXyz = {0.4360, 0.2225, 0.0139, 0.3851, 0.7169, 0.0971, 0.1431, 0.0606, 0.7139};
+const std::vector<double> kDisplayP3Xyz = {0.5151, 0.2412, -0.0011, 0.2920, 0.6922, 0.0419, 0.1571, 0.0666, 0.7841};
+
+std::vector<std::string> warnings_of_png(const std::vector<test::PngChunk>& extra)
+{
+    return colours(test::make_png(1, 1, 8, 2, "abc", extra)).notes.warnings;
+}
+
+std::string numbers(const std::vector<std::uint32_t>& values)
+{
+    std::string out;
+    for (const std::uint32_t v : values)
+        for (int shift = 24; shift >= 0; shift -= 8)
+            out += static_cast<char>(v >> shift & 0xFF);
+    return out;
+}
+
+TEST(colours, of_png_in_other_spaces_are_said)
+{
+    const auto icc = [](const std::string& profile) { return test::PngChunk{"iCCP", "any" + std::string(2, '\0') + test::store(profile)}; };
+    const std::string p3 = profile_of(kDisplayP3Xyz, 2.2);
+    const test::PngChunk rec2020{"cHRM", numbers({31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600})};
+    for (const auto& [chunks, needle] : {std::pair{std::vector<test::PngChunk>{icc(p3)}, "profile has other primaries"},
+                                         {{icc(profile_of(kSrgbXyz, 1.0))}, "profile has another tone curve"},
+                                         {{icc("short")}, "profile is damaged"},
+                                         {{icc(profile_of(kSrgbXyz, 2.2, "CMYK"))}, "another kind than RGB"},
+                                         {{{"iCCP", "any" + std::string(2, '\0') + "no stream"}}, "profile is damaged"},
+                                         {{{"gAMA", numbers({100000})}}, "gAMA is 1;"},
+                                         {{rec2020}, "cHRM"},
+                                         {{{"cICP", "\x09\x10" + std::string(1, '\0') + "\x01"}}, "cICP names primaries 9 and curve 16"}}) {
+        const std::vector<std::string> found = warnings_of_png(chunks);
+        ASSERT_EQ(found.size(), 1u) << needle;
+        EXPECT_NE(found[0].find(needle), std::string::npos) << found[0];
+    }
+}
+
+TEST(colours, of_png_in_srgb_are_not_said)
+{
+    const auto icc = [](const std::string& profile) { return test::PngChunk{"iCCP", "any" + std::string(2, '\0') + test::store(profile)}; };
+    const test::PngChunk srgb{"sRGB", std::string(1, '\0')}, wide{"cHRM", numbers({31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600})};
+    for (const std::vector<test::PngChunk>& chunks : {std::vector<test::PngChunk>{},
+                                                      {icc(profile_of(kSrgbXyz, 2.2))},
+                                                      {icc(profile_of({0, 0, 0, 0, 0, 0, 0, 0, 0}, 1.0, "GRAY"))},
+                                                      {srgb, wide}, // the sRGB chunk counts
+                                                      {{"gAMA", numbers({45455})}},
+                                                      {{"cHRM", numbers({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})}},
+                                                      {{"cICP", "\x01\x0D" + std::string(1, '\0') + "\x01"}, icc("short")}}) {
+        const std::vector<std::string> found = warnings_of_png(chunks);
+        EXPECT_TRUE(found.empty()) << chunks[0].type << ": " << found[0];
+    }
+}
+
+// Writes with our own writer, then puts a profile behind JPEG's first marker.
+TEST(colours, of_jpeg_in_other_spaces_are_said)
+{
+    Image image = make_image(8, 8, 3, PixelType::u8);
+    const std::string path = test::temporary_folder() + "/own.jpg";
+    ASSERT_TRUE(write_image(path, image));
+    const Bytes plain = test::bytes_of(path);
+    EXPECT_TRUE(colours(plain).notes.warnings.empty());
+    const std::string profile = profile_of(kDisplayP3Xyz, 2.2), piece = "ICC_PROFILE" + std::string(1, '\0') + "\x01\x01" + profile;
+    Bytes wide(plain.begin(), plain.begin() + 2);
+    for (const char c : "\xFF\xE2" + numbers({static_cast<std::uint32_t>(piece.size() + 2)}).substr(2) + piece)
+        wide.push_back(static_cast<std::uint8_t>(c));
+    wide.insert(wide.end(), plain.begin() + 2, plain.end());
+    const std::vector<std::string> found = colours(wide).notes.warnings;
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].find("other primaries"), std::string::npos) << found[0];
+}
+
 } // namespace
 } // namespace burnish::colours_read

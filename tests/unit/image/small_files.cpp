@@ -42,22 +42,6 @@ void chunk(std::string& out, const PngChunk& c)
     big32(out, crc32(c.type + c.data));
 }
 
-// Returns a zlib stream of one stored block.
-std::string store(const std::string& raw)
-{
-    std::string out = "\x78\x01\x01";
-    little(out, raw.size(), 2);
-    little(out, ~raw.size() & 0xFFFF, 2);
-    out += raw;
-    std::uint32_t a = 1, b = 0;
-    for (const char c : raw) {
-        a = (a + static_cast<std::uint8_t>(c)) % 65521;
-        b = (b + a) % 65521;
-    }
-    big32(out, b << 16 | a);
-    return out;
-}
-
 Bytes to_bytes(const std::string& text)
 {
     return Bytes(text.begin(), text.end());
@@ -143,6 +127,21 @@ std::string exr_line(const ExrPart& part, int row)
 }
 
 } // namespace
+
+std::string store(const std::string& raw)
+{
+    std::string out = "\x78\x01\x01";
+    little(out, raw.size(), 2);
+    little(out, ~raw.size() & 0xFFFF, 2);
+    out += raw;
+    std::uint32_t a = 1, b = 0;
+    for (const char c : raw) {
+        a = (a + static_cast<std::uint8_t>(c)) % 65521;
+        b = (b + a) % 65521;
+    }
+    big32(out, b << 16 | a);
+    return out;
+}
 
 Bytes make_png(int width, int height, int depth, int colour_type, const std::string& raw, const std::vector<PngChunk>& extra)
 {

@@ -18,6 +18,9 @@ namespace burnish::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
+// Returns a zlib stream of one stored block.
+std::string store(const std::string& raw);
+
 struct PngChunk {
     std::string type;
     std::string data;
