@@ -147,6 +147,22 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
     }
 }
 
+namespace {
+
+// Returns anisotropy_blend_of() for the material's factors. A roughness texture makes some places smoother, and so more brushed; a textured
+// material counts as smooth. With or without a texture, brushing fades in continuously as its strength grows from 0.
+float anisotropy_blend_by_factors(const ShadingFrame& f, const MaterialRecord& material)
+{
+    constexpr float kSmooth = 0.3f;
+    MaterialRecord m = material;
+    if (texture_used(m, kMetalRoughTex) && m.roughness_fixed == 0)
+        m.roughness = std::min(m.roughness, kSmooth);
+    const lobe_shape shape = only_lobe_shape(f, m);
+    return anisotropy_blend_of(shape.sigma_u, shape.sigma_v);
+}
+
+} // namespace
+
 // Returns the first pair of a lobe's albedo table. Bakes the table on the first request.
 int FrameMaker::slice_of(float sigma_u, float sigma_v, bool phong)
 {
@@ -204,7 +220,9 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     f.override_anisotropy = desc.override_anisotropy, f.anisotropy = desc.anisotropy;
     const bool compensated = compensates_phong(desc, input_.scene);
     for (MaterialRecord& m : materials_) {
-        m.albedo_slice = m.phong_slice = m.phong_set = -1;
+        m.albedo_slice = m.phong_slice = m.phong_set = -1, m.anisotropy_blend = 1.0f;
+        if (m.anisotropic && (m.technique_traits & kSharesSamples) && !(m.technique_traits & kPhongGrid) && m.moments == kNoMoments)
+            m.anisotropy_blend = anisotropy_blend_by_factors(f, m);
         if (!one_lobe_shape(m) || desc.specular_aa)
             continue;
         const lobe_shape shape = only_lobe_shape(f, m);

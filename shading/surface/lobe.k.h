@@ -27,6 +27,13 @@ BN_FN real lobe_eta(aniso_lobe lobe)
     return select(sum > lit(1e-20), difference / max(sum, lit(1e-20)), lit(0.0));
 }
 
+// Returns the anisotropic share of a blend with round lobes, [0,1]: 0 for equal widths, 1 from a relative difference of an
+// eighth on. Round lobes use other methods with other results, so the blend avoids a step.
+BN_FN real anisotropy_blend_of(real sigma_u, real sigma_v)
+{
+    return k_saturate(lit(8.0) * (sigma_u - sigma_v) / max(sigma_u, lit(1e-20)));
+}
+
 // Transform between world space and the ellipse frame (u, v, n).
 BN_FN real3 to_lobe(aniso_lobe lobe, real3 n, real3 w)
 {

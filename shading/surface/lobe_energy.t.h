@@ -48,9 +48,20 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
     if (the_material(m).anisotropic == 0)
         return dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
     // Look up the albedo for two widths
+    dfg_value own;
     if (the_material(m).albedo_slice < 0)
-        return lobe_albedo_lookup(lobe_albedo_pairs(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
-    return lobe_slice_lookup(lobe_slice_pairs(f), the_material(m).albedo_slice, lobe, s.n, s.v);
+        own = lobe_albedo_lookup(lobe_albedo_pairs(f), the_frame(f).lobe_albedo_size, lobe, s.n, s.v);
+    else
+        own = lobe_slice_lookup(lobe_slice_pairs(f), the_material(m).albedo_slice, lobe, s.n, s.v);
+    if (the_material(m).anisotropy_blend == 1.0f)
+        return own;
+    // Blend with the round lobe's albedo
+    real part = splat(the_material(m).anisotropy_blend);
+    real still = lit(1.0) - part;
+    dfg_value round = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, s.n_dot_v, s.roughness);
+    own.scale = round.scale * still + own.scale * part;
+    own.bias = round.bias * still + own.bias * part;
+    return own;
 }
 
 // Returns true where lobes are compensated by their own albedo, which no table of the default lobe holds.

@@ -95,11 +95,14 @@ BN_FN shared_sample_record lobe_line_shared(frame_ref f, BN_IN(shaded_point) x, 
 {
     lobe_line line = lobe_line_for(x);
     shared_sample_record r = unshared_record(vec3_all(lit(0.0)));
-    r.width = line.width;
+    // Share nothing where the lobe is round, and sample as alone
+    real part = anisotropy_blend_of(x.lobe.sigma_u, x.lobe.sigma_v);
+    r.width = line.width * part;
     r.mirror = mirrored_at(x.s.n, x.s.v);
-    r.along = x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y;
-    real alike = (similarity_beside(x, r, x.normal_dx) + similarity_beside(x, r, x.normal_dy)) * lit(0.5);
-    r.light = lobe_line_radiance(f, x, line, offset, alike, lit(kLineSamplesUnlike));
+    r.along = (x.lobe.u_axis * line.along.x + x.lobe.v_axis * line.along.y) * part;
+    real alike = (similarity_beside(x, r, x.normal_dx) + similarity_beside(x, r, x.normal_dy)) * (lit(0.5) * part);
+    real alone = lit(kLineSamplesUnlike) + lit(kLineSamplesAlone - kLineSamplesUnlike) * (lit(1.0) - part);
+    r.light = lobe_line_radiance(f, x, line, offset, alike, alone);
     return r;
 }
 
