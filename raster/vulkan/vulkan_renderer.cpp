@@ -7,6 +7,7 @@
 #include "core/base/check.h"
 #include "core/base/clock.h"
 #include "raster/frame/pixel_parts.h"
+#include "raster/frame/upload.h"
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/context.h"
 #include "raster/vulkan/forward.h"
@@ -120,10 +121,8 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
 {
     require_width(context_, desc.width);
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
-    const std::vector<MaterialRecord>& materials = scene_.tables().materials;
-    const bool anisotropic = desc.override_anisotropy ? desc.anisotropy != 0.0f
-                                                      : std::any_of(materials.begin(), materials.end(),
-                                                                    [](const MaterialRecord& m) { return m.anisotropic != 0; });
+    const std::vector<MaterialRecord> materials = in_frame(scene_.tables().materials, desc);
+    const bool anisotropic = std::any_of(materials.begin(), materials.end(), [](const MaterialRecord& m) { return m.anisotropic != 0; });
     const bool shares = (traits_for(technique_of(desc), anisotropic) & kSharesSamples) != 0;
     const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =

@@ -201,7 +201,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int refracts;                    // transmits light
     int coatings;                    // bit i: has coating i of shading/coatings.def in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
-    float anisotropy_blend; // anisotropy_blend_of() of its factors where the technique shares samples; 1 elsewhere and where slopes widen
+    float anisotropy_blend; // anisotropy_blend_of() of its factors where lobe_line's albedo fades; 1 elsewhere and where slopes widen
                             // lobes
     int albedo_slice;       // first pair of the albedo slice for a lobe with constant widths; else -1
     int phong_slice; // the same for the Ashikhmin-Shirley lobe, where the technique samples this lobe or the frame compensates it; else -1

@@ -44,7 +44,7 @@ struct coating_light {
 };
 
 // Shades a coating. lobe: its lobe, index in shading/models.def. traits: the technique's. A technique that samples lobes samples
-// the coating's too; one that shares samples takes its environment light from a line of samples, others from one prefiltered fetch.
+// the coating's too; lobe_line takes its environment light from a line of samples, others from one prefiltered fetch.
 BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe, BN_IN(material_inputs) at, BN_IN(surface_frame) axes,
                                      BN_IN(visible_point) p, integer pixel_id, int traits)
 {
@@ -56,7 +56,7 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe
     if ((traits & kSamplesLobe) != 0)
         light = environment_light(f, c, kSamplesLobe + kTestsHorizon,
                                   mc_of_lobe(f, c, make_bsdf_lobe(lobe, c.lobe, c.s.n, c.s.v, c.geometric_axes)));
-    else if ((traits & kSharesSamples) != 0)
+    else if ((traits & kRoundAlone) != 0)
         light = environment_light(f, c, kSamplesLobe, lobe_line_specular(f, c));
     else
         light = environment_light(f, c, kSamplesLobe, split_isotropic_specular(f, c));

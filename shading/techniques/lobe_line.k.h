@@ -123,10 +123,11 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
     r.direction = w * (lit(2.0) * w_dot_o) - line.axis * w2;
     // Choose the level's width
     real share = seen / w2;
+    real cosine2 = share * seen;
     real size = share * scale;
     r.direction.z = r.direction.z + line.lift * size * seen;
     r.radius = (line.level + line.widen * size) * size;
-    r.v_dot_h = min(sqrt(share * seen), one);
+    r.v_dot_h = min(sqrt(cosine2), one);
     // Weight by visible area and masking
     real ix = line.alpha_x * r.direction.x;
     real iy = line.alpha_y * r.direction.y;
@@ -138,8 +139,8 @@ BN_FN lobe_line_sample lobe_line_at(lobe_line line, real t)
 }
 
 // Returns the number of samples that a line of this length needs, a real in [1, limit]. per_width: samples for each width
-// of its length, kLineSamplesAlone or kLineSamplesShared. Alone, they lie 0.77 widths apart in its middle, 1.5 in a long
-// line; half as many would show single samples far out on the tails.
+// of its length. At kLineSamplesAlone they lie half a width apart in its middle, one in a long line. A third as many would
+// show single samples far out on the tails.
 BN_FN real lobe_line_count(lobe_line line, real per_width, real limit)
 {
     return min(lit(1.0) + per_width * line.extent, limit);

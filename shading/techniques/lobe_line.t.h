@@ -26,7 +26,8 @@ BN_FN void add_line_sample(BN_IN(shaded_point) x, BN_IN(lobe_line) line, real t,
     real lod = min(sqrt(at.radius), lit(1.0)) * to_real(int_lit(sum.cube.levels - 1));
     real away = lit(1.0) - at.v_dot_h;
     real away2 = away * away;
-    real3 reflectance = x.s.f0 + sum.rise * (away2 * away2 * away);
+    real3 schlick = x.s.f0 + sum.rise * (away2 * away2 * away);
+    real3 reflectance = max(schlick, vec3_all(lit(1e-4))); // a channel without reflectance keeps its mean
     // Add the weighted fetch
     cube_terms_add(sum.light, from_lobe(x.lobe, x.s.n, at.direction), lod, reflectance, w);
     sum.weights = sum.weights + reflectance * w;

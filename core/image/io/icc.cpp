@@ -6,8 +6,6 @@
 #include <optional>
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace burnish {
 namespace {
 
@@ -83,7 +81,7 @@ std::string profile_warning(const std::uint8_t* data, std::size_t size)
     if (space == "GRAY")
         return "";
     if (space != "RGB ")
-        return fmt::format("its colour profile is of another kind than RGB; its colours are taken as sRGB");
+        return "its colour profile is of another kind than RGB; its colours are taken as sRGB";
     // Compare primaries
     const char* const kTags[] = {"rXYZ", "gXYZ", "bXYZ"};
     for (int i = 0; i < 3; ++i) {

@@ -121,7 +121,8 @@ struct ColourChunks {
     std::string of_code, of_gamma, of_primaries; // warnings
 };
 
-void read_colour_chunk(std::string_view type, const std::uint8_t* data, std::size_t length, ColourChunks& chunks, StoredColour& colour)
+void read_colour_chunk(std::string_view type, const std::uint8_t* data, std::size_t length, bool in_colour, ColourChunks& chunks,
+                       StoredColour& colour)
 {
     if (type == "cICP" && length == 4) {
         chunks.coded = true;
@@ -142,7 +143,7 @@ void read_colour_chunk(std::string_view type, const std::uint8_t* data, std::siz
         const std::uint32_t gamma = read32(data); // 100000 times the exponent
         if (gamma < 40000 || gamma > 50000)
             chunks.of_gamma = fmt::format("its gAMA is {:g}; its colours are taken as sRGB", gamma / 100000.0);
-    } else if (type == "cHRM" && length == 32) {
+    } else if (type == "cHRM" && length == 32 && in_colour) {
         Primaries p; // the file has white first
         for (std::size_t i = 0; i < 8; ++i)
             p[(i + 6) % 8] = read32(data + 4 * i) / 100000.0;
@@ -204,7 +205,7 @@ Result<ImageProbe> probe_png(const ImageBytes& file, const Limits& limits)
         pixels_over = pixels && type != "IDAT";
         pixels = pixels || type == "IDAT";
         if (!pixels)
-            read_colour_chunk(type, file.data + at + 8, length, colours, probe.colour);
+            read_colour_chunk(type, file.data + at + 8, length, (header.colour_type & 2) != 0, colours, probe.colour);
         // Pass on chunks that affect the samples
         if (known || type == "tRNS")
             probe.replacement.insert(probe.replacement.end(), file.data + at, file.data + at + 12 + length);

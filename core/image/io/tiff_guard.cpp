@@ -114,7 +114,9 @@ Result<ImageProbe> probe_tiff(const ImageBytes& file, const Limits& limits)
             probe.colour.warnings.push_back("its primaries or colour profile are not read; its colours are taken as linear Rec.709");
     } else {
         probe.colour.profile = directory.bytes(kProfile);
-        if (probe.colour.profile.empty() && directory.has(kPrimaries))
+        if (probe.colour.profile.empty() && directory.has(kProfile))
+            probe.colour.warnings.push_back("its colour profile is damaged; its colours are taken as sRGB");
+        else if (probe.colour.profile.empty() && directory.has(kPrimaries))
             probe.colour.warnings.push_back("its primaries are not read; its colours are taken as sRGB");
     }
     return probe;

@@ -185,7 +185,7 @@ void line_sample(Surface s, Line line, float t, float weight, inout LineSum sum)
     float up = max(i.z, 0.0), smith = up * line.stretch + line.o.z * length(vec3(line.alpha * i.xy, i.z));
     float visible = weight * seen * up * (1.0 - bend) / (root * scale * scale * max(smith, 1e-20));
     float radius = (line.level + line.widen * size) * size, away = 1.0 - min(sqrt(share * seen), 1.0), away2 = away * away;
-    vec3 reflectance = (s.f0 + (s.f90 - s.f0) * (away2 * away2 * away)) * visible;
+    vec3 reflectance = max(s.f0 + (s.f90 - s.f0) * (away2 * away2 * away), vec3(1e-4)) * visible;
     sum.light += specular_at(to_world(s, i), level_of(radius)) * reflectance;
     sum.weights += reflectance;
 }
