@@ -21,7 +21,7 @@ std::vector<double> line(const Domain&, const double* u)
     std::vector<double> a;
     append(a, eye_of(u[0], u[1]));
     const double length = in_range(u[2], kSigma);
-    return a.insert(a.end(), {length, length * u[3], 1.0 + std::floor(64.0 * u[4]), straight(u[5], -0.98, 0.98), u[6]}), a;
+    return a.insert(a.end(), {length, length * u[3], 1.0 + std::floor(64.0 * u[4]), straight(u[5], -0.98, 0.98)}), a;
 }
 
 std::vector<double> bent(const Domain&, const double* u)
@@ -57,12 +57,13 @@ const std::vector<Domain>& domains()
     static const std::vector<Domain> list = {
         {"major_axis", 7, axis, {{"ends", 2, 6, Unit::whole}, {"radius", 8, 1, Unit::whole}}},
         {"lobe_line",
-         7,
+         6,
          line,
          {{"along", 0, 2, Unit::whole},
           {"width", 2, 1, Unit::last_place},
           {"weight", 8, 1, Unit::last_place},
-          {"radius", 9, 1, Unit::last_place}}},
+          {"radius", 9, 1, Unit::last_place},
+          {"v_dot_h", 10, 1, Unit::whole}}},
         {"bent_normal", 4, bent, {{"direction", 0, 3, Unit::whole}, {"level", 3, 1, Unit::whole}}},
         {"mapped_frame", 7, frame, axes},
         {"turned_frame", 7, frame, axes},
