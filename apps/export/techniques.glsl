@@ -16,8 +16,8 @@
 #define lobe_used(at) true
 
 // Settings of a technique, common to all shading points. specular, box, whole: size (texels along a face's side) and level count of the
-// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. lobe: the model; lobe_traits: 1 for GGX, the default. The others are options of
-// `burnish render`.
+// environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. lobe: the model;
+// lobe_traits: 1 for GGX, the default. The others are options of `burnish render`.
 struct settings {
     CubeRecord specular, whole, box;
     int grid_count, samples;
