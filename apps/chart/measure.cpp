@@ -98,7 +98,6 @@ Status Chart::load_all()
     for (const std::string& name : options_.scenes) {
         Result<SceneWithView> scene = load_scene_with_view(name, options_.base, report_);
         BN_TRY(scene);
-        warn_of_missing_behind_glass(scene->data->scene, report_);
         scenes_.push_back(std::move(*scene));
     }
     for (const std::string& env : options_.envs) {

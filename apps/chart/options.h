@@ -29,7 +29,11 @@ struct ChartOptions {
 };
 
 struct ChartArguments {
-    ChartArguments() { render.size = {1920, 1080}, render.plain.reference.full_textures = true; }
+    ChartArguments()
+    {
+        render.size = {1920, 1080}, render.plain.reference.full_textures = true;
+        render.plain.frame.glass = 0; // as its reference has it
+    }
     RenderArguments render; // options shared with `burnish render`
     PictureSize error_size; // 0x0: the default size
     ChartOptions plain;

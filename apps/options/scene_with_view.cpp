@@ -1,9 +1,8 @@
 #include "apps/options/scene_with_view.h"
 
-#include <algorithm>
-
 #include "apps/cli/open.h"
 #include "apps/options/scene_view.h"
+#include "raster/frame/bodies.h"
 
 namespace burnish {
 
@@ -21,11 +20,14 @@ Result<SceneWithView> load_scene_with_view(const std::string& name, const Render
     return SceneWithView{*data, view->view};
 }
 
-void warn_of_missing_behind_glass(const Scene& scene, Report& report)
+void warn_of_open_bodies(const SceneData& data, Report& report)
 {
-    if (std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.transmission > 0.0f; }))
-        report.warning("materials that transmit light show the environment without the objects behind them; "
-                       "--backend reference --reference-mode path draws these objects");
+    for (std::size_t i = 0; i < data.scene.materials.size(); ++i) {
+        const Material& m = data.scene.materials[i];
+        const bool volume = m.transmission > 0.0f && (m.thickness > 0.0f || m.attenuation_distance > 0.0f);
+        if (volume && !is_closed_body(data.tables, i))
+            report.warning("material '" + m.name + "' has a volume on an open mesh: drawn as a thin sheet, which absorbs nothing");
+    }
 }
 
 } // namespace burnish

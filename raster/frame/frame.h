@@ -72,6 +72,7 @@ struct FrameDesc {
     int texture_anisotropy = 16; // most taps along the major axis, 1..16
     bool lamps = true;           // light by punctual lights and extracted lights; area_way decides on area lights
     bool background = true;      // draw the environment behind the scene; otherwise black
+    bool opaque_only = false;    // leave out surfaces that blend or transmit light, and open area lights
     bool triangle_ids = false;   // fill Frame::triangle_ids
     bool profile = false;        // fill Frame::profile if the renderer can; never changes the picture
     bool stages = false;         // fill Frame::stages and Frame::triangle_ids

@@ -142,6 +142,7 @@ void FrameMaker::choose_techniques(const FrameDesc& desc)
         m.technique = static_cast<int>(&t - techniques().data());
         m.technique_traits = m.unlit ? 0 : traits_for(t, m.anisotropic != 0);
         m.refracts = refracts(m, lobe);
+        m.hidden = desc.opaque_only && (m.refracts || m.alpha_mode == kAlpha_blend || m.emitter == kOpenEmitter);
         const bool round = !m.anisotropic || (t.traits & kTakesRoundLobes);
         m.lights_lobe = round && lobe == lobe_with(kDefaultLobe) ? lobe_with(kRoundLobe) : lobe;
     }
@@ -236,6 +237,40 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
     }
 }
 
+bool FrameMaker::shows_behind(const FrameDesc& desc) const
+{
+    if (desc.glass == 0 || desc.opaque_only || (technique_of(desc).traits & kSamplesInterface))
+        return false;
+    const int lobe = lobe_of(desc, tilts(input_.scene, desc));
+    const auto drawn = [&](const auto& test) {
+        return std::any_of(input_.tables.draws.begin(), input_.tables.draws.end(),
+                           [&](const Draw& d) { return test(scene_.materials[static_cast<std::size_t>(d.material)]); });
+    };
+    return drawn([&](const MaterialRecord& m) { return refracts(m, lobe); }) && drawn([&](const MaterialRecord& m) {
+               return !refracts(m, lobe) && m.alpha_mode != kAlpha_blend && m.emitter != kOpenEmitter;
+           });
+}
+
+void FrameMaker::take_behind(const Frame& frame)
+{
+    behind_ = make_behind_picture(frame, input_.jobs);
+}
+
+// Lets the frame read the picture of surfaces behind.
+void FrameMaker::put_behind(const FrameDesc& desc, ShadingFrame& f)
+{
+    f.behind = -1;
+    if (!shows_behind(desc))
+        return;
+    f.positions = 1;
+    if (behind_.light.levels == 0)
+        return;
+    textures_ = scene_.textures;
+    f.behind = static_cast<int>(textures_.size());
+    textures_.push_back(texture_params(behind_.light)), textures_.push_back(texture_params(behind_.depth));
+    f.textures = textures_.data();
+}
+
 Status FrameMaker::check(const FrameDesc& desc) const
 {
     if (const Status ok = check_frame(input_.scene, desc); !ok)
@@ -284,6 +319,7 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     f.shading_vertices = reinterpret_cast<const float*>(t.shading.data());
     f.indices = t.indices.data(), f.triangle_material = t.triangle_material.data();
     f.materials = materials_.data(), f.textures = scene_.textures.data(), f.lights = scene_.lights.data();
+    put_behind(desc, f);
     f.light_columns = scene_.light_columns.data(), f.light_stride = scene_.light_stride;
     f.area_lights = scene_.area_lights.data(), f.ltc_texels = ltc_texels().data();
     // Point the frame at the environment and the albedo tables

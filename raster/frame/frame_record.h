@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "raster/frame/behind.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/upload.h"
 #include "shading/bake/environment/cube_map.h"
@@ -29,6 +30,12 @@ class FrameMaker {
     // Makes the frame. check() must have accepted desc. The frame's pointers stay valid until the next call.
     ShadingFrame make(const FrameDesc& desc);
 
+    // Returns true if the frame's bodies show opaque surfaces behind them. Then draw behind_frame(desc) first, and pass it to take_behind().
+    bool shows_behind(const FrameDesc& desc) const;
+    void take_behind(const Frame& frame);
+    void leave_behind() { behind_ = {}; } // frames then show none
+    const BehindPicture& behind() const { return behind_; }
+
     const SceneTables& scene() const { return scene_; }
     const std::vector<MaterialRecord>& materials() const { return materials_; } // of the last frame
     const std::vector<GridSample>& grid() const { return grid_; }
@@ -38,6 +45,7 @@ class FrameMaker {
 
   private:
     void bake(const FrameDesc& desc);
+    void put_behind(const FrameDesc& desc, ShadingFrame& f);
     void choose_techniques(const FrameDesc& desc);
     int slice_of(float sigma_u, float sigma_v, bool phong);
     int set_of(float sigma_u, float sigma_v, int samples);
@@ -46,6 +54,8 @@ class FrameMaker {
     RenderInput input_;
     SceneTables scene_;
     std::vector<MaterialRecord> materials_;
+    BehindPicture behind_;
+    std::vector<TextureParams> textures_; // the scene's, then behind_'s
     CubeMap mip_env_;                                  // made when a technique first needs it
     using SlicedLobe = std::tuple<float, float, bool>; // standard deviations of slope; true for an Ashikhmin-Shirley lobe
     std::map<SlicedLobe, int> sliced_;                 // each lobe's first pair in lobe_slices_

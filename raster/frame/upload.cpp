@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
+#include "raster/frame/bodies.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/light_picture.h"
@@ -248,6 +249,7 @@ SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTa
     s.materials = material_records(scene, mips, false);
     if (mips.frames_override)
         s.overridden = material_records(scene, mips, true);
+    put_bodies(scene, tables, jobs, s.materials, s.overridden);
     s.lights = light_records(tables);
     put_light_columns(s);
     return s;

@@ -261,6 +261,7 @@ struct LaneSurface { // surface at a hit; without a hit only `reflects` and `emi
     real3 position, normal; // normal: the triangle's
     mask reflects;
     mask emitter; // shows an area light; for later hits, a solid one
+    real3 decay;  // log2 of the light's share left after a metre of the ray before the hit
 };
 
 BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
@@ -393,7 +394,7 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
     if (none(h.found))
         return;
     const LaneGeometry g = locate_hits(f, h, r, footprint);
-    out.position = g.position, out.normal = g.normal;
+    out.position = g.position, out.normal = g.normal, out.decay = vec3_all(lit(0.0));
     bool first = true;
     for_each_material(f, h.triangle, h.found, [&](const MaterialRecord& m, mask lanes) {
         const MaterialAtHits at = material_at_hits(f, m, h, g);
@@ -401,6 +402,8 @@ BN_STAGE void find_surface(const ReferenceParams& f, const LaneHits& h, const La
         out.emission = first ? at.emission : select(lanes, at.emission, out.emission);
         if (m.emitter)
             out.emitter = either(out.emitter, lanes);
+        if (m.refracts) // rays that hit it from behind have crossed its body
+            out.decay = select(both(lanes, not_(g.fragment.front)), splat3(m.body_decay), out.decay);
         if (!m.unlit)
             out.reflects = either(out.reflects, lanes);
         first = false;

@@ -264,8 +264,10 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
         if (last || none(h.found))
             break;
         // Continue at the next surface
-        throughput = select(h.found, carried, zero);
         find_surface(f, h, r, nullptr, s);
+        const real3 decay = s.decay * h.t;
+        const real3 left = vec3_of(k_exp2(decay.x), k_exp2(decay.y), k_exp2(decay.z));
+        throughput = select(h.found, carried * left, zero);
         real3 at_surface = select(s.emitter, zero, s.emission); // area_lights() has added a solid light
         if (f.light_count > 0 && any(s.reflects))
             at_surface = at_surface + punctual_lights(p, s);

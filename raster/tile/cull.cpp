@@ -68,7 +68,7 @@ bool faces_away(const Cluster& c, const View& v)
 
 } // namespace
 
-Visible cull(const DrawTables& tables, const View& view)
+Visible cull(const DrawTables& tables, const std::vector<MaterialRecord>& materials, const View& view)
 {
     const TraceSpan span("cull");
     const std::vector<Plane> planes = frustum(view);
@@ -77,7 +77,8 @@ Visible cull(const DrawTables& tables, const View& view)
     for (std::size_t i = 0; i < tables.draws.size(); ++i) {
         const Draw& d = tables.draws[i];
         const glm::vec3 center = 0.5f * (d.bounds_min + d.bounds_max);
-        seen[i] = !sphere_outside(planes, view, center, 0.5f * glm::length(d.bounds_max - d.bounds_min));
+        seen[i] = materials[static_cast<std::size_t>(d.material)].hidden == 0 &&
+                  !sphere_outside(planes, view, center, 0.5f * glm::length(d.bounds_max - d.bounds_min));
         if (seen[i])
             visible.draws.push_back(static_cast<std::uint32_t>(i));
     }

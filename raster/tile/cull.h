@@ -16,7 +16,7 @@ struct Visible {
 };
 
 // Tests draw bounds and cluster spheres against the frustum, and cluster cones for back faces.
-Visible cull(const DrawTables& tables, const View& view);
+Visible cull(const DrawTables& tables, const std::vector<MaterialRecord>& materials, const View& view);
 
 // Runs the vertex kernel over the visible draws' vertices.
 void transform_draws(const FrameParams& frame, const DrawTables& tables, const Visible& visible, const TileFns& fns, const Jobs& jobs,

@@ -1,4 +1,6 @@
 // Draws one tile from triangles to pixels: visibility, shading in dense batches by material, resolve. Compiled once per instruction set.
+#include <algorithm>
+
 #include "raster/tile/batch.h"
 #include "raster/tile/compose.h"
 #include "raster/tile/geometry.h"
@@ -133,6 +135,12 @@ constexpr ShadeSlot kShadeSlots[] = {
 #include "shading/models.def"
 };
 
+// Returns true if a slot's material transmits light.
+bool transmits(const Tile& t, int slots)
+{
+    return std::any_of(t.s.slot_material + 1, t.s.slot_material + slots, [&](std::int32_t m) { return t.f.materials[m].refracts != 0; });
+}
+
 // Shades the slots after the background's. Afterwards the colours of all fragments are known.
 void shade_slots(const Tile& t, const view_params& view, int slots)
 {
@@ -170,6 +178,7 @@ void draw_blended(const Tile& t, const view_params& view)
     const Tile layer{t, t.f, *peel.layer};
     begin_layers(t);
     for (int slots = find_layer(t); slots > 1; slots = find_layer(t)) {
+        t.s.transmits = t.s.transmits || transmits(layer, slots);
         shade_slots(layer, view, slots);
         for (int k = 1; k < slots; ++k) {
             const TileScratch& s = layer.s;
@@ -194,6 +203,9 @@ void render_tile(const FrameParams& f, const TileRect& rect, TileScratch& s)
     if (s.output_layers && f.blends)
         draw_all_layers(t, view, find_visible(t, view, Surfaces::all));
     const int slots = find_visible(t, view, Surfaces::solid);
+    s.transmits = slots > 1 && transmits(t, slots);
+    if (s.transmits && f.defers_bodies)
+        return;
     shade_background_slot(t, view, s.slot_begin[0], s.slot_begin[1]);
     lap(s, FrameStage::background, -1, s.slot_begin[1] - s.slot_begin[0]);
     shade_slots(t, view, slots);

@@ -76,7 +76,6 @@ struct WorkerScratch {
     Column<std::int32_t> fragment_triangle, fragment_pixel, fragment_mask, order, slot_of_material, slot_material;
     std::size_t shared_capacity = 0;
     std::vector<PixelPart> parts;
-    FrameStats stats;
 
     void prepare(int tile_size, int msaa, std::size_t materials, bool shares)
     {
@@ -96,7 +95,7 @@ struct WorkerScratch {
         }
         slot_begin.resize(materials + 3), slot_material.resize(materials + 2), slot_of_material.resize(materials);
         std::fill(slot_of_material.begin(), slot_of_material.end(), -1);
-        stats = {}, parts.clear();
+        parts.clear();
     }
 
     // Grows to the worker's largest tile so far, and keeps that size between frames.
@@ -137,6 +136,7 @@ struct WorkerScratch {
                 .background_pixels = 0,
                 .own_fragments = 0,
                 .own_background = 0,
+                .transmits = false,
                 .output = frame.color.f32(),
                 .output_ids = frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
                 .output_depths = frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
@@ -160,7 +160,10 @@ class TileRenderer final : public Renderer {
   private:
     FrameParams frame_params(const FrameDesc& desc);
     void prepare_workers(const FrameParams& f);
-    void draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler);
+    void draw_geometry(const FrameParams& f, const FrameDesc& desc, Profiler* profiler);
+    Status draw_bodies(const FrameDesc& desc, Frame& frame, Profiler* profiler);
+    enum class Tiles { all, with_bodies };
+    void draw_tiles(const FrameParams& f, Tiles which, bool parts_wanted, Frame& frame, Profiler* profiler);
     void draw_tile(const FrameParams& p, const TileRect& rect, const TilePart& part, int worker, Frame& frame, bool parts_wanted,
                    Profiler* profiler);
 
@@ -168,6 +171,12 @@ class TileRenderer final : public Renderer {
     std::string lanes_;
     const TileFns& fns_;
     FrameMaker maker_;
+    Frame behind_;                          // the last frame of surfaces behind, for its memory
+    struct TileCounts {
+        std::uint32_t fragments = 0, background = 0; // visible ones, and pixels with background
+        std::uint8_t bodies = 0;                     // 1: deferred, as it shows a transmissive material
+    };
+    std::vector<TileCounts> by_tile_;
     Column<SnappedVertex> vertices_;
     Bins bins_;
     std::vector<WorkerScratch> workers_;
@@ -192,6 +201,7 @@ FrameParams TileRenderer::frame_params(const FrameDesc& desc)
     f.tiles_y = (desc.height + f.tile_step - 1) / f.tile_step;
     f.vertices = vertices_.data();
     f.blends = any_blends(maker_.materials());
+    f.defers_bodies = maker_.shows_behind(desc) && f.behind < 0;
     return f;
 }
 
@@ -286,15 +296,19 @@ void TileRenderer::draw_tile(const FrameParams& p, const TileRect& rect, const T
     // Draw, and collect parts and statistics
     work.lap(FrameStage::gather);
     fns_.render_tile(p, rect, scratch);
+    if (scratch.transmits && p.defers_bodies) { // parts of a tile may write at once
+        std::atomic_ref(by_tile_[part.tile].bodies).store(1, std::memory_order_relaxed);
+        return;
+    }
     if (parts_wanted)
         collect_parts(p, rect, scratch, w.parts);
-    w.stats.visible_fragments += scratch.own_fragments - scratch.own_background + peel.fragment_count;
-    w.stats.background_pixels += scratch.own_background;
+    std::atomic_ref(by_tile_[part.tile].fragments) += scratch.own_fragments - scratch.own_background + peel.fragment_count;
+    std::atomic_ref(by_tile_[part.tile].background) += scratch.own_background;
     if (profiler)
         profiler->end_tile(worker, part.tile);
 }
 
-void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& frame, Profiler* profiler)
+void TileRenderer::draw_tiles(const FrameParams& f, Tiles which, bool parts_wanted, Frame& frame, Profiler* profiler)
 {
     const TraceSpan span("tiles");
     const std::size_t tiles = static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y);
@@ -303,6 +317,11 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
         prepare_workers(f);
         work.lap(FrameStage::prepare);
     }
+    // Choose the tiles
+    std::vector<std::uint8_t> wanted(tiles, 1);
+    if (which == Tiles::with_bodies)
+        std::transform(by_tile_.begin(), by_tile_.end(), wanted.begin(), [](const TileCounts& t) { return t.bodies; });
+    by_tile_.assign(tiles, {});
     // Cut the longest tiles into parts
     const TileSplit hot = tile_split(bins_.triangles_by_tile(tiles), input_.jobs.threads());
     const auto whole_from = hot.tiles.begin() + static_cast<std::ptrdiff_t>(hot.cut);
@@ -316,6 +335,8 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
     const auto draw = [&](const TilePart& part, int worker) {
         const int left = static_cast<int>(part.tile) % f.tiles_x * f.tile_step, top = static_cast<int>(part.tile) / f.tiles_x * f.tile_step;
         const int right = std::min(left + f.tile_step, f.width), bottom = std::min(top + f.tile_step, f.height);
+        if (!wanted[part.tile])
+            return;
         const bool whole = part.cut < 0;
         const FrameParams& p = whole ? f : parts;
         const int x = left + part.part % TilePart::kSide * p.tile_step, y = top + part.part / TilePart::kSide * p.tile_step;
@@ -349,13 +370,23 @@ void TileRenderer::draw_tiles(const FrameParams& f, bool parts_wanted, Frame& fr
     });
     // Merge the workers' results
     std::vector<std::span<const PixelPart>> lists;
-    for (const WorkerScratch& w : workers_) {
-        frame.stats.visible_fragments += w.stats.visible_fragments;
-        frame.stats.background_pixels += w.stats.background_pixels;
+    for (const WorkerScratch& w : workers_)
         lists.push_back(w.parts);
-    }
-    if (parts_wanted)
-        merge_parts(lists, f.width, f.height, input_.jobs, frame.parts);
+    for (const TileCounts& t : by_tile_)
+        if (!t.bodies)
+            frame.stats.visible_fragments += t.fragments, frame.stats.background_pixels += t.background;
+    if (!parts_wanted)
+        return;
+    const auto tile_of = [&](std::uint32_t pixel) {
+        const int x = static_cast<int>(pixel) % f.width / f.tile_step, y = static_cast<int>(pixel) / f.width / f.tile_step;
+        return static_cast<std::size_t>(y * f.tiles_x + x);
+    };
+    const std::vector<PixelPart> before = std::move(frame.parts);
+    std::vector<PixelPart> kept;
+    std::copy_if(before.begin(), before.end(), std::back_inserter(kept), [&](const PixelPart& p) { return !wanted[tile_of(p.pixel)]; });
+    lists.push_back(kept);
+    frame.parts.clear();
+    merge_parts(lists, f.width, f.height, input_.jobs, frame.parts);
 }
 
 // Returns a frame with memory. Every pixel will be written, so a recycled picture with equal size keeps its contents.
@@ -382,6 +413,33 @@ Frame frame_for(const FrameDesc& desc, bool blends, Frame recycled)
     return frame;
 }
 
+// Culls, transforms and bins the frame's triangles.
+void TileRenderer::draw_geometry(const FrameParams& f, const FrameDesc& desc, Profiler* profiler)
+{
+    ProfiledWork work(profiler, 0);
+    const Visible visible = cull(input_.tables, maker_.materials(), desc.view);
+    work.lap(FrameStage::cull);
+    work.end();
+    transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
+    bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
+}
+
+// Draws the frame's opaque surfaces, then again the tiles with transmissive bodies, which show these surfaces.
+Status TileRenderer::draw_bodies(const FrameDesc& desc, Frame& frame, Profiler* profiler)
+{
+    const std::vector<TileCounts> by_tile = by_tile_;
+    Result<Frame> behind = render(behind_frame(desc), std::move(behind_));
+    if (!behind)
+        return behind.error();
+    behind_ = std::move(*behind);
+    maker_.take_behind(behind_);
+    by_tile_ = by_tile;
+    const FrameParams f = frame_params(desc);
+    draw_geometry(f, desc, profiler);
+    draw_tiles(f, Tiles::with_bodies, desc.parts, frame, profiler);
+    return {};
+}
+
 Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
 {
     BN_TRY(maker_.check(desc));
@@ -392,6 +450,7 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
         measured.emplace(input_.jobs.threads(), maker_.scene().materials.size(), fns_.lanes);
     Profiler* const profiler = measured ? &*measured : nullptr;
     ProfiledWork before(profiler, 0);
+    maker_.leave_behind();
     const FrameParams f = frame_params(desc);
     if (profiler)
         profiler->set_tiles(static_cast<std::size_t>(f.tiles_x) * static_cast<std::size_t>(f.tiles_y));
@@ -399,18 +458,17 @@ Result<Frame> TileRenderer::render(const FrameDesc& desc, Frame recycled)
     if (desc.stages)
         frame.stages.vertices.resize(input_.tables.px.size() * kVertexWords);
     before.lap(FrameStage::prepare);
-    const Visible visible = cull(input_.tables, desc.view);
-    before.lap(FrameStage::cull);
     before.end();
-    transform_draws(f, input_.tables, visible, fns_, input_.jobs, profiler);
-    bins_.build(f, input_.tables, visible, fns_, input_.jobs, profiler);
-    draw_tiles(f, desc.parts, frame, profiler);
+    draw_geometry(f, desc, profiler);
+    draw_tiles(f, Tiles::all, desc.parts, frame, profiler);
+    frame.stats.triangles_drawn = bins_.triangle_count();
+    if (f.defers_bodies && std::any_of(by_tile_.begin(), by_tile_.end(), [](const TileCounts& t) { return t.bodies != 0; }))
+        BN_TRY(draw_bodies(desc, frame, profiler));
     if (desc.stages)
         fns_.record_vertices(f, static_cast<std::uint32_t>(input_.tables.px.size()), frame.stages.vertices.data());
     if (profiler)
         frame.profile = profiler->sum();
     frame.stats.triangles = input_.tables.triangle_count();
-    frame.stats.triangles_drawn = bins_.triangle_count();
     frame.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return frame;
 }

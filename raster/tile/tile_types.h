@@ -88,6 +88,7 @@ struct FrameParams : ShadingFrame {
     std::int32_t tiles_x, tiles_y;
     SnappedVertex* vertices; // by global vertex id
     bool blends;             // some material blends
+    bool defers_bodies;      // leaves tiles that show transmissive materials undrawn
 };
 
 // A tile's pixels. Every pixel of the image is one tile's own.
@@ -192,6 +193,7 @@ struct TileScratch {
     std::uint32_t* slot_begin;      // by slot, into `order`
     std::uint32_t fragment_count, background_pixels;
     std::uint32_t own_fragments, own_background; // those in the tile's own pixels
+    bool transmits;                              // a shaded material transmits light
     float* output;                               // the frame's RGB pixels
     std::uint32_t* output_ids;                   // the frame's triangle ids [pixel][sample], or null
     std::uint32_t *output_depths, *output_pairs; // the frame's stage records, or null

@@ -52,6 +52,8 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
         make_filled_buffer(context, ltc.data(), ltc.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
     for (const TexturePyramid& p : maker_.scene().pyramids)
         texels_.push_back(texel_page(context, p.texels));
+    for (std::size_t i = 0; i < kBehindTextures; ++i) // filled later
+        texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
     upload_pages(context);
     upload_tables(context);
 }
@@ -88,8 +90,10 @@ void GpuScene::upload_tables(Context& context)
     places.index_base = append(ints, t.indices.data(), t.indices.size());
     places.material_base = append(ints, t.triangle_material.data(), t.triangle_count());
     std::vector<GpuTexture> textures;
-    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-        const TextureParams& p = scene.textures[i];
+    std::vector<TextureParams> params = scene.textures;
+    params.push_back(texture_params(maker_.behind().light)), params.push_back(texture_params(maker_.behind().depth));
+    for (std::size_t i = 0; i < params.size(); ++i) {
+        const TextureParams& p = params[i];
         textures.push_back({kGpuFirstTexturePage + static_cast<int>(i), p.levels, p.wrap_s, p.wrap_t, p.nearest, append(ints, p.offset, 16),
                             append(reals, p.level_width, 16), append(reals, p.level_height, 16)});
     }
@@ -102,9 +106,30 @@ void GpuScene::upload_tables(Context& context)
     materials_ = Buffer(context, scene.materials.size() * sizeof(MaterialRecord), Buffer::Place::device);
 }
 
+// Uploads the picture of surfaces behind. Its first picture, and one with another size, brings its levels' places too.
+void GpuScene::upload_behind(Context& context)
+{
+    const BehindPicture& behind = maker_.behind();
+    const bool fits = behind.light.width == behind_width_ && behind.light.height == behind_height_;
+    const std::size_t first = static_cast<std::size_t>(kGpuFirstTexturePage) + maker_.scene().textures.size();
+    const TexturePyramid* const pyramids[kBehindTextures] = {&behind.light, &behind.depth};
+    for (std::size_t i = 0; i < kBehindTextures; ++i)
+        if (fits)
+            fill_buffer(context, texels_[first + i], pyramids[i]->texels.data(), pyramids[i]->texels.size() * sizeof(std::uint16_t));
+        else
+            texels_[first + i] = texel_page(context, pyramids[i]->texels);
+    if (fits)
+        return;
+    behind_width_ = behind.light.width, behind_height_ = behind.light.height;
+    upload_pages(context);
+    upload_tables(context);
+}
+
 void GpuScene::prepare(Context& context, const FrameDesc& desc, std::uint32_t setup_capacity)
 {
     record_.frame = maker_.make(desc);
+    if (record_.frame.behind >= 0)
+        upload_behind(context);
     record_.places.setup_capacity = static_cast<int>(setup_capacity);
     record_.places.clip_unit = 1.0f / static_cast<float>(kSubpixel * viewport_half(context.features()));
     const auto grown = [&](int page, const auto& texels) {

@@ -27,6 +27,8 @@ class GpuScene {
     const Buffer& textures() const { return textures_; }
     const Buffer& lights() const { return lights_; }
     const Buffer& area_lights() const { return area_lights_; }
+    bool shows_behind(const FrameDesc& desc) const { return maker_.shows_behind(desc); }
+    void take_behind(const Frame& frame) { maker_.take_behind(frame); }
     const FrameRecord& record() const { return record_.frame; }
     const GpuPlaces& places() const { return record_.places; }
     Status check(const FrameDesc& desc) const { return maker_.check(desc); }
@@ -39,11 +41,13 @@ class GpuScene {
   private:
     void upload_pages(Context& context);
     void upload_tables(Context& context);
+    void upload_behind(Context& context);
 
     RenderInput input_;
     FrameMaker maker_;
     std::vector<Buffer> texels_;
     Buffer pages_, reals_, ints_, frame_, materials_, textures_, lights_, area_lights_;
+    int behind_width_ = 0, behind_height_ = 0; // of the picture in texels_
     GpuFrame record_ = {};
 };
 

@@ -557,6 +557,8 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
         return Error{ExitCode::usage, "", "", "forward has triangle ids only among its stages", "VulkanOptions::pipeline"};
     try {
         const double begin = wall_ms();
+        if (!forward && scene_.shows_behind(desc))
+            scene_.take_behind(render_ids(behind_frame(desc)));
         Frame frame = forward ? render_forward(desc) : render_ids(desc);
         if (const std::string messages = context_.validation_messages(); !messages.empty())
             return Error{ExitCode::internal, "", "validation layer", messages};

@@ -39,7 +39,6 @@ const int kSharesSamples = 32;  // shares samples with the pixels around, see sh
 const int kAutomatic = 64;      // `auto` takes this technique
 const int kRoundAlone = 128;    // shares no samples on materials without anisotropy
 
-const int kFetchesTransmitted = 8192; // of a call, not of a technique: the material transmits light that one fetch stands for
 const int kSamplesInterface = 256;    // samples both sides of transmissive surfaces; others fetch transmitted light once
 const int kPhongGrid = 512;           // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
@@ -139,6 +138,7 @@ struct FrameRecord {
     int positions;    // something reads the positions of visible points
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
     int background, samples, texture_taps;
+    int behind;       // texture of what lies behind transmissive bodies, its inverse depths are the next one; -1: none
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
 #define BN_RECORD_flag(id) int id;
@@ -199,6 +199,11 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
     int refracts;                    // transmits light
+    int thin;                        // an open mesh: light passes a pane without thickness
+    float body_extent;               // metres through the body, along the normal; 0: thin
+    float body_roundness;            // of the body: 0 a plate, 1 a ball
+    float body_decay[3];             // log2 of the light's share left after a metre inside
+    int hidden;                      // left out of the frame
     int coatings;                    // bit i: has coating i of shading/coatings.def in some place
     int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
     float anisotropy_blend; // anisotropy_blend_of() of its factors where lobe_line's albedo fades; 1 elsewhere and where slopes widen

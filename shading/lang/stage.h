@@ -11,6 +11,7 @@
 //   texture_fetches t = textures_at(f, m, p)   the material's textures at visible_point p
 //   texel_of(t, kNormalTex)              a used texture's value. Call it once per slot: lanes fetch at the call, GLSL has fetched all.
 //   texel_beside(f, m, slot, p)          a used texture's value at another point
+//   texture_of_frame(f, i)               texture_desc of texture i of the frame, such as the_frame(f).behind
 //   texture_desc_of(f, m, slot); texel_at_level(one_level, slot, uv)   a used texture's description, and one texel of it anywhere
 //   dfg_pairs(f) lobe_albedo_pairs(f) lobe_slice_pairs(f)   tables for dfg_lookup(), lobe_albedo_lookup(), lobe_slice_lookup()
 //   ltc_texels(f)                        the table of linearly transformed cosines, for ltc_lookup()

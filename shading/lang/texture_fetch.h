@@ -95,6 +95,10 @@ BN_INLINE texture_desc picture_of(const ShadingFrame& f, int light)
 {
     return desc_of(f.textures[f.area_lights[light].picture]);
 }
+BN_INLINE texture_desc texture_of_frame(const ShadingFrame& f, int texture)
+{
+    return desc_of(f.textures[texture]);
+}
 BN_INLINE texture_desc texture_desc_of(const ShadingFrame& f, const MaterialRecord& m, int slot)
 {
     return desc_of(f.textures[m.textures[slot].texture]);

@@ -49,38 +49,6 @@ BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
     return max(about_n * (above_n + weight) - about_d * weight, vec3_all(lit(0.0)));
 }
 
-// Returns one prefiltered fetch of transmitted environment light. n: normal, unit; alpha: the lobe's width. The level is that of a
-// reflected lobe as wide as the transmitted one.
-BN_FN real3 fetch_transmitted(frame_ref f, BN_IN(shaded_point) x, real3 n, real alpha)
-{
-    refracted_ray ray = refracted_ray_of(n, x.s.v, max(k_dot3(n, x.s.v), lit(1e-4)), alpha, x.through.parts.ior);
-    cube_desc cube = prefiltered_env(f);
-    real lod = sqrt(min(alpha * ray.spread * lit(0.5), lit(1.0))) * to_real(int_lit(cube.levels - 1));
-    return cube_sample(cube, ray.direction, lod);
-}
-
-// Returns transmitted environment light: one fetch, and for a stretched lobe two more beside it along the wide axis, with weights
-// 1/4, 1/2, 1/4. Each fetch has half of the wide width, or the narrow width if that is larger; the distances give the rest.
-BN_STAGE real3 transmitted_environment(any_frame f, BN_IN(shaded_point) x)
-{
-    // Find both widths
-    real root2 = lit(1.4142135623730951);
-    real wide = max(x.lobe.sigma_u, x.lobe.sigma_v) * root2;
-    real narrow = min(x.lobe.sigma_u, x.lobe.sigma_v) * root2;
-    real width = max(narrow, wide * lit(0.5));
-    real slope = sqrt(max(wide * wide - width * width, lit(0.0)));
-    // Fetch in the middle and beside it; equal fetches keep the bits of one
-    real3 radiance = fetch_transmitted(f, x, x.s.n, width);
-    if (any_lane(slope > lit(0.0))) {
-        real3 beside = select(x.lobe.sigma_u > x.lobe.sigma_v, x.lobe.u_axis, x.lobe.v_axis) * slope;
-        real3 sides =
-            fetch_transmitted(f, x, k_normalize3(x.s.n + beside), width) + fetch_transmitted(f, x, k_normalize3(x.s.n - beside), width);
-        real3 stretched = radiance + (sides - (radiance + radiance)) * lit(0.25);
-        radiance = select(slope > lit(0.0), stretched, radiance);
-    }
-    return radiance * splat(the_frame(f).specular.scale) * x.through.tint * diffuse_energy_share(f, x);
-}
-
 // Returns environment light. specular: from the technique. Occlusion dims everything.
 BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
@@ -96,8 +64,6 @@ BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, re
     real passed = diffuse_energy_share(f, x);
     real3 irradiance = irradiance_at(f, x);
     real3 sum = (seen + x.s.diffuse * irradiance * passed) * x.s.occlusion;
-    if ((traits & kFetchesTransmitted) != 0)
-        sum = sum + transmitted_environment(f, x) * x.s.occlusion;
     return sum;
 }
 

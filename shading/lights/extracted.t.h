@@ -210,8 +210,8 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
         specular = specular + (extracted_lights_mirrored(f, x, lobe.bsdf) - specular) * mirror;
     // Apply gain and occlusion; add transmitted light and the diffuse part
     real3 sum = specular * x.energy.gain;
-    if (x.refracts && !x.samples_interface)
-        sum = sum + extracted_lights_through(f, x, model, layer, mirror);
+    if (x.refracts && !x.samples_interface && any_lane(not_(x.body))) // transmitted_light() adds them behind bodies
+        sum = sum + select(x.body, vec3_all(lit(0.0)), extracted_lights_through(f, x, model, layer, mirror));
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

@@ -9,6 +9,7 @@
 #include "shading/lights/environment.t.h"
 #include "shading/lights/extracted.t.h"
 #include "shading/lights/punctual.t.h"
+#include "shading/lights/transmitted.t.h"
 #include "shading/surface/coating_point.t.h"
 #include "shading/surface/facets.t.h"
 #include "shading/surface/make_shaded_point.t.h"
@@ -168,7 +169,9 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
                 groups = facet_light_of(m, k_dot3(x.geometric_axes.n, x.s.v)).groups;
         }
         // Add the lights, weighted by the group's share of the map
-        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon + (traits & kFetchesTransmitted), specular);
+        real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
+        if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
+            light = light + transmitted_light(f, m, x, p.position);
         light = plus_lights(f, m, x, p.position, light);
         sum = sum + light * words.weight;
     }
@@ -191,10 +194,10 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
     make_shaded_point(f, m, at, shape, p, py * int_lit(the_frame(f).width) + px, x);
     // Add environment light and lights
     int traits = technique_traits(m, t);
-    if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
-        traits = traits + kFetchesTransmitted;
     if (!shares)
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
+    if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
+        light = light + transmitted_light(f, m, x, p.position);
     light = plus_lights(f, m, x, p.position, light);
     // Keep the shared part apart
     shared_sample_record r;

@@ -38,7 +38,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     int area = area_sign(x, y);
     int material = bn_ints[places.material_base + triangle];
     bool front = area < 0; // counter-clockwise with y up
-    if (area == 0 || (!front && materials[material].double_sided == 0))
+    if (materials[material].hidden != 0 || area == 0 || (!front && materials[material].double_sided == 0))
         return 0;
     if (!touches(x, frame.center_x, frame.pattern.min_x, frame.pattern.max_x, frame.width) ||
         !touches(y, frame.center_y, frame.pattern.min_y, frame.pattern.max_y, frame.height))

@@ -18,6 +18,7 @@ real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
 #define next_light(f, reach) reach++
 #define the_area_light(f, i) area_lights[i]
 #define picture_of(f, i) desc_of_texture(area_lights[i].picture)
+#define texture_of_frame(f, i) desc_of_texture(i)
 #define dfg_pairs(f) kGpuDfgPage
 #define lobe_albedo_pairs(f) kGpuLobeAlbedoPage
 #define lobe_slice_pairs(f) kGpuLobeSlicePage

@@ -15,12 +15,20 @@
 
 BN_KERNELS_BEGIN
 
+// Returns true where transmitted light comes from beyond the near side of a body. A thin body has two near sides.
+BN_FN mask enters_body(frame_ref f, material_ref m, mask front)
+{
+    return either(front, both(int_lit(the_frame(f).glass) != int_lit(0), int_lit(the_material(m).thin) != int_lit(0)));
+}
+
 // Makes the interface of a transmissive material: the interface takes a share of the diffuse part. Where it is sampled, its
 // own gain replaces x.energy.gain.
 BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
 {
     x.through.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
-    x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), front);
+    mask enters = enters_body(f, m, front);
+    x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), enters);
+    x.body = both(enters, int_lit(the_frame(f).glass) != int_lit(0));
     x.through.tint = x.s.diffuse * at.transmission;
     x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
     if (!x.samples_interface)
@@ -91,10 +99,11 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.refracts = the_material(m).refracts != 0;
     x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
     if (the_material(m).refracts != 0 && (the_material(m).technique_traits & kSamplesInterface) == 0) {
-        real ior = index_of_far_side(splat(the_material(m).ior), p.front);
+        mask enters = enters_body(f, m, p.front);
+        real ior = index_of_far_side(splat(the_material(m).ior), enters);
         real3 within = dielectric_reflectance(at.dielectric_f0, at.dielectric_f90, ior, x.s.n_dot_v);
-        x.s.f0 = select(p.front, x.s.f0, within);
-        x.s.f90 = select(p.front, x.s.f90, within);
+        x.s.f0 = select(enters, x.s.f0, within);
+        x.s.f90 = select(enters, x.s.f90, within);
         x.s.parts.ior = ior;
     }
     find_energy(f, m, at, x);

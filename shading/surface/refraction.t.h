@@ -105,6 +105,42 @@ BN_FN refracted_ray refracted_ray_of(real3 n, real3 v, real n_dot_v, real alpha,
     return r;
 }
 
+// Way of transmitted light through a body, from the interface where the eye sees the body to the interface where the light leaves.
+struct body_way {
+    real3 exit;      // place where the light leaves, from the place that the eye sees, metres
+    real3 direction; // unit, away from the body
+    real distance;   // inside the body, metres
+    real spread;     // refracted_ray's, of both interfaces
+    real cosine;     // between the direction and the far normal, outside
+};
+
+// Returns a ray's way through a body. inside: the ray behind the first interface. n: the geometry's normal, unit. ior: the body's. extent:
+// metres through the body along n. roundness: 0: the far side is parallel to the near one; 1: the body is a ball; others lie between.
+BN_FN body_way way_through_body(refracted_ray inside, real3 n, real ior, real extent, real roundness)
+{
+    // Cross to the far side
+    real c = max(-k_dot3(inside.direction, n), lit(1e-3));
+    real on_plate = lit(1.0) / c;
+    real chord = on_plate + (c - on_plate) * roundness;
+    body_way way;
+    way.distance = extent * chord;
+    way.exit = inside.direction * way.distance;
+    // Refract there: a ball's far normal is its near normal, mirrored about the middle of the chord
+    real3 plate = -n;
+    real3 ball = n + inside.direction * (lit(2.0) * c);
+    real3 far_normal = k_normalize3(plate + (ball - plate) * roundness);
+    real cos_in = k_saturate(k_dot3(inside.direction, far_normal));
+    real sine2 = (lit(1.0) - cos_in * cos_in) * (ior * ior);
+    real cos_out = sqrt(max(lit(1.0) - sine2, lit(0.0)));
+    real along = ior * cos_in - cos_out;
+    way.cosine = cos_out;
+    way.direction = k_normalize3(inside.direction * ior - far_normal * along);
+    // A change of direction inside also moves the exit, whose normal then turns
+    real turned = inside.spread * (ior * cos_in / max(cos_out, lit(0.2)) - lit(2.0) * roundness);
+    way.spread = sqrt(turned * turned + along * along);
+    return way;
+}
+
 // Returns directional albedo without absorption, by samples on a Fibonacci lattice. Single scattering loses the rest.
 BN_STAGE real interface_albedo(BN_IN(rough_interface) g)
 {

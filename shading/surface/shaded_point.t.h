@@ -41,6 +41,7 @@ struct shaded_point {
     bool refracts;            // transmits light
     bool samples_interface;   // then the technique samples both sides of the interface; others fetch transmitted light once
     interface_inputs through; // for transmissive surfaces
+    mask body;                // then transmitted light enters a body here and leaves it by a second interface
 };
 
 // Returns the frame's lobe on the surface.

@@ -144,6 +144,7 @@ Result<FrameDesc> PictureCache::desc_of(const AtlasSetting& setting)
     FrameDesc desc = setting.options.frame;
     desc.view = view->view;
     desc.triangle_ids = true;
+    desc.glass = setting.options.reference.mode == ReferenceMode::path; // else as the reference has it
     desc.parts = setting.displayed;
     return desc;
 }

@@ -101,6 +101,10 @@ Material load_material(Document& doc, const Json& source, std::size_t index)
     for (const MaterialTexture& texture : kMaterialTextures)
         if (const Json::json_pointer at(texture.path); source.contains(at))
             material.*texture.to = texture_ref(doc, source[at], std::string_view(texture.path).starts_with("/extras/"), of);
+    if (source.contains(Json::json_pointer("/extensions/KHR_materials_volume/thicknessTexture"))) {
+        doc.warn(of + ": the thickness texture is left out; the mesh tells the thickness");
+        material.thickness = 0.0f;
+    }
     return material;
 }
 

@@ -24,7 +24,7 @@ std::size_t clusters_seen_from(float distance, float z = 0.0f)
 {
     View view;
     view.eye = {0.0f, 0.0f, z + distance};
-    return cull(ball_that_looks_away({0.0f, 0.0f, z}), view).clusters.size();
+    return cull(ball_that_looks_away({0.0f, 0.0f, z}), std::vector<MaterialRecord>(1), view).clusters.size();
 }
 
 // Floats step by 6 cm at six hundred kilometres, so rounding decides which way small triangles face.

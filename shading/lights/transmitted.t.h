@@ -1,0 +1,105 @@
+// Light through transmissive surfaces, by one prefiltered fetch for a whole lobe. Light enters and leaves a body; at a single interface
+// it comes from inside the material.
+#ifndef BN_TRANSMITTED_T_H
+#define BN_TRANSMITTED_T_H
+
+#include "shading/lang/lang.h"
+#include "shading/lang/stage.h"
+#include "shading/lights/behind.t.h"
+#include "shading/surface/shaded_point.t.h"
+
+BN_KERNELS_BEGIN
+
+// A fragment whose lobe transmits.
+struct transmitting_place {
+    real3 position; // world space, metres; only where the frame has a picture of surfaces behind
+    real pixel;     // size of a pixel there, metres
+    mask body;      // light leaves by a second interface
+};
+
+// Returns the level of the prefiltered environment for a lobe. spread: refracted_ray's. The level belongs to a reflected lobe as wide as
+// the transmitted one.
+BN_FN real transmitted_level(cube_desc cube, real alpha, real spread)
+{
+    return sqrt(min(alpha * spread * lit(0.5), lit(1.0))) * to_real(int_lit(cube.levels - 1));
+}
+
+// Returns an extracted light's mean radiance over a transmitted lobe. direction: the lobe's middle, unit; deviation: of its directions.
+BN_FN real3 extracted_light_along(frame_ref f, int light, BN_IN(real3) direction, real deviation)
+{
+    real3 u = splat3(the_frame(f).extracted_lights[light].axis_u);
+    real3 v = splat3(the_frame(f).extracted_lights[light].axis_v);
+    real3 off = direction - splat3(the_frame(f).extracted_lights[light].direction);
+    // Blur the light by the lobe; a quarter of the squared half axes is an ellipse's own variance
+    real variance = deviation * deviation + (k_dot3(u, u) + k_dot3(v, v)) * lit(0.125);
+    real share = k_exp2(k_dot3(off, off) / variance * lit(-0.72134752044448170)) / (variance * lit(6.2831853071795865));
+    real3 blurred = splat3(the_frame(f).extracted_lights[light].irradiance) * share;
+    return min(blurred, splat3(the_frame(f).extracted_lights[light].radiance));
+}
+
+// Returns the light that one lobe transmits. n: normal, unit; alpha: the lobe's width.
+BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point) x, BN_IN(transmitting_place) at, BN_IN(real3) n,
+                                 real alpha)
+{
+    real n_dot_v = max(k_dot3(n, x.s.v), lit(1e-4));
+    refracted_ray ray = refracted_ray_of(n, x.s.v, n_dot_v, alpha, x.through.parts.ior);
+    cube_desc cube = prefiltered_env(f);
+    real scale = splat(the_frame(f).specular.scale);
+    real3 one = cube_sample(cube, ray.direction, transmitted_level(cube, alpha, ray.spread)) * scale;
+    if (no_lane(at.body))
+        return one;
+    // Follow the light through the body
+    real extent = splat(the_material(m).body_extent);
+    real roundness = splat(the_material(m).body_roundness);
+    body_way way = way_through_body(ray, x.geometric_axes.n, x.through.parts.ior, extent, roundness);
+    real3 light = cube_sample(cube, way.direction, transmitted_level(cube, alpha, way.spread)) * scale;
+    for (int i = 0; i < the_frame(f).extracted_light_count; ++i)
+        light = light + extracted_light_along(f, i, way.direction, alpha * way.spread * lit(0.70710678118654752));
+    // Put opaque surfaces before the environment. A ball's normals turn over a pixel, and so does the light's direction.
+    if (the_frame(f).behind >= 0) {
+        real turned = roundness * lit(4.0) * at.pixel / (max(extent, lit(1e-6)) * max(n_dot_v, lit(0.1)));
+        real4 behind = surfaces_behind(f, at.position + way.exit, way.direction, at.pixel, lit(2.0) * alpha * way.spread + turned * way.spread);
+        light = light * (lit(1.0) - behind.w) + vec3_of(behind.x, behind.y, behind.z);
+    }
+    // The far side reflects a share of the light; that share comes from all around
+    real3 turned_back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, way.cosine);
+    real3 around = cube_sample(irradiance_cube(f), x.geometric_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
+    light = light + (around - light) * turned_back;
+    // Absorb light inside; the second interface takes the tint again
+    real3 decay = splat3(the_material(m).body_decay) * way.distance;
+    real3 left = vec3_of(k_exp2(decay.x), k_exp2(decay.y), k_exp2(decay.z)) * x.through.tint;
+    return select(at.body, light * left, one);
+}
+
+// Returns transmitted light of the environment and of surfaces behind: one fetch, and for a stretched lobe two more beside it along the wide
+// axis, with weights 1/4, 1/2, 1/4. Each fetch has half of the wide width, or the narrow width if that is larger; the distances give the
+// rest. position: of the surface, world space.
+BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point) x, BN_IN(real3) position)
+{
+    transmitting_place at;
+    at.position = position;
+    at.body = x.body;
+    view_params view = view_params_of(the_frame(f).view);
+    real away = select(view.orthographic, lit(1.0), k_dot3(view.forward, position - view.eye));
+    at.pixel = away / (view.inv_tan_y * splat(the_frame(f).half_height));
+    // Find both widths
+    real root2 = lit(1.4142135623730951);
+    real wide = max(x.lobe.sigma_u, x.lobe.sigma_v) * root2;
+    real narrow = min(x.lobe.sigma_u, x.lobe.sigma_v) * root2;
+    real width = max(narrow, wide * lit(0.5));
+    real slope = sqrt(max(wide * wide - width * width, lit(0.0)));
+    // Fetch in the middle and beside it; equal fetches keep the bits of one
+    real3 radiance = fetch_transmitted(f, m, x, at, x.s.n, width);
+    if (any_lane(slope > lit(0.0))) {
+        real3 beside = select(x.lobe.sigma_u > x.lobe.sigma_v, x.lobe.u_axis, x.lobe.v_axis) * slope;
+        real3 sides = fetch_transmitted(f, m, x, at, k_normalize3(x.s.n + beside), width) +
+                      fetch_transmitted(f, m, x, at, k_normalize3(x.s.n - beside), width);
+        real3 stretched = radiance + (sides - (radiance + radiance)) * lit(0.25);
+        radiance = select(slope > lit(0.0), stretched, radiance);
+    }
+    return radiance * x.through.tint * (diffuse_energy_share(f, x) * x.s.occlusion);
+}
+
+BN_KERNELS_END
+
+#endif
