@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/jobs/jobs.h"
@@ -17,16 +16,6 @@ namespace {
 
 constexpr std::size_t kBodyRays = 512; // at most, through one material's bodies
 
-using Corner = std::array<std::uint32_t, 3>; // a position's bits
-
-Corner corner_of(const DrawTables& t, std::uint32_t vertex)
-{
-    Corner c;
-    const float at[3] = {t.px[vertex] + 0.0f, t.py[vertex] + 0.0f, t.pz[vertex] + 0.0f}; // -0 becomes 0
-    std::memcpy(c.data(), at, sizeof at);
-    return c;
-}
-
 glm::dvec3 position(const DrawTables& t, std::uint32_t vertex)
 {
     return {static_cast<double>(t.px[vertex]), static_cast<double>(t.py[vertex]), static_cast<double>(t.pz[vertex])};
@@ -38,9 +27,20 @@ glm::dvec3 normal(const DrawTables& t, std::uint32_t vertex)
     return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
 }
 
-// Returns true if every edge has a triangle on both sides. Triangles without area do not count.
+using Corner = std::array<std::int64_t, 3>; // a position in steps of a grid
+
+// Returns true if edges have triangles on both sides, but for a few short ones. Corners that lie nearly together are one.
 bool is_closed(const DrawTables& t, const Draw& draw)
 {
+    constexpr double kSteps = 65536.0, kOpen = 0.05; // across the mesh; open length, as a share of the surface's square root
+    const glm::dvec3 low(draw.bounds_min), size = glm::dvec3(draw.bounds_max) - low;
+    const double step = std::max(size.x, std::max(size.y, size.z)) / kSteps;
+    if (!(step > 0.0))
+        return false;
+    const auto corner_of = [&](std::uint32_t vertex) {
+        const glm::dvec3 at = (position(t, vertex) - low) / step + 0.5;
+        return Corner{static_cast<std::int64_t>(at.x), static_cast<std::int64_t>(at.y), static_cast<std::int64_t>(at.z)};
+    };
     struct Edge {
         Corner low, high;
         bool operator<(const Edge& o) const { return low != o.low ? low < o.low : high < o.high; }
@@ -48,23 +48,28 @@ bool is_closed(const DrawTables& t, const Draw& draw)
     };
     std::vector<Edge> edges;
     edges.reserve(3 * std::size_t{draw.triangle_count});
+    double area = 0.0;
     for (std::size_t i = draw.first_triangle; i < std::size_t{draw.first_triangle} + draw.triangle_count; ++i) {
-        const Corner c[3] = {corner_of(t, t.indices[3 * i]), corner_of(t, t.indices[3 * i + 1]), corner_of(t, t.indices[3 * i + 2])};
+        const std::uint32_t* const v = &t.indices[3 * i];
+        const Corner c[3] = {corner_of(v[0]), corner_of(v[1]), corner_of(v[2])};
         if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
             continue;
+        area += 0.5 * glm::length(glm::cross(position(t, v[1]) - position(t, v[0]), position(t, v[2]) - position(t, v[0])));
         for (int k = 0; k < 3; ++k)
             edges.push_back({std::min(c[k], c[(k + 1) % 3]), std::max(c[k], c[(k + 1) % 3])});
     }
     std::sort(edges.begin(), edges.end());
+    double open = 0.0;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t end = i + 1;
         while (end < edges.size() && edges[end] == edges[i])
             ++end;
+        const Edge& e = edges[i];
         if ((end - i) % 2 != 0)
-            return false;
+            open += step * glm::length(glm::dvec3(e.high[0] - e.low[0], e.high[1] - e.low[1], e.high[2] - e.low[2]));
         i = end;
     }
-    return !edges.empty();
+    return !edges.empty() && open <= kOpen * std::sqrt(area);
 }
 
 struct Probe { // a place on a body's surface

@@ -44,10 +44,6 @@ def faults(bench):
 
 @case("glass.every_factor_changes_the_picture_of_every_technique")
 def factors(bench):
-    warning = "without the objects behind them"
-    clear, none = scene(bench, "clear"), scene(bench, "none", factor=0)
-    check(bench.run("render", clear, *CLOSE).expect(0).err.count(warning) == 1, "nothing says that objects behind glass are missing")
-    check(warning not in bench.run("render", none, *CLOSE).expect(0).err, "an opaque material is taken for glass")
     opaque_mirror = scene(bench, "opaque", ior=0, factor=0)
     for technique in ("auto", "bent_normal", "filtered_is_ggx", "mc"):
         words = (*CLOSE, "--technique", technique, "--samples", "16")
@@ -56,6 +52,39 @@ def factors(bench):
                   ("mirror", dict(ior=0)))}
         check(len(set(drawn.values())) == len(drawn), f"{technique}: two materials give one picture: {drawn}")
         check(bench.figures(opaque_mirror, *words)["pixel_hash"] == drawn["mirror"], f"{technique}: an index of 0 lets light through")
+
+
+def volume(bench, name, **values):
+    """Returns the triangle of glass with KHR_materials_volume."""
+    gltf = glass(roughness=0)
+    gltf["materials"][0]["extensions"]["KHR_materials_volume"] = values
+    gltf["extensionsUsed"].append("KHR_materials_volume")
+    return scratch(bench, name + ".gltf", files.text(gltf))
+
+
+@case("glass.open_bodies_are_named", "input")
+def open_bodies(bench):
+    warning = "on an open mesh"
+    plain = scene(bench, "plain", roughness=0)
+    check(warning not in bench.run("render", plain, *CLOSE).expect(0).err, "glass without a volume is called open")
+    absorbing = {"thicknessFactor": 0.1, "attenuationDistance": 0.01, "attenuationColor": [0.1, 0.2, 0.3]}
+    asked = volume(bench, "asked", **absorbing)
+    check(bench.run("render", asked, *CLOSE).expect(0).err.count(warning) == 1, "nothing says that the mesh is open")
+    check(bench.figures(asked, *CLOSE)["pixel_hash"] == bench.figures(plain, *CLOSE)["pixel_hash"], "a thin sheet absorbs light")
+    textured = volume(bench, "textured", thicknessFactor=0.1, thicknessTexture={"index": 0})
+    check(bench.run("render", textured, *CLOSE).expect(0).err.count("the thickness texture is left out") == 1, "nothing says that it is")
+    for field, value in (("thicknessFactor", -1), ("thicknessFactor", "thick"), ("attenuationDistance", -2), ("attenuationColor", [2, 0, 0])):
+        refuse(bench, volume(bench, "bad", **{field: value}), needles=(PLACE + "volume/" + field,))
+
+
+@case("glass.interface_is_the_plain_one_of_mc")
+def interface(bench):
+    words = ("builtin:glass-ball=1.5", *CLOSE)
+    body = bench.figures(*words)["pixel_hash"]
+    check(bench.figures(*words, "--glass", "interface")["pixel_hash"] != body, "--glass changes nothing")
+    check(bench.figures(*words, "--threads", "1", "--tile-size", "32")["pixel_hash"] == body, "bodies depend on tiles or threads")
+    check("--glass has no effect with --technique mc" in bench.run("render", *words, "--technique", "mc", "--glass", "interface").expect(0).err,
+          "mc takes --glass")
 
 
 @case("glass.one_fetch_is_near_the_reference", tier="nightly")
@@ -69,7 +98,7 @@ def fetched(bench):
         bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "r.exr").expect(0)
         found = {}
         for technique in ("auto", "split_isotropic", "mc"):
-            bench.run("render", *words, "--technique", technique, "-o", "t.exr").expect(0)
+            bench.run("render", *words, "--technique", technique, "--glass", "interface", "-o", "t.exr").expect(0)
             out = bench.run("compare", "r.exr", "t.exr", "--metric", "flip-hdr", "-q", "--csv", "-").expect(0).out
             found[technique] = float(next(csv.DictReader(io.StringIO(out)))["flip_mean"])
         print(name, found)
