@@ -4,27 +4,22 @@
 #include <cmath>
 
 #include "raster/frame/bodies.h"
+#include "tests/unit/reference/glass.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
 namespace {
 
-constexpr double kHalfTurn = 3.14159265358979323846;
-
-Material glass(float roughness, float ior = 1.5f)
-{
-    Material m = metal(roughness, 0.0f);
-    m.metallic = 0.0f, m.ior = ior, m.transmission = 1.0f;
-    return m;
-}
-
 // Returns a closed block of glass with half extents `half`, its middle at the origin.
 Scene block(const Material& material, const glm::vec3& half)
 {
     std::vector<Triangle> triangles = tessellated_box(1.0f, 2);
-    for (Triangle& t : triangles)
+    for (Triangle& t : triangles) {
+        if (glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), t[0] + t[1] + t[2]) < 0.0f)
+            std::swap(t[1], t[2]); // all faces turn outwards
         for (glm::vec3& corner : t)
             corner *= half;
+    }
     Scene s = scene_of(triangles, false);
     s.materials[0] = material;
     return s;
@@ -75,18 +70,6 @@ TEST(bodies, have_the_thickness_of_their_material_in_their_node_s_scale)
     EXPECT_NEAR(body.roundness, 0.005, 2e-4); // a thin wall is nearly a plate
 }
 
-double reflectance(double cosine, double ior)
-{
-    const double g = std::sqrt(ior * ior - 1.0 + cosine * cosine);
-    const double s = (cosine - g) / (cosine + g), p = (ior * ior * cosine - g) / (ior * ior * cosine + g);
-    return 0.5 * (s * s + p * p);
-}
-
-glm::vec3 sky_gradient(const glm::vec3& d)
-{
-    return glm::vec3(1.0f + 0.5f * d.x + 0.3f * d.y + 0.1f * d.z);
-}
-
 // The closed form: at a distance b from its middle, a ball with radius 1 shows the sky where two refractions turn the ray. Light that stays
 // inside comes from around: a mean of the sky, by which the closed form is followed.
 TEST(bodies, a_ball_shows_the_sky_upside_down)
@@ -104,7 +87,7 @@ TEST(bodies, a_ball_shows_the_sky_upside_down)
         const double drawn = pixel(stage.render(d, best_isa()), 1, 1).x;
         EXPECT_NEAR(drawn, r * mirrored + (1.0 - r) * ((1.0 - r) * through + r), 0.03) << b;
         d.glass = 0;
-        EXPECT_GT(std::fabs(pixel(stage.render(d, best_isa()), 1, 1).x - through), 0.1) << "one interface turns light less: " << b;
+        EXPECT_GT(std::fabs(pixel(stage.render(d, best_isa()), 1, 1).x - through), 0.05) << "one interface turns light less: " << b;
     }
 }
 
@@ -114,7 +97,7 @@ Scene block_before_wall(const Material& material, const glm::vec3& half, const g
     Scene s = block(material, half);
     Material wall = lambert(0.0f);
     wall.unlit = true, wall.base_color = glm::vec4(colour, 1.0f);
-    add_scene(s, plane_scene(wall), {0.0f, 0.0f, -2.0f}, 4.0f);
+    add_scene(s, plane_scene(wall), {0.0f, 0.0f, -1.5f}, 4.0f);
     return s;
 }
 

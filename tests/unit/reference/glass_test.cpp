@@ -3,19 +3,11 @@
 
 #include <cmath>
 
+#include "tests/unit/reference/glass.h"
 #include "tests/unit/reference/scenes.h"
 
 namespace burnish::test {
 namespace {
-
-constexpr double kHalfTurn = 3.14159265358979323846;
-
-Material glass(float alpha_lin, float ior = 1.5f, float transmission = 1.0f)
-{
-    Material m = metal(alpha_lin, 0.0f);
-    m.metallic = 0.0f, m.ior = ior, m.transmission = transmission;
-    return m;
-}
 
 ReferenceOptions by(ReferenceMode mode, std::uint64_t samples, int bounces = 8)
 {
@@ -28,11 +20,6 @@ FrameDesc anisotropic(FrameDesc d, float eta)
 {
     d.override_anisotropy = true, d.anisotropy = eta;
     return d;
-}
-
-glm::vec3 sky_gradient(const glm::vec3& d)
-{
-    return glm::vec3(1.0f + 0.5f * d.x + 0.3f * d.y + 0.1f * d.z);
 }
 
 // Nothing is absorbed. A ball returns all light except the single-scattering loss, and all light with energy compensation.
@@ -73,13 +60,6 @@ TEST(glass, passes_what_the_diffuse_part_does_not)
         const Estimate half = estimate(render_reference(tinted, d, by(ReferenceMode::direct, 256)));
         EXPECT_NEAR(half.mean, 0.5, 4.5 * half.deviation + 2e-3) << transmission;
     }
-}
-
-double reflectance(double cosine, double ior)
-{
-    const double g = std::sqrt(ior * ior - 1.0 + cosine * cosine);
-    const double s = (cosine - g) / (cosine + g), p = (ior * ior * cosine - g) / (ior * ior * cosine + g);
-    return 0.5 * (s * s + p * p);
 }
 
 // Returns the radiance through a smooth ball with radius 1, seen along -z at distance b from its centre, in the xz plane.
