@@ -32,7 +32,8 @@ struct Footprint {
 
 Footprint footprint_of(int at, int fine, int coarse)
 {
-    const double scale = static_cast<double>(fine) / coarse, begin = at * scale, end = std::min((at + 1) * scale, static_cast<double>(fine));
+    const double scale = static_cast<double>(fine) / coarse, begin = at * scale,
+                 end = std::min((at + 1) * scale, static_cast<double>(fine));
     Footprint f;
     f.first = static_cast<int>(begin), f.last = std::min(static_cast<int>(std::ceil(end)) - 1, fine - 1);
     f.first_weight = static_cast<float>(std::min(f.first + 1.0, end) - begin);
@@ -49,7 +50,8 @@ float weight_at(const Footprint& f, int i)
 Level halved(const Level& fine, const Jobs& jobs)
 {
     Level coarse = level_of(std::max(1, fine.width / 2), std::max(1, fine.height / 2));
-    const float scale = static_cast<float>(static_cast<double>(coarse.width) * coarse.height / (static_cast<double>(fine.width) * fine.height));
+    const float scale =
+        static_cast<float>(static_cast<double>(coarse.width) * coarse.height / (static_cast<double>(fine.width) * fine.height));
     jobs.parallel_for(static_cast<std::size_t>(coarse.height), [&](std::size_t y, int) {
         const Footprint down = footprint_of(static_cast<int>(y), fine.height, coarse.height);
         float* to = coarse.row(static_cast<int>(y));
@@ -87,7 +89,8 @@ BehindPicture make_behind_picture(const Frame& frame, const Jobs& jobs)
     // Pair colours with coverage and depths
     std::vector<Level> levels{level_of(width, height)};
     Level depth = level_of(width, height);
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height), samples = frame.triangle_ids.size() / pixels;
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                      samples = frame.triangle_ids.size() / pixels;
     jobs.parallel_for(static_cast<std::size_t>(height), [&](std::size_t y, int) {
         for (std::size_t p = y * static_cast<std::size_t>(width); p < (y + 1) * static_cast<std::size_t>(width); ++p) {
             const auto* const ids = frame.triangle_ids.data() + p * samples;

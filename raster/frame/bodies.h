@@ -10,9 +10,9 @@
 namespace burnish {
 
 struct Body {
-    bool thin = true;        // a mesh is open, or has no extent
-    double extent = 0.0;     // mean distance to the far side along the normal, metres, world space
-    double roundness = 0.0;  // [0,1]; 0: a plate, 1: a ball
+    bool thin = true;       // a mesh is open, or has no extent
+    double extent = 0.0;    // mean distance to the far side along the normal, metres, world space
+    double roundness = 0.0; // [0,1]; 0: a plate, 1: a ball
 };
 
 // Returns true if all meshes with the material are closed: every edge has a triangle on both sides.

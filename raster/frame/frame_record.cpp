@@ -246,9 +246,8 @@ bool FrameMaker::shows_behind(const FrameDesc& desc) const
         return std::any_of(input_.tables.draws.begin(), input_.tables.draws.end(),
                            [&](const Draw& d) { return test(scene_.materials[static_cast<std::size_t>(d.material)]); });
     };
-    return drawn([&](const MaterialRecord& m) { return refracts(m, lobe); }) && drawn([&](const MaterialRecord& m) {
-               return !refracts(m, lobe) && m.alpha_mode != kAlpha_blend && m.emitter != kOpenEmitter;
-           });
+    return drawn([&](const MaterialRecord& m) { return refracts(m, lobe); }) &&
+           drawn([&](const MaterialRecord& m) { return !refracts(m, lobe) && m.alpha_mode != kAlpha_blend && m.emitter != kOpenEmitter; });
 }
 
 void FrameMaker::take_behind(const Frame& frame)

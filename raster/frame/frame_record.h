@@ -30,7 +30,8 @@ class FrameMaker {
     // Makes the frame. check() must have accepted desc. The frame's pointers stay valid until the next call.
     ShadingFrame make(const FrameDesc& desc);
 
-    // Returns true if the frame's bodies show opaque surfaces behind them. Then draw behind_frame(desc) first, and pass it to take_behind().
+    // Returns true if the frame's bodies show opaque surfaces behind them. Then draw behind_frame(desc) first, and pass it to
+    // take_behind().
     bool shows_behind(const FrameDesc& desc) const;
     void take_behind(const Frame& frame);
     void leave_behind() { behind_ = {}; } // frames then show none
@@ -55,7 +56,7 @@ class FrameMaker {
     SceneTables scene_;
     std::vector<MaterialRecord> materials_;
     BehindPicture behind_;
-    std::vector<TextureParams> textures_; // the scene's, then behind_'s
+    std::vector<TextureParams> textures_;              // the scene's, then behind_'s
     CubeMap mip_env_;                                  // made when a technique first needs it
     using SlicedLobe = std::tuple<float, float, bool>; // standard deviations of slope; true for an Ashikhmin-Shirley lobe
     std::map<SlicedLobe, int> sliced_;                 // each lobe's first pair in lobe_slices_

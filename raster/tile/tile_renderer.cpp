@@ -171,7 +171,7 @@ class TileRenderer final : public Renderer {
     std::string lanes_;
     const TileFns& fns_;
     FrameMaker maker_;
-    Frame behind_;                          // the last frame of surfaces behind, for its memory
+    Frame behind_; // the last frame of surfaces behind, for its memory
     struct TileCounts {
         std::uint32_t fragments = 0, background = 0; // visible ones, and pixels with background
         std::uint8_t bodies = 0;                     // 1: deferred, as it shows a transmissive material

@@ -39,8 +39,8 @@ const int kSharesSamples = 32;  // shares samples with the pixels around, see sh
 const int kAutomatic = 64;      // `auto` takes this technique
 const int kRoundAlone = 128;    // shares no samples on materials without anisotropy
 
-const int kSamplesInterface = 256;    // samples both sides of transmissive surfaces; others fetch transmitted light once
-const int kPhongGrid = 512;           // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
+const int kSamplesInterface = 256; // samples both sides of transmissive surfaces; others fetch transmitted light once
+const int kPhongGrid = 512;        // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
 const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric
@@ -138,7 +138,7 @@ struct FrameRecord {
     int positions;    // something reads the positions of visible points
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
     int background, samples, texture_taps;
-    int behind;       // texture of what lies behind transmissive bodies, its inverse depths are the next one; -1: none
+    int behind; // texture of what lies behind transmissive bodies, its inverse depths are the next one; -1: none
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
 #define BN_RECORD_flag(id) int id;

@@ -9,9 +9,9 @@
 
 BN_KERNELS_BEGIN
 
-const int kBehindSteps = 24; // places along a ray; the last one is nearly at infinity
+const int kBehindSteps = 24;      // places along a ray; the last one is nearly at infinity
 const float kBehindMargin = 0.5f; // in the picture's widths and heights: surfaces at its edges continue so far, and fade
-const int kBehindCuts = 3;   // by which the place is bisected where the ray meets a surface
+const int kBehindCuts = 3;        // by which the place is bisected where the ray meets a surface
 
 // A ray over the picture.
 struct behind_ray {
@@ -21,9 +21,9 @@ struct behind_ray {
 
 // A place of a ray, as the picture shows it.
 struct behind_place {
-    real2 uv;      // of the picture, [0,1] inside
-    real z;        // metres along the view direction
-    real depth;    // 1 / z, 1/m
+    real2 uv;          // of the picture, [0,1] inside
+    real z;            // metres along the view direction
+    real depth;        // 1 / z, 1/m
     mask near_picture; // in front of the eye and not far beside the picture
 };
 
@@ -125,7 +125,8 @@ BN_STAGE real4 surfaces_behind(any_frame f, BN_IN(real3) from, BN_IN(real3) way,
     footprint.axis = vec2_all(lit(0.0));
     real4 light = texture_sample_footprint(picture, p.uv, footprint, 1);
     real beside = beside_picture(p.uv);
-    real fade = min(max((start + spread * distance) / max(pixel * splat(the_frame(f).half_height), lit(1e-20)), lit(0.125)), splat(kBehindMargin));
+    real fade =
+        min(max((start + spread * distance) / max(pixel * splat(the_frame(f).half_height), lit(1e-20)), lit(0.125)), splat(kBehindMargin));
     // A wide ray without a meeting shows the surfaces around its end
     real wide = k_saturate(footprint.lod * lit(0.5) - lit(0.5));
     real share = select(p.near_picture, k_saturate(lit(1.0) - beside / fade) * select(found, lit(1.0), wide), lit(0.0));

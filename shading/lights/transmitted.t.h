@@ -58,7 +58,8 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     // Put opaque surfaces before the environment. A ball's normals turn over a pixel, and so does the light's direction.
     if (the_frame(f).behind >= 0) {
         real turned = roundness * lit(4.0) * at.pixel / (max(extent, lit(1e-6)) * max(n_dot_v, lit(0.1)));
-        real4 behind = surfaces_behind(f, at.position + way.exit, way.direction, at.pixel, lit(2.0) * alpha * way.spread + turned * way.spread);
+        real4 behind =
+            surfaces_behind(f, at.position + way.exit, way.direction, at.pixel, lit(2.0) * alpha * way.spread + turned * way.spread);
         light = light * (lit(1.0) - behind.w) + vec3_of(behind.x, behind.y, behind.z);
     }
     // The far side reflects a share of the light; that share comes from all around
@@ -71,9 +72,9 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     return select(at.body, light * left, one);
 }
 
-// Returns transmitted light of the environment and of surfaces behind: one fetch, and for a stretched lobe two more beside it along the wide
-// axis, with weights 1/4, 1/2, 1/4. Each fetch has half of the wide width, or the narrow width if that is larger; the distances give the
-// rest. position: of the surface, world space.
+// Returns transmitted light of the environment and of surfaces behind: one fetch, and for a stretched lobe two more beside it along the
+// wide axis, with weights 1/4, 1/2, 1/4. Each fetch has half of the wide width, or the narrow width if that is larger; the distances give
+// the rest. position: of the surface, world space.
 BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point) x, BN_IN(real3) position)
 {
     transmitting_place at;
