@@ -107,7 +107,9 @@ void ReferenceRenderer::add_extracted_lights(ReferenceParams& f)
 ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 {
     ReferenceParams f = {};
-    static_cast<ShadingFrame&>(f) = maker_.make(reference_desc(desc));
+    FrameDesc own = reference_desc(desc);
+    own.glass = 0; // rays find the other interfaces
+    static_cast<ShadingFrame&>(f) = maker_.make(own);
     for (const MaterialRecord& m : maker_.materials()) {
         f.any_alpha = f.any_alpha || m.alpha_mode != kAlpha_opaque;
         f.solid_lights = f.solid_lights || m.emitter >= kSolidEmitter;

@@ -18,7 +18,8 @@ BN_KERNELS_BEGIN
 // Returns true where transmitted light comes from beyond the near side of a body. A thin body has two near sides.
 BN_FN mask enters_body(frame_ref f, material_ref m, mask front)
 {
-    return either(front, both(int_lit(the_frame(f).glass) != int_lit(0), int_lit(the_material(m).thin) != int_lit(0)));
+    bool thin = the_frame(f).glass != 0 && the_material(m).thin != 0 && (the_material(m).technique_traits & kSamplesInterface) == 0;
+    return either(front, int_lit(thin ? 1 : 0) != int_lit(0));
 }
 
 // Makes the interface of a transmissive material: the interface takes a share of the diffuse part. Where it is sampled, its

@@ -79,7 +79,7 @@ def open_bodies(bench):
 
 @case("glass.interface_is_the_plain_one_of_mc")
 def interface(bench):
-    words = ("builtin:glass-ball=1.5", *CLOSE)
+    words = ("builtin:glass-ball=1.5", "--size", "48x48", "--msaa", "2", "--env-size", "64", "--env-samples", "64")
     body = bench.figures(*words)["pixel_hash"]
     check(bench.figures(*words, "--glass", "interface")["pixel_hash"] != body, "--glass changes nothing")
     check(bench.figures(*words, "--threads", "1", "--tile-size", "32")["pixel_hash"] == body, "bodies depend on tiles or threads")
