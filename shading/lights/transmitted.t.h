@@ -62,10 +62,11 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
             surfaces_behind(f, at.position + way.exit, way.direction, at.pixel, lit(2.0) * alpha * way.spread + turned * way.spread);
         light = light * (lit(1.0) - behind.w) + vec3_of(behind.x, behind.y, behind.z);
     }
-    // The far side reflects a share of the light; that share comes from all around
-    real3 turned_back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, way.cosine);
-    real3 around = cube_sample(irradiance_cube(f), x.geometric_axes.n, lit(0.0)) * splat(the_frame(f).irradiance.scale);
-    light = light + (around - light) * turned_back;
+    // The far side reflects a share, which leaves elsewhere
+    real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, way.cosine);
+    body_way further = way_through_body(reflected_inside(ray, way), way.normal, x.through.parts.ior, extent, roundness);
+    real3 elsewhere = cube_sample(cube, further.direction, transmitted_level(cube, alpha, further.spread)) * scale;
+    light = light + (elsewhere - light) * back;
     // Absorb light inside; the second interface takes the tint again
     real3 decay = splat3(the_material(m).body_decay) * way.distance;
     real3 left = vec3_of(k_exp2(decay.x), k_exp2(decay.y), k_exp2(decay.z)) * x.through.tint;

@@ -112,6 +112,7 @@ struct body_way {
     real distance;   // inside the body, metres
     real spread;     // refracted_ray's, of both interfaces
     real cosine;     // between the direction and the far normal, outside
+    real3 normal;    // of the far side, unit, outwards
 };
 
 // Returns a ray's way through a body. inside: the ray behind the first interface. n: the geometry's normal, unit. ior: the body's. extent:
@@ -134,11 +135,21 @@ BN_FN body_way way_through_body(refracted_ray inside, real3 n, real ior, real ex
     real cos_out = sqrt(max(lit(1.0) - sine2, lit(0.0)));
     real along = ior * cos_in - cos_out;
     way.cosine = cos_out;
+    way.normal = far_normal;
     way.direction = k_normalize3(inside.direction * ior - far_normal * along);
     // A change of direction inside also moves the exit, whose normal then turns
     real turned = inside.spread * (ior * cos_in / max(cos_out, lit(0.2)) - lit(2.0) * roundness);
     way.spread = sqrt(turned * turned + along * along);
     return way;
+}
+
+// Returns the ray that the far side reflects back into the body. way: the way of `inside` through the body.
+BN_FN refracted_ray reflected_inside(refracted_ray inside, BN_IN(body_way) way)
+{
+    refracted_ray r;
+    r.direction = inside.direction - way.normal * (lit(2.0) * k_dot3(inside.direction, way.normal));
+    r.spread = inside.spread + lit(2.0); // a facet's reflection turns by twice as much as the facet
+    return r;
 }
 
 // Returns directional albedo without absorption, by samples on a Fibonacci lattice. Single scattering loses the rest.
