@@ -62,8 +62,9 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
             surfaces_behind(f, at.position + way.exit, way.direction, at.pixel, lit(2.0) * alpha * way.spread + turned * way.spread);
         light = light * (lit(1.0) - behind.w) + vec3_of(behind.x, behind.y, behind.z);
     }
-    // The far side reflects a share, which leaves elsewhere
-    real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, way.cosine);
+    // The far side reflects a share, which leaves elsewhere; a rough side's facets are met less obliquely
+    real met = sqrt(way.cosine * way.cosine + alpha * alpha * (lit(1.0) - way.cosine * way.cosine));
+    real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, met);
     body_way further = way_through_body(reflected_inside(ray, way), way.normal, x.through.parts.ior, extent, roundness);
     real3 elsewhere = cube_sample(cube, further.direction, transmitted_level(cube, alpha, further.spread)) * scale;
     light = light + (elsewhere - light) * back;
