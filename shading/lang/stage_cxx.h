@@ -133,6 +133,10 @@ BN_INLINE real4 grid_of_four(frame_ref f, int first, integer set)
                    table_value(four, set + int_lit(12)));
 }
 
+BN_INLINE constexpr bool transmission_used()
+{
+    return true;
+}
 BN_INLINE constexpr bool lobe_used(int)
 {
     return true;

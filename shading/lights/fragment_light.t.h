@@ -170,8 +170,6 @@ BN_STAGE real3 light_of_facets(any_frame f, any_material m, BN_IN(material_input
         }
         // Add the lights, weighted by the group's share of the map
         real3 light = environment_light(f, x, kSamplesLobe + kTestsHorizon, specular);
-        if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
-            light = light + transmitted_light(f, m, x, p.position);
         light = plus_lights(f, m, x, p.position, light);
         sum = sum + light * words.weight;
     }
@@ -196,7 +194,7 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
     int traits = technique_traits(m, t);
     if (!shares)
         light = environment_light(f, x, traits, technique_specular(f, t, x)) + light;
-    if (the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
+    if (transmission_used() && the_material(m).refracts != 0 && (traits & kSamplesInterface) == 0)
         light = light + transmitted_light(f, m, x, p.position);
     light = plus_lights(f, m, x, p.position, light);
     // Keep the shared part apart

@@ -91,14 +91,15 @@ BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point
     real narrow = min(x.lobe.sigma_u, x.lobe.sigma_v) * root2;
     real width = max(narrow, wide * lit(0.5));
     real slope = sqrt(max(wide * wide - width * width, lit(0.0)));
-    // Fetch in the middle and beside it; equal fetches keep the bits of one
-    real3 radiance = fetch_transmitted(f, m, x, at, x.s.n, width);
-    if (any_lane(slope > lit(0.0))) {
-        real3 beside = select(x.lobe.sigma_u > x.lobe.sigma_v, x.lobe.u_axis, x.lobe.v_axis) * slope;
-        real3 sides = fetch_transmitted(f, m, x, at, k_normalize3(x.s.n + beside), width) +
-                      fetch_transmitted(f, m, x, at, k_normalize3(x.s.n - beside), width);
-        real3 stretched = radiance + (sides - (radiance + radiance)) * lit(0.25);
-        radiance = select(slope > lit(0.0), stretched, radiance);
+    // Fetch in the middle and beside it, by one text: drivers compile each call anew
+    real3 beside = select(x.lobe.sigma_u > x.lobe.sigma_v, x.lobe.u_axis, x.lobe.v_axis) * slope;
+    real3 radiance = vec3_all(lit(0.0));
+    bool wide_lobe = any_lane(slope > lit(0.0));
+    for (int i = 0; i < (wide_lobe ? 3 : 1); ++i) {
+        real side = to_real(int_lit(i == 0 ? 0 : i * 2 - 3)); // 0, -1, 1
+        real3 n = k_normalize3(x.s.n + beside * side);
+        real weight = select(slope > lit(0.0), lit(i == 0 ? 0.5 : 0.25), lit(i == 0 ? 1.0 : 0.0));
+        radiance = radiance + fetch_transmitted(f, m, x, at, n, width) * weight;
     }
     return radiance * x.through.tint * (diffuse_energy_share(f, x) * x.s.occlusion);
 }

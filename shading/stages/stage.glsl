@@ -39,6 +39,7 @@ real3 grid_sample(frame_ref f, int i) { return vec3(bn_reals[3 * i], bn_reals[3 
 // lights, if any, and coatings.
 layout(constant_id = 1) const int kLobes = -1;
 bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
+bool transmission_used() { return (kLobes >> kGpuTransmits & 1) != 0; }
 bool area_way_used(int at) { return (kLobes >> (kGpuFirstAreaWay + at) & 1) != 0; }
 bool coating_used(int at) { return (kLobes >> (kGpuFirstCoating + at) & 1) != 0; }
 
