@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "raster/frame/layers.h"
 #include "shading/lang/tables.h"
 
 namespace burnish {

@@ -1,5 +1,5 @@
-// Opaque surfaces behind transmissive bodies, from a picture of the frame without these bodies: a ray is followed over the picture until
-// its depth passes the depth of a surface there.
+// Opaque surfaces behind transmissive bodies, from a picture of the frame without these bodies. A ray is followed over the picture until
+// it passes behind a surface.
 #ifndef BN_BEHIND_T_H
 #define BN_BEHIND_T_H
 

@@ -1,5 +1,5 @@
-// Light through transmissive surfaces, by one prefiltered fetch for a whole lobe. Light enters and leaves a body; at a single interface
-// it comes from inside the material.
+// Light through transmissive surfaces, by prefiltered fetches for a whole lobe. Light enters and leaves a body. At a single interface it
+// comes from inside the material.
 #ifndef BN_TRANSMITTED_T_H
 #define BN_TRANSMITTED_T_H
 
@@ -45,7 +45,9 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     refracted_ray ray = refracted_ray_of(n, x.s.v, n_dot_v, alpha, x.through.parts.ior);
     cube_desc cube = prefiltered_env(f);
     real scale = splat(the_frame(f).specular.scale);
-    real3 one = cube_sample(cube, ray.direction, transmitted_level(cube, alpha, ray.spread)) * scale;
+    real3 one = vec3_all(lit(0.0)); // light at a single interface
+    if (any_lane(not_(at.body)))
+        one = cube_sample(cube, ray.direction, transmitted_level(cube, alpha, ray.spread)) * scale;
     if (no_lane(at.body))
         return one;
     // Follow the light through the body

@@ -105,7 +105,7 @@ BN_FN refracted_ray refracted_ray_of(real3 n, real3 v, real n_dot_v, real alpha,
     return r;
 }
 
-// Way of transmitted light through a body, from the interface where the eye sees the body to the interface where the light leaves.
+// Way of transmitted light through a body, from the seen interface to the interface where the light leaves.
 struct body_way {
     real3 exit;      // place where the light leaves, from the place that the eye sees, metres
     real3 direction; // unit, away from the body
