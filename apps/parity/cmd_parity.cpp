@@ -25,8 +25,9 @@ namespace {
 constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares 32-bit words of each stage: clip positions, visibility (the triangle of each
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
-With the exact sampler all words must be equal, except visibility for one sample in a million. Pictures of --pipeline forward must look the
-same (mean FLIP below 0.002). Each pixel that differs is assigned to the first stage that differs by more than 0.001, or to rounding.
+With the exact sampler all words must be equal, except visibility for one sample in a million. Pictures of a GPU, which may divide inexactly,
+and of --pipeline forward must look the same (mean FLIP below 0.002). Each pixel that differs is assigned to the first stage that differs by
+more than 0.001, or to rounding.
 
 Examples:
   burnish parity
@@ -83,6 +84,7 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     BN_TRY(b);
     row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
+    row.gpu = !bench.device->info().cpu;
     row.counts = compare_stages(*a, *b, desc.msaa);
     const Image flip = flip_map(a->color, b->color, *bench.jobs);
     row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;

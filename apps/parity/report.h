@@ -13,6 +13,7 @@ struct ParityRow {
     int msaa = 1;
     std::string sampler, pipeline;
     bool samples_emulated = false;
+    bool gpu = false;             // a graphics processor, where Vulkan lets division and square roots be inexact
     std::uint64_t pixel_hash = 0; // the tile renderer's picture
     ParityCounts counts;
     double flip_mean = 0.0;
@@ -27,8 +28,8 @@ struct ParityReport {
     std::vector<ParityRow> rows;
 };
 
-// Limits for a row. With an exact sampler and visibility first, every word is equal in all stages but visibility. Over all rows, one
-// visibility sample in a million may differ. Otherwise the pictures must look the same.
+// Limits for a row. On a CPU device, with an exact sampler and visibility first, every word is equal in all stages but visibility. Over all
+// such rows, one visibility sample in a million may differ. Other pictures must look the same.
 inline constexpr double kMaxVisibilityShare = 1e-6, kMaxFlipMean = 0.002;
 bool bits_promised(const ParityRow& row);
 std::string fault_of(const ParityRow& row); // empty: within the limits, visibility aside

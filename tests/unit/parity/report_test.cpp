@@ -48,6 +48,19 @@ TEST(parity_report, passes_equal_rows_only)
     EXPECT_FALSE(fault_of(other).empty());
 }
 
+TEST(parity_report, holds_a_gpu_to_its_picture)
+{
+    const Frame a = two_pixels();
+    Frame b = a;
+    b.stages.pairs[1] ^= 1u;
+    ParityRow row = row_of(a, b);
+    EXPECT_FALSE(fault_of(row).empty()) << "a CPU device differs by a word";
+    row.gpu = true;
+    EXPECT_TRUE(fault_of(row).empty());
+    row.flip_mean = kMaxFlipMean;
+    EXPECT_NE(fault_of(row).find("FLIP"), std::string::npos);
+}
+
 TEST(parity_report, allows_one_sample_in_a_million_in_all_rows_together)
 {
     ParityRow row;
