@@ -38,4 +38,44 @@ struct BakeFns { // work on one face of size x size, a power of two
 
 BN_DECLARE_FNS(BakeFns);
 
+// One level of a light tree (environment/light_tree.h). The four parts of a texel in the next coarser level form a quad. Quads follow each
+// other as those texels do, face by face and row-major.
+struct LightLevel {
+    int size;             // texels along an edge of a face
+    const double* angles; // sr, by quad, of one face; all faces are alike
+    const float* places;  // by quad, then x of the four parts, y of the four, z of the four: the light's mean directions, unit
+    const float* rgb;     // radiance, row-major
+};
+
+// Terms in the order of the tree, with marks where parts of it are still to be walked.
+struct GatherMark {
+    int term;        // the first term behind the part
+    int face, level; // the texel whose parts are meant
+    int x, y;
+    int first, end; // its parts, [0,4]
+};
+struct GatherList {
+    PrefilterTerm* terms;
+    GatherMark* marks;
+    int term_count, mark_count, most_terms, most_marks;
+};
+
+// Texels that share a walk. Chords stand for angles.
+struct GatherInput {
+    const LightLevel* levels; // finest first
+    double centre[3];         // unit
+    double nearer, farther;   // subtracted from the distance to the centre: at least, and at most, the distance to each block
+    double width2;            // squared width of the lobe
+    double opening2;          // squared opening; see gather_terms()
+    double farthest2;         // no piece is larger than it would be at this squared distance
+};
+
+struct LightTreeFns {
+    // Copies the terms of `from`, and walks the parts that it marks. Writes new marks for parts that some blocks take and others open.
+    // There are none if nearer and farther are equal. Returns false if `to` is too short.
+    bool (*gather)(const GatherInput& input, const GatherList& from, GatherList& to);
+};
+
+BN_DECLARE_FNS(LightTreeFns);
+
 } // namespace burnish

@@ -25,6 +25,7 @@ namespace {
 
 constexpr int kIrradianceSource = 64; // texels along an edge of the level that irradiance reads
 constexpr int kTexelsAJob = 512;
+constexpr int kMostBlocksAlong = 8, kSquaresAlong = 4; // blocks along a square that shares a walk at most; squares along a face at least
 // A light piece's size over its distance (light_tree.h), times the square root of the number of pieces, roughly. Chosen so that 1024
 // pieces suffice under suns and between lamps.
 constexpr double kOpening = 6.4, kWidestOpening = 1.0;
@@ -52,26 +53,32 @@ std::vector<CubeLevel> box_chain(CubeLevel level0, const Jobs& jobs)
     return chain;
 }
 
-// Prefilters a level, in blocks of texels that share their terms.
-std::vector<float> prefilter_level(const LightTree& tree, int size, double alpha, double opening, const Jobs& jobs, Progress& progress)
+// Prefilters a level, in blocks of texels that share their terms and squares of blocks that share a walk over the light tree.
+std::vector<float> prefilter_level(const std::vector<LightLevel>& tree, int size, double alpha, double opening, const Jobs& jobs,
+                                   Progress& progress)
 {
     std::vector<float> rgb(cube_texels(size) * 3);
     const BakeFns& fns = pick<BakeFns>();
-    const int side = std::min(kPrefilterBlock, size), blocks = size / side;
-    std::vector<std::vector<PrefilterTerm>> scratch(static_cast<std::size_t>(jobs.threads()));
-    jobs.parallel_for(6 * static_cast<std::size_t>(blocks) * static_cast<std::size_t>(blocks), [&](std::size_t i, int worker) {
-        const int at = static_cast<int>(i), face = at / (blocks * blocks), x = at % blocks * side, y = at / blocks % blocks * side;
+    const int side = std::min(kPrefilterBlock, size), along = std::clamp(size / side / kSquaresAlong, 1, kMostBlocksAlong);
+    const int squares = size / side / along;
+    std::vector<GatherScratch> scratch(static_cast<std::size_t>(jobs.threads()));
+    jobs.parallel_for(6 * static_cast<std::size_t>(squares) * static_cast<std::size_t>(squares), [&](std::size_t i, int worker) {
+        const int at = static_cast<int>(i), face = at / (squares * squares), wide = side * along;
+        const int left = at % squares * wide, top = at / squares % squares * wide;
         const double step = 2.0 / size;
-        std::vector<PrefilterTerm>& terms = scratch[static_cast<std::size_t>(worker)];
-        gather_terms(tree, {face, x * step - 1.0, y * step - 1.0, (x + side) * step - 1.0, (y + side) * step - 1.0}, alpha, opening, terms);
-        float block[kPrefilterBlock * kPrefilterBlock * 3];
-        fns.prefilter({terms.data(), static_cast<int>(terms.size()), static_cast<float>(alpha)}, face, size, x, y, block);
-        for (int row = 0; row < side; ++row) {
-            const std::size_t first =
-                static_cast<std::size_t>(face * size + y + row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
-            std::copy_n(block + row * side * 3, side * 3, rgb.data() + first * 3);
-        }
-        progress.step(static_cast<std::size_t>(side * side));
+        const BlockSquare square = {face, along, left * step - 1.0, top * step - 1.0, side * step};
+        gather_terms(tree, square, alpha, opening, scratch[static_cast<std::size_t>(worker)],
+                     [&](int block_x, int block_y, std::span<const PrefilterTerm> terms) {
+                         const int x = left + block_x * side, y = top + block_y * side;
+                         float block[kPrefilterBlock * kPrefilterBlock * 3];
+                         fns.prefilter({terms.data(), static_cast<int>(terms.size()), static_cast<float>(alpha)}, face, size, x, y, block);
+                         for (int row = 0; row < side; ++row) {
+                             const std::size_t first = static_cast<std::size_t>(face * size + y + row) * static_cast<std::size_t>(size) +
+                                                       static_cast<std::size_t>(x);
+                             std::copy_n(block + row * side * 3, side * 3, rgb.data() + first * 3);
+                         }
+                     });
+        progress.step(static_cast<std::size_t>(wide) * static_cast<std::size_t>(wide));
     });
     return rgb;
 }
@@ -85,10 +92,11 @@ CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int sam
     if (levels == 1)
         return chain;
     const LightTree tree = make_light_tree(boxes, jobs);
+    const std::vector<LightLevel> tree_levels = tree.levels();
     const double opening = std::min(kOpening / std::sqrt(samples), kWidestOpening);
     for (int l = 1; l < levels; ++l) {
         const double alpha_lin = static_cast<double>(l) / (levels - 1);
-        const std::vector<float> rgb = prefilter_level(tree, size >> l, alpha_lin * alpha_lin, opening, jobs, progress);
+        const std::vector<float> rgb = prefilter_level(tree_levels, size >> l, alpha_lin * alpha_lin, opening, jobs, progress);
         store_cube_level(chain, l, rgb.data(), jobs);
     }
     return chain;

@@ -1,7 +1,10 @@
 #include "shading/bake/environment/light_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/simd/dispatch.h"
 
 namespace burnish {
 namespace {
@@ -27,49 +30,64 @@ double brightness(const float* rgb)
 // of width 1.
 constexpr double kWidest = 0.3;
 
-// A texel in a level of the tree.
-struct TreeNode {
-    int level, x, y;
-};
-
-Direction place_of(const LightTree& tree, int face, const TreeNode& node)
+// Returns the quads along an edge of a face. A face of one texel is part of a quad.
+std::size_t quads_along(int size)
 {
-    const int size = tree.boxes[static_cast<std::size_t>(node.level)].size;
-    if (node.level == 0)
-        return centre_of(face, size, node.x, node.y);
-    const std::size_t texel = (static_cast<std::size_t>(face) * static_cast<std::size_t>(size) + static_cast<std::size_t>(node.y)) *
-                                  static_cast<std::size_t>(size) +
-                              static_cast<std::size_t>(node.x);
-    const float* p = tree.places[static_cast<std::size_t>(node.level)].data() + 3 * texel;
-    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    return static_cast<std::size_t>(std::max(size / 2, 1));
 }
 
-// Returns the places of a level's texels: means over the finer level's places, weighted by light, or by solid angle where there is no
-// light.
-std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
+// Returns where texel (x, y) of a level stands among the quads of its face.
+std::size_t place_in_quads(int size, int x, int y)
+{
+    const std::size_t quad = static_cast<std::size_t>(y / 2) * quads_along(size) + static_cast<std::size_t>(x / 2);
+    return quad * 4 + static_cast<std::size_t>(y % 2 * 2 + x % 2);
+}
+
+// Returns the index of a texel's x among the places of a level. Its y and z stand 4 and 8 numbers behind.
+std::size_t index_of_place(int size, int face, int x, int y)
+{
+    const std::size_t at = place_in_quads(size, x, y);
+    return (static_cast<std::size_t>(face) * quads_along(size) * quads_along(size) + at / 4) * 12 + at % 4;
+}
+
+Direction place_of(const LightTree& tree, int level, int face, int x, int y)
+{
+    const int size = tree.boxes[static_cast<std::size_t>(level)].size;
+    if (level == 0)
+        return centre_of(face, size, x, y);
+    const float* p = tree.places[static_cast<std::size_t>(level)].data() + index_of_place(size, face, x, y);
+    return {static_cast<double>(p[0]), static_cast<double>(p[4]), static_cast<double>(p[8])};
+}
+
+// Returns the mean direction of a texel's light, from the finer level. Without light, solid angle weighs.
+Direction mean_place(const LightTree& tree, int level, int face, int x, int y)
 {
     const CubeLevel& fine = tree.boxes[static_cast<std::size_t>(level - 1)];
-    const int size = fine.size / 2;
-    std::vector<float> places(cube_texels(size) * 3);
+    Direction lit = {0.0, 0.0, 0.0}, all = {0.0, 0.0, 0.0};
+    double light = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const int part_x = 2 * x + k % 2, part_y = 2 * y + k / 2;
+        const std::size_t at = static_cast<std::size_t>(part_y) * static_cast<std::size_t>(fine.size) + static_cast<std::size_t>(part_x);
+        const Direction d = place_of(tree, level - 1, face, part_x, part_y);
+        const double angle = fine.solid_angle[at];
+        const double w = angle * brightness(fine.rgb.data() + (static_cast<std::size_t>(face) * fine.solid_angle.size() + at) * 3);
+        lit = {lit.x + w * d.x, lit.y + w * d.y, lit.z + w * d.z};
+        all = {all.x + angle * d.x, all.y + angle * d.y, all.z + angle * d.z};
+        light += w;
+    }
+    return normalized(light > 0.0 ? lit : all);
+}
+
+std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
+{
+    const int size = tree.boxes[static_cast<std::size_t>(level)].size;
+    std::vector<float> places(6 * quads_along(size) * quads_along(size) * 12);
     jobs.parallel_for(6 * static_cast<std::size_t>(size), [&](std::size_t row, int) {
         const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
-        float* to = places.data() + row * static_cast<std::size_t>(size) * 3;
-        for (int x = 0; x < size; ++x, to += 3) {
-            Direction lit = {0.0, 0.0, 0.0}, all = {0.0, 0.0, 0.0};
-            double light = 0.0;
-            for (int k = 0; k < 4; ++k) {
-                const TreeNode child = {level - 1, 2 * x + k % 2, 2 * y + k / 2};
-                const std::size_t at =
-                    static_cast<std::size_t>(child.y) * static_cast<std::size_t>(fine.size) + static_cast<std::size_t>(child.x);
-                const Direction d = place_of(tree, face, child);
-                const double angle = fine.solid_angle[at];
-                const double w = angle * brightness(fine.rgb.data() + (static_cast<std::size_t>(face) * fine.solid_angle.size() + at) * 3);
-                lit = {lit.x + w * d.x, lit.y + w * d.y, lit.z + w * d.z};
-                all = {all.x + angle * d.x, all.y + angle * d.y, all.z + angle * d.z};
-                light += w;
-            }
-            const Direction place = normalized(light > 0.0 ? lit : all);
-            to[0] = static_cast<float>(place.x), to[1] = static_cast<float>(place.y), to[2] = static_cast<float>(place.z);
+        for (int x = 0; x < size; ++x) {
+            const Direction place = level == 0 ? centre_of(face, size, x, y) : mean_place(tree, level, face, x, y);
+            float* to = places.data() + index_of_place(size, face, x, y);
+            to[0] = static_cast<float>(place.x), to[4] = static_cast<float>(place.y), to[8] = static_cast<float>(place.z);
         }
     });
     return places;
@@ -79,75 +97,118 @@ std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
 
 LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
 {
-    LightTree tree = {boxes, {}};
-    tree.places.emplace_back();
-    for (int level = 1; level < static_cast<int>(boxes.size()); ++level)
+    LightTree tree = {boxes, {}, {}};
+    for (int level = 0; level < static_cast<int>(boxes.size()); ++level) {
+        const CubeLevel& box = boxes[static_cast<std::size_t>(level)];
+        std::vector<double>& angles = tree.angles.emplace_back(quads_along(box.size) * quads_along(box.size) * 4);
+        for (int y = 0; y < box.size; ++y)
+            for (int x = 0; x < box.size; ++x)
+                angles[place_in_quads(box.size, x, y)] = box.solid_angle[static_cast<std::size_t>(y * box.size + x)];
         tree.places.push_back(places_of(tree, level, jobs));
+    }
     return tree;
 }
 
-void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms)
+std::vector<LightLevel> LightTree::levels() const
 {
-    terms.clear();
-    // Bound the block by a circle
-    const Direction centre = normalized(cube_direction(block.face, 0.5 * (block.u0 + block.u1), 0.5 * (block.v0 + block.v1)));
-    double radius = 0.0; // chords stand for angles throughout
-    for (int k = 0; k < 4; ++k) {
-        const Direction d = normalized(cube_direction(block.face, k % 2 ? block.u1 : block.u0, k / 2 ? block.v1 : block.v0));
-        radius = std::max(radius, std::hypot(d.x - centre.x, d.y - centre.y, d.z - centre.z));
-    }
-    const double width2 = 4.0 * alpha * alpha; // a lobe is twice as wide about the mirrored direction as in half vectors
-    const double opening2 = opening * opening, farthest = kWidest / alpha;
-    constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
-    // Walk the tree of each face, depth first
-    struct Seen {
-        TreeNode node;
-        Direction place;
-        std::size_t at; // index in its face
-        double angle, distance;
-        bool opens;
-    };
-    std::vector<Seen> waiting; // a stack
-    for (int face = 0; face < 6; ++face) {
-        const auto seen = [&](const TreeNode& node) {
-            const CubeLevel& box = tree.boxes[static_cast<std::size_t>(node.level)];
-            Seen s;
-            s.node = node;
-            s.at = static_cast<std::size_t>(node.y) * static_cast<std::size_t>(box.size) + static_cast<std::size_t>(node.x);
-            s.angle = box.solid_angle[s.at];
-            s.place = place_of(tree, face, node);
-            const double dx = s.place.x - centre.x, dy = s.place.y - centre.y, dz = s.place.z - centre.z;
-            s.distance = std::max(std::sqrt(dx * dx + dy * dy + dz * dz) - radius, 0.0);
-            s.opens = node.level > 0 && s.angle > opening2 * std::min(s.distance * s.distance + width2, farthest * farthest);
-            return s;
-        };
-        const auto take = [&](const Seen& s) {
-            if (s.distance >= kHorizon)
-                return;
-            const CubeLevel& box = tree.boxes[static_cast<std::size_t>(s.node.level)];
-            const float* rgb = box.rgb.data() + (static_cast<std::size_t>(face) * box.solid_angle.size() + s.at) * 3;
-            const float w = static_cast<float>(s.angle);
-            terms.push_back({static_cast<float>(s.place.x), static_cast<float>(s.place.y), static_cast<float>(s.place.z), w, rgb[0] * w,
-                             rgb[1] * w, rgb[2] * w});
-        };
-        waiting.assign(1, seen({static_cast<int>(tree.boxes.size()) - 1, 0, 0}));
-        while (!waiting.empty()) {
-            const Seen s = waiting.back();
-            waiting.pop_back();
-            if (!s.opens) {
-                take(s);
-                continue;
-            }
-            Seen parts[4]; // computed together, because their square roots are slow
-            for (int k = 0; k < 4; ++k)
-                parts[k] = seen({s.node.level - 1, 2 * s.node.x + k % 2, 2 * s.node.y + k / 2});
-            int first = 0;
-            for (; first < 4 && !parts[first].opens; ++first)
-                take(parts[first]);
-            for (int k = 3; k >= first; --k)
-                waiting.push_back(parts[k]);
+    std::vector<LightLevel> found;
+    for (std::size_t l = 0; l < angles.size(); ++l)
+        found.push_back({boxes[l].size, angles[l].data(), places[l].data(), boxes[l].rgb.data()});
+    return found;
+}
+
+namespace {
+
+// A block's circle; chords stand for angles.
+struct Circle {
+    Direction centre; // unit
+    double radius;
+};
+
+double chord(const Direction& a, const Direction& b)
+{
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+Circle circle_of(const BlockSquare& square, int x, int y)
+{
+    const double u0 = square.u0 + x * square.side, v0 = square.v0 + y * square.side, u1 = u0 + square.side, v1 = v0 + square.side;
+    Circle circle = {normalized(cube_direction(square.face, 0.5 * (u0 + u1), 0.5 * (v0 + v1))), 0.0};
+    for (int k = 0; k < 4; ++k)
+        circle.radius =
+            std::max(circle.radius, chord(normalized(cube_direction(square.face, k % 2 ? u1 : u0, k / 2 ? v1 : v0)), circle.centre));
+    return circle;
+}
+
+GatherList list_of(GatherScratch::List& memory)
+{
+    return {memory.terms.data(), memory.marks.data(), 0, 0, static_cast<int>(memory.terms.size()), static_cast<int>(memory.marks.size())};
+}
+
+struct Gathering {
+    const std::vector<LightLevel>& levels;
+    const BlockSquare& square;
+    std::vector<Circle> circles; // by block
+    GatherInput input;           // without circle
+    GatherScratch& scratch;
+    const std::function<void(int, int, std::span<const PrefilterTerm>)>& use;
+
+    // Gathers for the blocks [x, x + along) x [y, y + along) from the list of a larger square.
+    void gather(int x, int y, int along, std::size_t depth, const GatherList& from)
+    {
+        // Bound the blocks' circles
+        const auto at = [&](int i, int j) -> const Circle& { return circles[static_cast<std::size_t>(j * square.along + i)]; };
+        Circle all = at(x, y);
+        GatherInput in = input;
+        in.nearer = in.farther = all.radius;
+        if (along > 1) {
+            constexpr double kRounding = 1e-9; // far above that of the distances
+            const double half = 0.5 * along;
+            all.centre =
+                normalized(cube_direction(square.face, square.u0 + (x + half) * square.side, square.v0 + (y + half) * square.side));
+            double reach = 0.0, least = all.radius, most = all.radius;
+            for (int j = y; j < y + along; ++j)
+                for (int i = x; i < x + along; ++i) {
+                    const Circle& c = at(i, j);
+                    reach = std::max(reach, chord(c.centre, all.centre));
+                    least = std::min(least, c.radius), most = std::max(most, c.radius);
+                }
+            in.nearer = most + reach + kRounding, in.farther = least - reach - kRounding;
         }
+        in.centre[0] = all.centre.x, in.centre[1] = all.centre.y, in.centre[2] = all.centre.z;
+        // Gather, with more memory where the terms are too many
+        GatherScratch::List& memory = scratch.lists[depth];
+        GatherList to = list_of(memory);
+        while (!pick<LightTreeFns>().gather(in, from, to)) {
+            memory.terms.resize(memory.terms.size() * 2), memory.marks.resize(memory.marks.size() * 2);
+            to = list_of(memory);
+        }
+        if (along == 1) {
+            use(x, y, {to.terms, static_cast<std::size_t>(to.term_count)});
+            return;
+        }
+        for (int k = 0; k < 4; ++k)
+            gather(x + k % 2 * along / 2, y + k / 2 * along / 2, along / 2, depth + 1, to);
     }
+};
+
+} // namespace
+
+void gather_terms(const std::vector<LightLevel>& levels, const BlockSquare& square, double alpha, double opening, GatherScratch& scratch,
+                  const std::function<void(int, int, std::span<const PrefilterTerm>)>& use)
+{
+    // A lobe is twice as wide about the mirrored direction as in half vectors
+    const double width2 = 4.0 * alpha * alpha, farthest = kWidest / alpha;
+    Gathering gathering = {levels, square, {}, {levels.data(), {}, 0.0, 0.0, width2, opening * opening, farthest * farthest}, scratch, use};
+    for (int y = 0; y < square.along; ++y)
+        for (int x = 0; x < square.along; ++x)
+            gathering.circles.push_back(circle_of(square, x, y));
+    scratch.lists.resize(std::max(scratch.lists.size(), static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(square.along)))),
+                         {std::vector<PrefilterTerm>(2048), std::vector<GatherMark>(1024)});
+    GatherMark faces[6];
+    for (int face = 0; face < 6; ++face)
+        faces[face] = {0, face, static_cast<int>(levels.size()), 0, 0, 0, 4}; // the one part is the face
+    gathering.gather(0, 0, square.along, 0, {nullptr, faces, 0, 6, 0, 6});
 }
 
 } // namespace burnish

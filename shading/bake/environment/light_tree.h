@@ -3,6 +3,8 @@
 // sun's place, even from a large piece far away.
 #pragma once
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/jobs/jobs.h"
@@ -13,20 +15,33 @@ namespace burnish {
 
 struct LightTree {
     const std::vector<CubeLevel>& boxes; // finest first, each half as large, down to one texel per face
-    // By level from 1 on, then texel, xyz: the texel light's mean direction, unit. Level 0 is empty: its texels' light comes from their
-    // centres.
+    // By level, in the order of LightLevel. Places are the mean directions of the texels' light, unit. Light of level 0 comes from the
+    // texels' centres.
+    std::vector<std::vector<double>> angles;
     std::vector<std::vector<float>> places;
+    std::vector<LightLevel> levels() const;
 };
-// Builds the tree. boxes must outlive it.
+// Builds the tree. boxes must outlive it, and have two levels or more.
 LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs);
 
-// A square of texels that share their pieces. u, v: [-1,1], at its corners.
-struct PrefilterBlock {
-    int face;
-    double u0, v0, u1, v1;
+// Squares of blocks on a face. The texels of a block share their pieces. Blocks: `along` x `along` of side `side`, the first at (u0, v0);
+// u, v: [-1,1].
+struct BlockSquare {
+    int face, along;
+    double u0, v0, side;
 };
-// Gathers light pieces for lobes of width alpha (GGX, (0,1]) around a block's directions. No piece is larger than `opening` times its
-// distance or the lobe's width. Leaves out pieces below every texel's horizon. Replaces the contents of `terms`.
-void gather_terms(const LightTree& tree, const PrefilterBlock& block, double alpha, double opening, std::vector<PrefilterTerm>& terms);
+// Memory for gathering, to be kept by a thread.
+struct GatherScratch {
+    struct List {
+        std::vector<PrefilterTerm> terms;
+        std::vector<GatherMark> marks;
+    };
+    std::vector<List> lists; // by depth
+};
+// Gathers light pieces for lobes of width alpha (GGX, (0,1]) around each block's directions, and calls use(x, y, terms) for block (x, y) of
+// the square. No piece is larger than `opening` times its distance or the lobe's width. Pieces below every texel's horizon are left out.
+// Blocks share a walk as long as they open the same pieces. along: a power of two.
+void gather_terms(const std::vector<LightLevel>& levels, const BlockSquare& square, double alpha, double opening, GatherScratch& scratch,
+                  const std::function<void(int, int, std::span<const PrefilterTerm>)>& use);
 
 } // namespace burnish

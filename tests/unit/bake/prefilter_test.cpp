@@ -147,6 +147,44 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
     }
 }
 
+// Bits of the terms by block.
+std::vector<std::vector<std::uint32_t>> terms_by_block(const LightTree& tree, const BlockSquare& square, double alpha, double opening)
+{
+    std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(square.along * square.along));
+    GatherScratch scratch;
+    gather_terms(tree.levels(), square, alpha, opening, scratch, [&](int x, int y, std::span<const PrefilterTerm> terms) {
+        std::vector<std::uint32_t>& bits = found[static_cast<std::size_t>(y * square.along + x)];
+        bits.resize(terms.size() * sizeof(PrefilterTerm) / sizeof(std::uint32_t));
+        std::memcpy(bits.data(), terms.data(), terms.size_bytes());
+    });
+    return found;
+}
+
+TEST(prefilter, blocks_that_share_a_walk_have_the_terms_of_blocks_alone)
+{
+    const Jobs jobs(2);
+    std::vector<CubeLevel> boxes;
+    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
+    while (boxes.back().size > 1)
+        boxes.push_back(half_cube_level(boxes.back(), jobs));
+    const LightTree tree = make_light_tree(boxes, jobs);
+    std::size_t fewest = 1u << 20, most = 0;
+    for (const double alpha : {0.02, 0.1, 0.4, 1.0})
+        for (const double opening : {0.02, 0.2, 1.0}) // all finest texels to whole faces
+            for (const int face : {0, 3, 4}) {
+                const BlockSquare square = {face, 4, -1.0, 0.0, 0.25};
+                const auto together = terms_by_block(tree, square, alpha, opening);
+                for (int k = 0; k < 16; ++k) {
+                    const BlockSquare one = {face, 1, square.u0 + k % 4 * square.side, square.v0 + k / 4 * square.side, square.side};
+                    const auto alone = terms_by_block(tree, one, alpha, opening)[0];
+                    ASSERT_EQ(together[static_cast<std::size_t>(k)], alone) << "width " << alpha << ", opening " << opening;
+                    fewest = std::min(fewest, alone.size() / 7), most = std::max(most, alone.size() / 7);
+                }
+            }
+    EXPECT_LE(fewest, 12u);
+    EXPECT_GT(most, 2000u);
+}
+
 TEST(prefilter, every_instruction_set_and_split_gives_the_same_bits)
 {
     const Jobs jobs(1);
@@ -156,7 +194,9 @@ TEST(prefilter, every_instruction_set_and_split_gives_the_same_bits)
         boxes.push_back(half_cube_level(boxes.back(), jobs));
     const LightTree tree = make_light_tree(boxes, jobs);
     std::vector<PrefilterTerm> terms;
-    gather_terms(tree, {2, -1.0, -1.0, 0.0, 0.0}, 0.36, 0.3, terms);
+    GatherScratch scratch;
+    gather_terms(tree.levels(), {2, 1, -1.0, -1.0, 1.0}, 0.36, 0.3, scratch,
+                 [&](int, int, std::span<const PrefilterTerm> found) { terms.assign(found.begin(), found.end()); });
     const IrradianceSource source = make_irradiance_source(boxes[0]);
     const auto run = [&](const BakeFns& fns, int piece) {
         std::vector<float> out(2 * 6 * 64 * 3);
