@@ -1,13 +1,20 @@
 #include "core/base/cache.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 #include <vector>
 
 #include "core/base/file.h"
+#include "core/base/hash.h"
 
 namespace burnish {
 namespace {
@@ -98,6 +105,29 @@ void note_cache_use(const std::string& file)
 {
     std::error_code ignored; // on failure the file only looks older than it is
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+}
+
+CacheLock::CacheLock(const std::string& file, double most_seconds)
+{
+    // One file holds all locks, each on a byte of its own: a killed holder leaves nothing behind
+    const fs::path path(file);
+    std::error_code failed;
+    fs::create_directories(path.parent_path(), failed); // without a folder there is no lock
+    Descriptor opened(::open((path.parent_path() / "locks").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+    if (!opened)
+        return;
+    const std::string name = path.filename().string();
+    struct flock byte {};
+    byte.l_type = F_WRLCK, byte.l_whence = SEEK_SET, byte.l_len = 1;
+    byte.l_start = static_cast<off_t>(hash_bytes(name.data(), name.size()) >> 2);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_seconds);
+    while (::fcntl(opened.get(), F_OFD_SETLK, &byte) != 0) {
+        if ((errno != EAGAIN && errno != EACCES) || std::chrono::steady_clock::now() >= end)
+            return;
+        waited_ = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    lock_.reset(opened.release());
 }
 
 void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep)

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/descriptor.h"
+
 namespace burnish {
 
 // Returns $XDG_CACHE_HOME/burnish or ~/.cache/burnish. Returns "" where neither is an absolute path.
@@ -25,5 +27,19 @@ CacheUse cache_use(const std::string& folder);
 void note_cache_use(const std::string& file);
 // Removes the least recently used files until at most `limit` bytes are left. Never removes `keep`.
 void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep);
+
+// The right to make a cache file, so that processes that want the same file make it once. The constructor waits while
+// another holder makes `file`, at most `most_seconds`. Without a file system that locks, nobody waits.
+class CacheLock {
+  public:
+    CacheLock(const std::string& file, double most_seconds);
+    bool waited() const { return waited_; } // the file may have appeared meanwhile
+    bool held() const { return static_cast<bool>(lock_); }
+
+  private:
+    Descriptor lock_;
+    bool waited_ = false;
+};
+inline constexpr double kMostLockSeconds = 600.0; // far beyond a bake: a stopped holder keeps its lock
 
 } // namespace burnish

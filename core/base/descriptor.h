@@ -21,6 +21,7 @@ class Descriptor {
             ::close(fd_);
         fd_ = fd;
     }
+    int release() { return std::exchange(fd_, -1); }
     int close() // returns 0, or -1 and sets errno
     {
         const int fd = fd_;

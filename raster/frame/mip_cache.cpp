@@ -4,6 +4,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "core/base/cache.h"
 #include "core/base/file.h"
@@ -60,6 +61,14 @@ MipFile read_cached(const std::string& path)
     return read ? std::move(*read) : MipFile();
 }
 
+// Waits while another process makes the levels, then calls find() again. Returns true if it finds them.
+template <class Find> bool found_after_waiting(std::optional<CacheLock>& lock, const std::string& path, const Find& find)
+{
+    const Activity activity("waiting for another process that makes these levels");
+    lock.emplace(path, kMostLockSeconds);
+    return lock->waited() && find();
+}
+
 Status write_kept(const std::string& path, const MipParts& levels)
 {
     const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -79,11 +88,17 @@ void keep_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const
     if (std::any_of(kept.begin(), kept.end(), fit))
         return;
     const std::string path = cache_path(folder, hash, scene, m, mips);
-    if (MipFile file = read_cached(path); file.materials.size() == 1 && file.maps.empty() && fit(file.materials[0])) {
+    const auto find = [&] {
+        MipFile file = read_cached(path);
+        if (file.materials.size() != 1 || !file.maps.empty() || !fit(file.materials[0]))
+            return false;
         note_cache_use(path);
         kept.push_back(std::move(file.materials[0]));
+        return true;
+    };
+    std::optional<CacheLock> lock; // until the levels are cached
+    if (find() || found_after_waiting(lock, path, find))
         return;
-    }
     const Activity activity("levels of " + levels_name(m, mips));
     kept.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
     if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
@@ -98,11 +113,17 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
     if (find_map(kept, id, image))
         return;
     const std::string path = cache_path(folder, id);
-    if (MipFile file = read_cached(path); file.materials.empty() && file.maps.size() == 1 && find_map(file.maps, id, image)) {
+    const auto find = [&] {
+        MipFile file = read_cached(path);
+        if (!file.materials.empty() || file.maps.size() != 1 || !find_map(file.maps, id, image))
+            return false;
         note_cache_use(path);
         kept.push_back(std::move(file.maps[0]));
+        return true;
+    };
+    std::optional<CacheLock> lock; // until the levels are cached
+    if (find() || found_after_waiting(lock, path, find))
         return;
-    }
     const Activity activity(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name + "'");
     kept.push_back(map_levels(scene, m, map, id, jobs));
     if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)

@@ -44,6 +44,19 @@ def killed(bench):
     check(bench.left_behind() == ["straight.ltc", "t.ltc"], f"left {bench.left_behind()}")
 
 
+@case("bake.processes_that_want_one_environment_bake_it_once")
+def once(bench):
+    env = bench.environment({"XDG_CACHE_HOME": str(bench.folder / "cache")})
+    words = ("render", "builtin:sphere", "--size", "16x16", "--msaa", "1", "--env-size", "256", "--env-samples", "4096", "-q")
+    running = [subprocess.Popen([bench.program, *words, "-o", f"{i}.pfm", "--stats", f"{i}.json"], cwd=bench.folder, env=env,
+                                stdin=subprocess.DEVNULL) for i in range(3)]
+    check(all(process.wait(timeout=120.0) == 0 for process in running), "a process failed")
+    found = [json.loads((bench.folder / f"{i}.json").read_text()) for i in range(3)]
+    baked = sum(not stats["environment_from_cache"] for stats in found)
+    check(baked == 1, f"{baked} of 3 processes baked the environment")
+    check(len({stats["pixel_hash"] for stats in found}) == 1, "the pictures differ")
+
+
 @case("bake.a_report_that_cannot_be_written_is_told_at_once")
 def report_path(bench):
     scratch(bench, "file", b"x")

@@ -4,9 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
+#include "core/base/cache.h"
 #include "core/base/hash.h"
 #include "core/image/io/image_io.h"
+#include "core/jobs/activity.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/simd/dispatch.h"
@@ -226,14 +229,23 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
             ++levels;
     const std::uint64_t hash = environment_hash(equirect, options, levels);
     const std::string path = options.use_cache ? environment_cache_path(options, hash) : "";
+    std::optional<Environment> cached;
+    std::optional<CacheLock> lock; // until the bake is cached
     if (!path.empty())
-        if (std::optional<Environment> cached = read_environment_cache(path, hash, options.cube_size, levels)) {
-            cached->name = name;
-            cached->warnings = equirect_warnings(equirect);
-            cached->bake_ms = ms_since(start);
-            turn_and_expose(*cached, options);
-            return std::move(*cached);
-        }
+        cached = read_environment_cache(path, hash, options.cube_size, levels);
+    if (!path.empty() && !cached && !options.picture_only) {
+        const Activity activity("waiting for another bake of " + name);
+        lock.emplace(path, kMostLockSeconds);
+        if (lock->waited())
+            cached = read_environment_cache(path, hash, options.cube_size, levels);
+    }
+    if (cached) {
+        cached->name = name;
+        cached->warnings = equirect_warnings(equirect);
+        cached->bake_ms = ms_since(start);
+        turn_and_expose(*cached, options);
+        return std::move(*cached);
+    }
     Environment e = bake(equirect, name, options, levels, jobs);
     e.name = name;
     e.warnings = equirect_warnings(equirect);

@@ -1,6 +1,7 @@
 // The cache folder: its limit, and the order of removal.
 #include "core/base/cache.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 #include <set>
+#include <thread>
 #include <unistd.h>
 
 namespace burnish {
@@ -43,6 +45,42 @@ class cache : public testing::Test {
 
 const std::string kOld = "environment-0000000000000001.bnenv", kMiddle = "reference-00000000000000ab.part",
                   kYoung = "pipelines-fedcba9876543210.bin";
+
+TEST_F(cache, a_file_is_made_by_one_at_a_time)
+{
+    std::atomic<int> makers = 0, most = 0, waited = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            const CacheLock lock(path(kOld), 60.0);
+            EXPECT_TRUE(lock.held());
+            most = std::max<int>(most, ++makers);
+            waited += lock.waited();
+            std::this_thread::sleep_for(std::chrono::milliseconds(30));
+            --makers;
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(most, 1);
+    EXPECT_EQ(waited, 3);
+    EXPECT_EQ(names(), std::set<std::string>{"locks"});
+}
+
+TEST_F(cache, a_lock_waits_no_longer_than_told_and_for_its_own_file_only)
+{
+    {
+        const CacheLock first(path(kOld), 60.0), other(path(kMiddle), 60.0);
+        EXPECT_FALSE(other.waited()) << "another file";
+        const CacheLock second(path(kOld), 0.05);
+        EXPECT_TRUE(second.waited());
+        EXPECT_FALSE(second.held());
+    }
+    const CacheLock again(path(kOld), 60.0);
+    EXPECT_TRUE(again.held());
+    EXPECT_FALSE(again.waited());
+    const CacheLock nowhere("/proc/no/such/" + kOld, 60.0);
+    EXPECT_FALSE(nowhere.held() || nowhere.waited());
+}
 
 TEST_F(cache, what_was_not_used_for_longest_goes_first)
 {
