@@ -32,7 +32,8 @@ std::string folder_variable(const char* name)
 struct Kind { // file names are PREFIX, 16 hexadecimal digits, SUFFIX
     const char *prefix, *suffix;
 };
-constexpr Kind kKinds[] = {{"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}, {"levels-", ".mip"}};
+constexpr Kind kKinds[] = {
+    {"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}, {"levels-", ".mip"}, {"sky-", ".vis"}};
 
 bool is_kept(const std::string& name)
 {

@@ -1,6 +1,6 @@
-// Disk cache: baked environments, Vulkan pipelines, chart references, and mip levels made by nets and optimisers. Any
-// file may vanish at any time; burnish then makes the file again. The folder has a size limit, and the least recently
-// used files go first.
+// Disk cache: baked environments, Vulkan pipelines, chart references, mip levels made by nets and optimisers, and the
+// sky's visibility of staged scenes. Any file may vanish at any time; burnish then makes the file again. The folder has
+// a size limit, and the least recently used files go first.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -6,15 +6,20 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/base/cache.h"
+#include "core/base/hash.h"
+#include "core/jobs/activity.h"
 #include "core/jobs/jobs.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/draw_tables.h"
 #include "core/scene/grid.h"
 #include "core/scene/tangents.h"
 #include "raster/rays/ray_tree.h"
+#include "raster/session/kept_visibility.h"
 
 namespace burnish {
 namespace {
@@ -158,6 +163,63 @@ std::vector<bool> clear_materials(const Scene& scene)
     return clear;
 }
 
+// Finds the visibility of the sky, from the cache where it is kept.
+class SkyFinder {
+  public:
+    SkyFinder(const Scene& scene, const DrawTables& tables, const FloorSettings& settings)
+        : scene_(scene), tables_(tables), clear_(clear_materials(scene)), use_cache_(settings.use_cache), jobs_(settings.threads)
+    {
+    }
+    std::vector<float> find(const std::vector<Seer>& seers, int ray_count, double spread)
+    {
+        const std::uint64_t hash = use_cache_ ? hash_of(seers, ray_count, spread) : 0;
+        const std::string path = use_cache_ ? visibility_path(hash) : "";
+        if (path.empty())
+            return trace(seers, ray_count, spread);
+        std::optional<std::vector<float>> kept = read_kept_visibility(path, hash, seers.size());
+        if (kept)
+            return std::move(*kept);
+        const Activity activity("waiting for another process that finds contact shadows");
+        const CacheLock lock(path, kMostLockSeconds);
+        if (lock.waited())
+            if (std::optional<std::vector<float>> made = read_kept_visibility(path, hash, seers.size()))
+                return std::move(*made);
+        std::vector<float> found = trace(seers, ray_count, spread);
+        static_cast<void>(keep_visibility(path, hash, found)); // an environment's cache tells of an unwritable folder
+        return found;
+    }
+
+  private:
+    std::vector<float> trace(const std::vector<Seer>& seers, int ray_count, double spread)
+    {
+        const TraceSpan span("contact shadows");
+        if (!rays_)
+            rays_ = make_tree_scene(scene_, tables_, jobs_, best_isa(), clear_);
+        return visibility_of(seers, ray_count, spread, *rays_, jobs_);
+    }
+    // Returns the hash of everything that decides the visibility.
+    std::uint64_t hash_of(const std::vector<Seer>& seers, int ray_count, double spread) const
+    {
+        std::vector<std::uint8_t> hides;
+        for (const Material& m : scene_.materials)
+            hides.push_back(!clear_[static_cast<std::size_t>(&m - scene_.materials.data())] && m.emitter != kOpenEmitter);
+        const double figures[] = {kVersion, static_cast<double>(ray_count), spread};
+        std::uint64_t hash = hash_bytes(figures, sizeof figures);
+        const auto add = [&hash](const auto& column) { hash = hash_bytes(column.data(), column.size() * sizeof *column.data(), hash); };
+        add(seers), add(hides);
+        add(tables_.px), add(tables_.py), add(tables_.pz), add(tables_.indices), add(tables_.triangle_material);
+        return hash;
+    }
+    static constexpr double kVersion = 1.0; // raise it when rays or directions change
+
+    const Scene& scene_;
+    const DrawTables& tables_;
+    std::vector<bool> clear_;
+    bool use_cache_;
+    Jobs jobs_;
+    std::unique_ptr<RayScene> rays_; // made when a ray is wanted
+};
+
 // Returns true if vertex colours may hold the visibility of the sky: they dim the light of lamps in the scene too.
 bool darkens_vertices(const DrawTables& tables)
 {
@@ -167,7 +229,7 @@ bool darkens_vertices(const DrawTables& tables)
 
 // Returns the visibility of the vertices on dielectrics without vertex colours, and makes their primitives use colours. lift: of rays above
 // their surfaces, metres.
-Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, double lift, const RayScene& rays, const Jobs& jobs)
+Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, double lift, SkyFinder& sky)
 {
     std::vector<std::uint32_t> vertices, darkened;
     std::vector<Seer> seers;
@@ -190,7 +252,7 @@ Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, dou
     Column<float> all;
     if (vertices.empty())
         return all;
-    const std::vector<float> seen = visibility_of(seers, kVertexRays, 0.0, rays, jobs);
+    const std::vector<float> seen = sky.find(seers, kVertexRays, 0.0);
     all.resize(tables.px.size());
     std::fill(all.data(), all.data() + all.size(), 1.0f);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -286,17 +348,15 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
     constexpr std::size_t kRow = kSectors;
     std::vector<float> seen((kFloorRings + 1) * kRow, 1.0f);
     if (settings.shaded) {
-        const TraceSpan span("contact shadows");
-        const Jobs jobs(settings.threads);
-        const std::unique_ptr<RayScene> rays = make_tree_scene(scene, tables, jobs, best_isa(), clear_materials(scene));
+        SkyFinder sky(scene, tables, settings);
         std::vector<Seer> seers(seen.size());
         for (int ring = 0; ring <= kFloorRings; ++ring)
             for (int sector = 0; sector < kSectors; ++sector)
                 seers[static_cast<std::size_t>(ring) * kRow + static_cast<std::size_t>(sector)] = {
                     builder.position(ring == 0 ? 0 : sector, {floor_radius(ring), kBelow + kLift}), {0.0, 1.0, 0.0}};
-        seen = visibility_of(seers, kFloorRays, kSpread * radius, *rays, jobs);
+        seen = sky.find(seers, kFloorRays, kSpread * radius);
         if (darkens_vertices(tables))
-            of_vertices = visibility_of_vertices(scene, tables, kLift * radius, *rays, jobs);
+            of_vertices = visibility_of_vertices(scene, tables, kLift * radius, sky);
     }
     // Add the surfaces
     const bool fades = settings.kind == FloorKind::shadow;

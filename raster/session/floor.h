@@ -19,8 +19,9 @@ enum class FloorKind {
 
 struct FloorSettings {
     FloorKind kind = FloorKind::off;
-    bool shaded = true; // vertex colours hold the visibility of the sky; false where rays find the shadows themselves
-    int threads = 0;    // 0: all cores the process may use
+    bool shaded = true;     // vertex colours hold the visibility of the sky; false where rays find the shadows themselves
+    int threads = 0;        // 0: all cores the process may use
+    bool use_cache = false; // keep the visibility on disk; for scenes that are drawn again as they are
 };
 
 // Adds nodes for the floor at the scene's lowest place, and for its backdrop. No view frames them. Visibility is the share of a uniform

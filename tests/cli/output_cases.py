@@ -293,6 +293,28 @@ def cache(bench):
     check(len(hashes) == 1, f"the cache changes the picture: {hashes}")
 
 
+@case("output.contact_shadows_are_kept_between_runs")
+def contact_shadows(bench):
+    own = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
+    words = ("builtin:plate", "--size", "64x36", "--env-size", "16", "--env-samples", "16")
+
+    def drawn(*more):
+        found = bench.figures(*words, *more, "--trace", "trace.json", env=own)
+        return found["pixel_hash"], "contact shadows" in (bench.folder / "trace.json").read_text()
+
+    first, traced = drawn()
+    check(traced, "the first run traces no rays")
+    kept = list((bench.folder / "cache/burnish").glob("sky-*.vis"))
+    check(len(kept) == 1, f"the cache holds {kept}")
+    check(drawn() == (first, False), "the second run traces rays, or draws another picture")
+    check(drawn("--no-cache") == (first, True), "--no-cache reads the cache, or draws another picture")
+    check(drawn("--roughness", "0.5")[1] is False, "a material's roughness hides no sky")
+    whole = kept[0].read_bytes()
+    kept[0].write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    check(drawn() == (first, True), "a damaged file is read")
+    check(kept[0].read_bytes() == whole, "the damaged file is not made anew")
+
+
 @case("output.locales_change_no_byte")
 def locales(bench):
     """Numbers are read and written with a point, even if the user's locale has a comma."""
