@@ -235,4 +235,5 @@ def one_bake(bench):
     env, kept = cache_of(bench)
     for words in (("--env-rotation", "70"), ("--env-exposure", "1.5"), ("--env-rotation", "-90", "--env-exposure", "-2")):
         check(bench.figures(*SMALL, *words, env=env)["environment_from_cache"], f"{words} baked it anew")
-    check(os.listdir(kept.parent) == [kept.name], f"the cache holds {os.listdir(kept.parent)}")
+    baked = [name for name in os.listdir(kept.parent) if name.startswith("environment-")]
+    check(baked == [kept.name], f"the cache holds {os.listdir(kept.parent)}")
