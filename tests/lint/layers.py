@@ -41,7 +41,7 @@ OUT_OF_ORDER = {
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
     (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
-    (r"(png|zlib)\.h$", ("core/image/io",)),
+    (r"(jpeglib|png|zlib)\.h$", ("core/image/io", "tests/unit/image")),
     (r"draco/", ("core/scene/gltf",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
     (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: Embree builds its trees with it

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/exception.h"
 #include "core/base/file.h"
+#include "core/image/io/common_formats.h"
 #include "core/image/io/guard.h"
 #include "core/image/io/icc.h"
 #include "core/image/io/image_library.h"
@@ -145,11 +147,18 @@ Status check_header(const ImageBytes& file, const StoredHeader& header, const Li
     return check_sides(file, header.width, header.height, limits);
 }
 
-// Reads pixels by the format's library. Radiance files need none.
+// Reads pixels by the format's library, or by the image library. Radiance files need none.
 Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
 {
     if (std::strcmp(probe.format, "hdr") == 0)
         return read_radiance(file, probe, place);
+    std::optional<Status> read;
+    if (std::strcmp(probe.format, "png") == 0)
+        read = read_png(file, probe, place);
+    else if (std::strcmp(probe.format, "jpeg") == 0)
+        read = read_jpeg(file, place);
+    if (read)
+        return *read;
     const Result<const ImageLibrary*> library = image_library(file.label);
     return library ? (*library)->read(file, probe, place) : Status(library.error());
 }

@@ -1,0 +1,16 @@
+// Replaces png_read.cpp and jpeg_read.cpp in a program without libraries.
+#include "core/image/io/common_formats.h"
+
+namespace burnish {
+
+std::optional<Status> read_png(const ImageBytes&, const ImageProbe&, const PlacePixels&)
+{
+    return std::nullopt;
+}
+
+std::optional<Status> read_jpeg(const ImageBytes&, const PlacePixels&)
+{
+    return std::nullopt;
+}
+
+} // namespace burnish
