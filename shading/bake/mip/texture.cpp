@@ -70,6 +70,41 @@ class Decoder {
 
     const Image& image_;
     std::vector<float> color_, linear_; // by code
+
+    friend class HalfDecoder;
+};
+
+std::uint16_t stored_half(TextureEncoding encoding, float value)
+{
+    return float_to_half(encoding == TextureEncoding::residual ? value - half_to_float(float_to_half(value)) : value);
+}
+
+// Decodes rows of an 8-bit image to the halves that store_row() stores, by tables.
+class HalfDecoder {
+  public:
+    HalfDecoder(const Image& image, TextureEncoding encoding) : image_(image)
+    {
+        const Decoder decoder(image, encoding);
+        for (std::size_t code = 0; code < 256; ++code)
+            color_[code] = stored_half(encoding, decoder.color_[code]), linear_[code] = stored_half(encoding, decoder.linear_[code]);
+        opaque_ = stored_half(encoding, 1.0f);
+    }
+    void row(int y, std::uint16_t* rgba) const
+    {
+        const std::size_t channels = static_cast<std::size_t>(image_.channels), width = static_cast<std::size_t>(image_.width);
+        const auto* from = reinterpret_cast<const std::uint8_t*>(image_.bytes.data()) + static_cast<std::size_t>(y) * width * channels;
+        const std::size_t green = channels >= 3 ? 1 : 0, blue = channels >= 3 ? 2 : 0;
+        const bool alpha = channels == 2 || channels == 4;
+        for (std::size_t x = 0; x < width; ++x, from += channels, rgba += 4) {
+            rgba[0] = color_[from[0]], rgba[1] = color_[from[green]], rgba[2] = color_[from[blue]];
+            rgba[3] = alpha ? linear_[from[channels - 1]] : opaque_;
+        }
+    }
+
+  private:
+    const Image& image_;
+    std::array<std::uint16_t, 256> color_, linear_; // by code
+    std::uint16_t opaque_;
 };
 
 // One axis of an exact box filter. Target texel i covers source texels first[i]..., with weights that sum to 1.
@@ -125,14 +160,19 @@ template <class Row> std::vector<float> box_filter(Size from, Size to, const Row
     return result;
 }
 
+// Returns the first interior texel of row y.
+std::uint16_t* row_of(TexturePyramid& p, int level, Size size, int y)
+{
+    const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
+    return p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
+}
+
 // Stores row y of a level's interior as halves.
 void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
-    const bool residual = encoding == TextureEncoding::residual;
-    const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
-    std::uint16_t* out = p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
+    std::uint16_t* out = row_of(p, level, size, y);
     for (std::size_t i = 0; i < static_cast<std::size_t>(size.w) * 4; ++i)
-        out[i] = float_to_half(residual ? rgba[i] - half_to_float(float_to_half(rgba[i])) : rgba[i]);
+        out[i] = stored_half(encoding, rgba[i]);
 }
 
 // Returns the texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the outer edge of the last
@@ -260,16 +300,22 @@ void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs
 
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)
 {
-    const ImageRow decode = linear_rows(image, encoding);
     TexturePyramid p;
     p.width = image.width, p.height = image.height;
     p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
     lay_out(p);
     const Size full = {p.width, p.height};
-    std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
-    for (int y = 0; y < p.height; ++y) {
-        decode(y, row.data());
-        store_row(p, encoding, 0, full, y, row.data());
+    if (image.type == PixelType::u8) {
+        const HalfDecoder decoder(image, encoding);
+        for (int y = 0; y < p.height; ++y)
+            decoder.row(y, row_of(p, 0, full, y));
+    } else {
+        const ImageRow decode = linear_rows(image, encoding);
+        std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
+        for (int y = 0; y < p.height; ++y) {
+            decode(y, row.data());
+            store_row(p, encoding, 0, full, y, row.data());
+        }
     }
     fill_border(p, 0, full);
     each_box_row(image, encoding, Jobs(1), [&](int l, int width, int y, const float* rgba) {
