@@ -70,6 +70,31 @@ BN_FN real behind_by(frame_ref f, BN_IN(behind_place) p)
     return select(p.near_picture, depth_behind(f, p.uv) - p.depth, lit(-1.0));
 }
 
+// The picture at a place of a ray.
+struct behind_fetch {
+    real4 light; // times coverage, and coverage, faded out beside the picture
+    real wide;   // [0,1]: 0 for a ray of less than two pixels, 1 from eight on
+};
+
+// Fetches at the ray's width.
+BN_FN behind_fetch fetch_behind(frame_ref f, BN_IN(view_params) view, BN_IN(behind_ray) ray, real distance, real start, real spread)
+{
+    behind_place p = behind_place_at(view, ray, distance);
+    real width = start + spread * distance;
+    real pixel = select(view.orthographic, lit(1.0), p.z) / (view.inv_tan_y * splat(the_frame(f).half_height));
+    texture_desc picture = texture_of_frame(f, the_frame(f).behind);
+    texture_footprint footprint;
+    footprint.lod = min(max(k_log2(width / max(pixel, lit(1e-20))), lit(0.0)), to_real(int_lit(picture.levels - 1)));
+    footprint.taps = lit(1.0);
+    footprint.axis = vec2_all(lit(0.0));
+    real fade = min(max(width / max(pixel * splat(the_frame(f).half_height), lit(1e-20)), lit(0.125)), splat(kBehindMargin));
+    real share = select(p.near_picture, k_saturate(lit(1.0) - beside_picture(p.uv) / fade), lit(0.0));
+    behind_fetch r;
+    r.light = texture_sample_footprint(picture, p.uv, footprint, 1) * share;
+    r.wide = k_saturate(footprint.lod * lit(0.5) - lit(0.5));
+    return r;
+}
+
 // Returns the light of opaque surfaces along a ray, times their coverage, and their coverage, [0,1]. from: world space. way: unit. start:
 // the ray's footprint where it starts, metres; spread: its growth per metre.
 BN_STAGE real4 surfaces_behind(any_frame f, BN_IN(real3) from, BN_IN(real3) way, real start, real spread)
@@ -114,23 +139,15 @@ BN_STAGE real4 surfaces_behind(any_frame f, BN_IN(real3) from, BN_IN(real3) way,
     real before = min(behind_by(f, behind_place_at(view, ray, low)), lit(0.0));
     real after = max(behind_by(f, behind_place_at(view, ray, high)), lit(0.0));
     real distance = low + (high - low) * (before / min(before - after, lit(-1e-12)));
-    distance = select(found, distance, farthest);
-    behind_place p = behind_place_at(view, ray, distance);
-    // Fetch at the ray's width, faded out beside the picture
-    real pixel = select(view.orthographic, lit(1.0), p.z) / (view.inv_tan_y * splat(the_frame(f).half_height));
-    texture_desc picture = texture_of_frame(f, the_frame(f).behind);
-    texture_footprint footprint;
-    footprint.lod = min(max(k_log2((start + spread * distance) / max(pixel, lit(1e-20))), lit(0.0)), to_real(int_lit(picture.levels - 1)));
-    footprint.taps = lit(1.0);
-    footprint.axis = vec2_all(lit(0.0));
-    real4 light = texture_sample_footprint(picture, p.uv, footprint, 1);
-    real beside = beside_picture(p.uv);
-    real fade =
-        min(max((start + spread * distance) / max(pixel * splat(the_frame(f).half_height), lit(1e-20)), lit(0.125)), splat(kBehindMargin));
-    // A wide ray without a meeting shows the surfaces around its end
-    real wide = k_saturate(footprint.lod * lit(0.5) - lit(0.5));
-    real share = select(p.near_picture, k_saturate(lit(1.0) - beside / fade) * select(found, lit(1.0), wide), lit(0.0));
-    return light * share;
+    // Fetch where it meets a surface. The edge of a surface covers half of a wide ray, which shows none of it there
+    behind_fetch met = fetch_behind(f, view, ray, distance, start, spread);
+    real covered = max(met.light.w, lit(1e-6));
+    real edge = k_saturate(lit(2.0) * covered - lit(1.0)) / covered;
+    real share = select(found, lit(1.0) + (edge - lit(1.0)) * met.wide, lit(0.0));
+    real4 light = met.light * share;
+    // What is left of a wide ray shows the surfaces around its end
+    behind_fetch end = fetch_behind(f, view, ray, farthest, start, spread);
+    return light + end.light * (end.wide * (lit(1.0) - light.w));
 }
 
 BN_KERNELS_END

@@ -2,12 +2,14 @@
 
 import csv
 import io
+import math
 
 import gltf_files as files
 from brdf_cases import against_files
 from fresnel_cases import CLOSE
 from harness import case, check
 from input_cases import refuse, scratch
+from model_cases import read_pfm
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
@@ -40,6 +42,22 @@ def faults(bench):
     refuse(bench, scratch(bench, "bad.gltf", files.text(bad)), needles=(PLACE + "transmission/transmissionTexture/index",))
     listed = bench.run("list", "extensions").expect(0).out
     check(any(line.split()[:2] == ["KHR_materials_transmission", "supported"] for line in listed.splitlines()), listed)
+
+
+@case("glass.rough_bodies_show_no_line_where_surfaces_behind_end")
+def no_line(bench):
+    """The frosted ball stands before the rim of the disc. A step of .2 in the logarithm is a fifth of the light, from one pixel to the next."""
+    bench.run("render", "builtin:glass", "--floor", "off", "--size", "640x360", "--msaa", "4", "-q", "-o", "g.pfm").expect(0)
+    width, height, values = read_pfm(bench.folder / "g.pfm")
+    light = lambda x, y: math.log(sum(values[3 * ((height - 1 - y) * width + x):][:3]))
+    steps, seen = [], []
+    for y in range(114, 186):
+        for x in range(412, 484):
+            if (x - 448) ** 2 + (y - 150) ** 2 < 36 ** 2:
+                seen.append(light(x, y))
+                steps += [abs(seen[-1] - light(x + 1, y)), abs(seen[-1] - light(x, y + 1))]
+    check(max(seen) - min(seen) > 0.7, "the ball shows nothing behind it")
+    check(max(steps) < 0.2, f"the logarithm of the light steps by {max(steps)}")
 
 
 @case("glass.every_factor_changes_the_picture_of_every_technique")

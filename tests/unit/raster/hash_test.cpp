@@ -183,6 +183,15 @@ TEST(golden, picture_of_area_lights_is_as_it_was)
         EXPECT_TRUE(is_golden("options/area_lights", stage.render(d, isa).color, isa_name(isa)));
 }
 
+// Bodies of glass, clear to rough, before the surfaces behind them.
+TEST(golden, picture_of_glass_is_as_it_was)
+{
+    const Case c = {"glass", 128, 72, 4};
+    const std::unique_ptr<Stage> stage = stage_of(c, 2);
+    for (Isa isa : available_isas())
+        EXPECT_TRUE(is_golden("options/glass", stage->render(desc_of(c, *stage), isa).color, isa_name(isa)));
+}
+
 TEST(hash, of_a_second_frame_equals_the_first)
 {
     const std::unique_ptr<Stage> stage = stage_of(kCases[0], 2);
