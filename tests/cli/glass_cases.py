@@ -49,7 +49,11 @@ def no_line(bench):
     """The frosted ball stands before the rim of the disc. A step of .2 in the logarithm is a fifth of the light, from one pixel to the next."""
     bench.run("render", "builtin:glass", "--floor", "off", "--size", "640x360", "--msaa", "1", "--env-size", "128", "--env-samples", "64", "-q", "-o", "g.pfm").expect(0)
     width, height, values = read_pfm(bench.folder / "g.pfm")
-    light = lambda x, y: math.log(sum(values[3 * ((height - 1 - y) * width + x):][:3]))
+
+    def light(x, y):
+        at = 3 * ((height - 1 - y) * width + x)
+        return math.log(sum(values[at : at + 3]))
+
     steps, seen = [], []
     for y in range(114, 186):
         for x in range(412, 484):
