@@ -25,8 +25,8 @@ namespace {
 constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares 32-bit words of each stage: clip positions, visibility (the triangle of each
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
-With the exact sampler all words must be equal, except visibility for one sample in a million. Pictures of a GPU, which may divide inexactly,
-and of --pipeline forward must look the same (mean FLIP below 0.002). Each pixel that differs is assigned to the first stage that differs by
+On a CPU device, with the exact sampler and --pipeline ids, all words must be equal, except visibility for one sample in a million. Other
+pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Each pixel that differs is assigned to the first stage that differs by
 more than 0.001, or to rounding.
 
 Examples:
@@ -54,19 +54,20 @@ Image flip_map(const Image& reference, const Image& test, const Jobs& jobs)
     return flip_hdr(reference, test, {}, jobs).error;
 }
 
-ParityRow named_row(const ParityPlace& place, const ParitySet& set, const RenderOptions& options)
+ParityRow named_row(const Bench& bench, const ParityPlace& place, const ParitySet& set, const RenderOptions& options)
 {
     ParityRow row;
     row.also = set.also;
     row.scene = place.scene, row.view = place.view, row.technique = options.frame.technique, row.msaa = options.frame.msaa;
     row.sampler = options.vulkan.sampler == VulkanSampler::exact ? "exact" : "native";
     row.pipeline = options.vulkan.pipeline == VulkanPipeline::ids ? "ids" : "forward";
+    row.gpu = !bench.device->info().cpu;
     return row;
 }
 
-ParityRow failed_row(const ParityPlace& place, const ParitySet& set, const RenderOptions& options, const Error& error)
+ParityRow failed_row(const Bench& bench, const ParityPlace& place, const ParitySet& set, const RenderOptions& options, const Error& error)
 {
-    ParityRow row = named_row(place, set, options);
+    ParityRow row = named_row(bench, place, set, options);
     row.error = error;
     return row;
 }
@@ -84,7 +85,6 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     BN_TRY(b);
     row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
-    row.gpu = !bench.device->info().cpu;
     row.counts = compare_stages(*a, *b, desc.msaa);
     const Image flip = flip_map(a->color, b->color, *bench.jobs);
     row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;
@@ -128,9 +128,9 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
             return made->error();
     // Compare every frame
     for (const RenderOptions& options : set.frames) {
-        const Activity activity(row_text(out, named_row(place, set, options)));
-        Result<ParityRow> compared = compare(bench, named_row(place, set, options), options, scene->view, *tile, *vulkan);
-        const ParityRow row = compared ? std::move(*compared) : failed_row(place, set, options, compared.error());
+        const Activity activity(row_text(out, named_row(bench, place, set, options)));
+        Result<ParityRow> compared = compare(bench, named_row(bench, place, set, options), options, scene->view, *tile, *vulkan);
+        const ParityRow row = compared ? std::move(*compared) : failed_row(bench, place, set, options, compared.error());
         if (row.failed())
             bench.report.event("failed", describe(row));
         else if (first_difference(row.counts))
@@ -218,7 +218,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
             if (const Status done = compare_place(bench, place, set, parity); !done) { // no row of it can be compared
                 report.event("failed", line_of(done.error()));
                 for (const RenderOptions& frame : set.frames)
-                    parity.rows.push_back(failed_row(place, set, frame, done.error()));
+                    parity.rows.push_back(failed_row(bench, place, set, frame, done.error()));
             }
     if (const Status written = write_files(options, parity, report); !written)
         return fail(written.error());

@@ -1,7 +1,7 @@
 #include "core/base/cache.h"
 
 #include <fcntl.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -114,8 +114,10 @@ CacheLock::CacheLock(const std::string& file, double most_seconds)
     const fs::path path(file);
     std::error_code failed;
     fs::create_directories(path.parent_path(), failed); // without a folder there is no lock
-    Descriptor opened(::open((path.parent_path() / "locks").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
-    if (!opened)
+    Descriptor opened(
+        ::open((path.parent_path() / "locks").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666));
+    struct stat info {};
+    if (!opened || ::fstat(opened.get(), &info) != 0 || !S_ISREG(info.st_mode))
         return;
     const std::string name = path.filename().string();
     struct flock byte {};

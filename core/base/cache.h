@@ -29,7 +29,8 @@ void note_cache_use(const std::string& file);
 void prune_cache(const std::string& folder, std::uint64_t limit, const std::string& keep);
 
 // The right to make a cache file, so that processes that want the same file make it once. The constructor waits while
-// another holder makes `file`, at most `most_seconds`. Without a file system that locks, nobody waits.
+// another holder makes `file`, at most `most_seconds`. Nobody waits where the folder cannot be
+// written, or on a file system without locks.
 class CacheLock {
   public:
     CacheLock(const std::string& file, double most_seconds);
@@ -40,6 +41,6 @@ class CacheLock {
     Descriptor lock_;
     bool waited_ = false;
 };
-inline constexpr double kMostLockSeconds = 600.0; // far beyond a bake: a stopped holder keeps its lock
+inline constexpr double kMostLockSeconds = 600.0; // a stopped holder keeps its lock; beyond this, work is done twice
 
 } // namespace burnish

@@ -66,7 +66,7 @@ template <class Find> bool found_after_waiting(std::optional<CacheLock>& lock, c
 {
     const Activity activity("waiting for another process that makes these levels");
     lock.emplace(path, kMostLockSeconds);
-    return lock->waited() && find();
+    return find(); // another may have ended just now
 }
 
 Status write_kept(const std::string& path, const MipParts& levels)

@@ -179,13 +179,15 @@ class SkyFinder {
         std::optional<std::vector<float>> kept = read_kept_visibility(path, hash, seers.size());
         if (kept)
             return std::move(*kept);
-        const Activity activity("waiting for another process that finds contact shadows");
-        const CacheLock lock(path, kMostLockSeconds);
-        if (lock.waited())
-            if (std::optional<std::vector<float>> made = read_kept_visibility(path, hash, seers.size()))
-                return std::move(*made);
+        std::optional<CacheLock> lock; // until the visibility is kept
+        {
+            const Activity activity("waiting for another process that finds contact shadows");
+            lock.emplace(path, kMostLockSeconds);
+        }
+        if (std::optional<std::vector<float>> made = read_kept_visibility(path, hash, seers.size()))
+            return std::move(*made);
         std::vector<float> found = trace(seers, ray_count, spread);
-        static_cast<void>(keep_visibility(path, hash, found)); // an environment's cache tells of an unwritable folder
+        static_cast<void>(keep_visibility(path, hash, found)); // a failure costs the next run its time
         return found;
     }
 
@@ -193,6 +195,7 @@ class SkyFinder {
     std::vector<float> trace(const std::vector<Seer>& seers, int ray_count, double spread)
     {
         const TraceSpan span("contact shadows");
+        const Activity activity("contact shadows");
         if (!rays_)
             rays_ = make_tree_scene(scene_, tables_, jobs_, best_isa(), clear_);
         return visibility_of(seers, ray_count, spread, *rays_, jobs_);
@@ -201,8 +204,8 @@ class SkyFinder {
     std::uint64_t hash_of(const std::vector<Seer>& seers, int ray_count, double spread) const
     {
         std::vector<std::uint8_t> hides;
-        for (const Material& m : scene_.materials)
-            hides.push_back(!clear_[static_cast<std::size_t>(&m - scene_.materials.data())] && m.emitter != kOpenEmitter);
+        for (std::size_t i = 0; i < clear_.size(); ++i)
+            hides.push_back(!clear_[i] && scene_.materials[i].emitter != kOpenEmitter);
         const double figures[] = {kVersion, static_cast<double>(ray_count), spread};
         std::uint64_t hash = hash_bytes(figures, sizeof figures);
         const auto add = [&hash](const auto& column) { hash = hash_bytes(column.data(), column.size() * sizeof *column.data(), hash); };

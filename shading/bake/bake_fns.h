@@ -43,7 +43,8 @@ BN_DECLARE_FNS(BakeFns);
 struct LightLevel {
     int size;             // texels along an edge of a face
     const double* angles; // sr, by quad, of one face; all faces are alike
-    const float* places;  // by quad, then x of the four parts, y of the four, z of the four: the light's mean directions, unit
+    const float* places;  // by quad, then x of the four parts, y of the four, z of the four: the light's mean directions, unit; null: the
+                          // texels' centres
     const float* rgb;     // radiance, row-major
 };
 
@@ -60,11 +61,14 @@ struct GatherList {
     int term_count, mark_count, most_terms, most_marks;
 };
 
-// Texels that share a walk. Chords stand for angles.
+inline constexpr int kMostLightLevels = 14; // of a tree: a cube of 4096 texels, and one more
+
+// Texels that share a walk. Chords stand for angles. With d as the distance of a light to the centre, the distance to each block lies
+// between d - nearer and d - farther; below 0 it counts as 0.
 struct GatherInput {
     const LightLevel* levels; // finest first
     double centre[3];         // unit
-    double nearer, farther;   // subtracted from the distance to the centre: at least, and at most, the distance to each block
+    double nearer, farther;   // farther may be negative
     double width2;            // squared width of the lobe
     double opening2;          // squared opening; see gather_terms()
     double farthest2;         // no piece is larger than it would be at this squared distance

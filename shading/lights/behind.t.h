@@ -72,7 +72,8 @@ BN_FN real behind_by(frame_ref f, BN_IN(behind_place) p)
 
 // The picture at a place of a ray.
 struct behind_fetch {
-    real4 light; // times coverage, and coverage, faded out beside the picture
+    real4 light; // times coverage, and coverage
+    real fade;   // [0,1]: 1 inside the picture, 0 far beside it
     real wide;   // [0,1]: 0 for a ray of less than two pixels, 1 from eight on
 };
 
@@ -88,9 +89,9 @@ BN_FN behind_fetch fetch_behind(frame_ref f, BN_IN(view_params) view, BN_IN(behi
     footprint.taps = lit(1.0);
     footprint.axis = vec2_all(lit(0.0));
     real fade = min(max(width / max(pixel * splat(the_frame(f).half_height), lit(1e-20)), lit(0.125)), splat(kBehindMargin));
-    real share = select(p.near_picture, k_saturate(lit(1.0) - beside_picture(p.uv) / fade), lit(0.0));
     behind_fetch r;
-    r.light = texture_sample_footprint(picture, p.uv, footprint, 1) * share;
+    r.light = texture_sample_footprint(picture, p.uv, footprint, 1);
+    r.fade = select(p.near_picture, k_saturate(lit(1.0) - beside_picture(p.uv) / fade), lit(0.0));
     r.wide = k_saturate(footprint.lod * lit(0.5) - lit(0.5));
     return r;
 }
@@ -139,15 +140,16 @@ BN_STAGE real4 surfaces_behind(any_frame f, BN_IN(real3) from, BN_IN(real3) way,
     real before = min(behind_by(f, behind_place_at(view, ray, low)), lit(0.0));
     real after = max(behind_by(f, behind_place_at(view, ray, high)), lit(0.0));
     real distance = low + (high - low) * (before / min(before - after, lit(-1e-12)));
-    // Fetch where it meets a surface. The edge of a surface covers half of a wide ray, which shows none of it there
+    // Fetch where it meets a surface. A wide ray shows the surface from half coverage on, in full at whole coverage, so that the surface
+    // appears without a line
     behind_fetch met = fetch_behind(f, view, ray, distance, start, spread);
     real covered = max(met.light.w, lit(1e-6));
     real edge = k_saturate(lit(2.0) * covered - lit(1.0)) / covered;
     real share = select(found, lit(1.0) + (edge - lit(1.0)) * met.wide, lit(0.0));
-    real4 light = met.light * share;
-    // What is left of a wide ray shows the surfaces around its end
+    real4 light = met.light * (share * met.fade);
+    // The uncovered rest of a wide ray shows the surfaces around the ray's end
     behind_fetch end = fetch_behind(f, view, ray, farthest, start, spread);
-    return light + end.light * (end.wide * (lit(1.0) - light.w));
+    return light + end.light * (end.fade * end.wide * (lit(1.0) - light.w));
 }
 
 BN_KERNELS_END

@@ -7,7 +7,8 @@
 namespace burnish {
 
 // Decodes a sound file of a common kind with the pixels that the image library gives. Returns nothing for others, and for files with a
-// fault: the image library decodes those, or words the error. `place` may then have been called. Returns an Error of `place`.
+// fault: the image library decodes those, or words the error. `place` may then have been called. An Error from `place` is returned
+// unchanged.
 std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place); // grey and colour, 8 bits
 

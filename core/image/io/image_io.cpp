@@ -171,6 +171,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
     Image image;
     // Choose the channels, and allocate memory within the limit
     const auto place = [&](const StoredHeader& found) -> Result<PixelRequest> {
+        image = {}; // of another library, which gave up
         BN_TRY(check_header(file, found, limits));
         header = found;
         PictureNotes unsaid; // dropped: other formats have no channel names

@@ -1,6 +1,5 @@
 #include <png.h>
 
-#include <algorithm>
 #include <bit>
 #include <csetjmp>
 #include <cstring>

@@ -236,8 +236,7 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
     if (!path.empty() && !cached && !options.picture_only) {
         const Activity activity("waiting for another bake of " + name);
         lock.emplace(path, kMostLockSeconds);
-        if (lock->waited())
-            cached = read_environment_cache(path, hash, options.cube_size, levels);
+        cached = read_environment_cache(path, hash, options.cube_size, levels); // another may have ended just now
     }
     if (cached) {
         cached->name = name;

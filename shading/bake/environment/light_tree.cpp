@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/base/check.h"
 #include "core/simd/dispatch.h"
 
 namespace burnish {
@@ -95,7 +96,7 @@ std::vector<float> places_of(const LightTree& tree, int level, const Jobs& jobs)
 
 } // namespace
 
-LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
+LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs, int most_placed)
 {
     LightTree tree = {boxes, {}, {}};
     for (int level = 0; level < static_cast<int>(boxes.size()); ++level) {
@@ -104,7 +105,8 @@ LightTree make_light_tree(const std::vector<CubeLevel>& boxes, const Jobs& jobs)
         for (int y = 0; y < box.size; ++y)
             for (int x = 0; x < box.size; ++x)
                 angles[place_in_quads(box.size, x, y)] = box.solid_angle[static_cast<std::size_t>(y * box.size + x)];
-        tree.places.push_back(places_of(tree, level, jobs));
+        const bool placed = level > 0 || box.size <= most_placed;
+        tree.places.push_back(placed ? places_of(tree, level, jobs) : std::vector<float>());
     }
     return tree;
 }
@@ -113,7 +115,7 @@ std::vector<LightLevel> LightTree::levels() const
 {
     std::vector<LightLevel> found;
     for (std::size_t l = 0; l < angles.size(); ++l)
-        found.push_back({boxes[l].size, angles[l].data(), places[l].data(), boxes[l].rgb.data()});
+        found.push_back({boxes[l].size, angles[l].data(), places[l].empty() ? nullptr : places[l].data(), boxes[l].rgb.data()});
     return found;
 }
 
@@ -146,12 +148,12 @@ GatherList list_of(GatherScratch::List& memory)
 }
 
 struct Gathering {
-    const std::vector<LightLevel>& levels;
     const BlockSquare& square;
     std::vector<Circle> circles; // by block
     GatherInput input;           // without circle
     GatherScratch& scratch;
     const std::function<void(int, int, std::span<const PrefilterTerm>)>& use;
+    const LightTreeFns& fns;
 
     // Gathers for the blocks [x, x + along) x [y, y + along) from the list of a larger square.
     void gather(int x, int y, int along, std::size_t depth, const GatherList& from)
@@ -179,7 +181,7 @@ struct Gathering {
         // Gather, with more memory where the terms are too many
         GatherScratch::List& memory = scratch.lists[depth];
         GatherList to = list_of(memory);
-        while (!pick<LightTreeFns>().gather(in, from, to)) {
+        while (!fns.gather(in, from, to)) {
             memory.terms.resize(memory.terms.size() * 2), memory.marks.resize(memory.marks.size() * 2);
             to = list_of(memory);
         }
@@ -195,11 +197,13 @@ struct Gathering {
 } // namespace
 
 void gather_terms(const std::vector<LightLevel>& levels, const BlockSquare& square, double alpha, double opening, GatherScratch& scratch,
-                  const std::function<void(int, int, std::span<const PrefilterTerm>)>& use)
+                  const std::function<void(int, int, std::span<const PrefilterTerm>)>& use, const LightTreeFns& fns)
 {
+    BN_CHECK(std::has_single_bit(static_cast<unsigned>(square.along)));
+    BN_CHECK_OP(levels.size(), <, std::size_t{kMostLightLevels});
     // A lobe is twice as wide about the mirrored direction as in half vectors
     const double width2 = 4.0 * alpha * alpha, farthest = kWidest / alpha;
-    Gathering gathering = {levels, square, {}, {levels.data(), {}, 0.0, 0.0, width2, opening * opening, farthest * farthest}, scratch, use};
+    Gathering gathering = {square, {}, {levels.data(), {}, 0.0, 0.0, width2, opening * opening, farthest * farthest}, scratch, use, fns};
     for (int y = 0; y < square.along; ++y)
         for (int x = 0; x < square.along; ++x)
             gathering.circles.push_back(circle_of(square, x, y));

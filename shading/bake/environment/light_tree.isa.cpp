@@ -8,8 +8,7 @@ inline namespace BN_ISA_NS {
 namespace {
 
 constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
-constexpr double kPlaceError = 1e-6;             // of a place in single precision, at least
-constexpr int kMostLevels = 14;                  // of a cube of 4096 texels, and one above
+constexpr double kPlaceError = 1e-6;             // above the rounding of a place to single precision
 
 // What all blocks do with a part.
 using Way = unsigned char;
@@ -99,19 +98,21 @@ void look(const GatherInput& in, int face, const Texel& texel, Parts& p)
     const int size = below.size > 1 ? below.size / 2 : 1;
     const std::size_t quad = static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(texel.x);
     const std::size_t quads = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    const float* at = below.places + (static_cast<std::size_t>(face) * quads + quad) * 12;
     const double* angle = below.angles + quad * 4;
-    for (int k = 0; k < 4; ++k) {
-        p.x[k] = static_cast<double>(at[k]), p.y[k] = static_cast<double>(at[4 + k]), p.z[k] = static_cast<double>(at[8 + k]);
+    for (int k = 0; k < 4; ++k)
         p.angle[k] = angle[k];
-    }
     p.next = 0, p.end = below.size > 1 ? 4 : 1;
-    // The places of the finest level are rounded: near the horizon its distances need the centres themselves
     const bool leaves = texel.level == 1;
-    if (!choose(in, leaves, leaves ? kPlaceError : 0.0, p)) {
-        centres(face, below.size, texel.x, texel.y, p);
-        choose(in, leaves, 0.0, p);
+    if (below.places) {
+        const float* at = below.places + (static_cast<std::size_t>(face) * quads + quad) * 12;
+        for (int k = 0; k < 4; ++k)
+            p.x[k] = static_cast<double>(at[k]), p.y[k] = static_cast<double>(at[4 + k]), p.z[k] = static_cast<double>(at[8 + k]);
+        if (choose(in, leaves, leaves ? kPlaceError : 0.0, p))
+            return;
     }
+    // The places of the finest level are rounded: near the horizon its distances need the centres themselves
+    centres(face, below.size, texel.x, texel.y, p);
+    choose(in, leaves, 0.0, p);
 }
 
 void take(const GatherInput& in, int face, const Texel& texel, const Parts& p, int k, PrefilterTerm& to)
@@ -141,8 +142,8 @@ void add_mark(const GatherMark& mark, GatherList& to)
 // Walks the parts of a mark, depth first.
 bool walk(const GatherInput& in, const GatherMark& mark, GatherList& to)
 {
-    Parts stack[kMostLevels];
-    Texel at[kMostLevels];
+    Parts stack[kMostLightLevels];
+    Texel at[kMostLightLevels];
     int depth = 0;
     at[0] = {mark.level, mark.x, mark.y};
     look(in, mark.face, at[0], stack[0]);

@@ -148,15 +148,17 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
 }
 
 // Bits of the terms by block.
-std::vector<std::vector<std::uint32_t>> terms_by_block(const LightTree& tree, const BlockSquare& square, double alpha, double opening)
+std::vector<std::vector<std::uint32_t>> terms_by_block(const LightTree& tree, const BlockSquare& square, double alpha, double opening,
+                                                       const LightTreeFns& fns = pick<LightTreeFns>())
 {
     std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(square.along * square.along));
     GatherScratch scratch;
-    gather_terms(tree.levels(), square, alpha, opening, scratch, [&](int x, int y, std::span<const PrefilterTerm> terms) {
+    const auto keep = [&](int x, int y, std::span<const PrefilterTerm> terms) {
         std::vector<std::uint32_t>& bits = found[static_cast<std::size_t>(y * square.along + x)];
         bits.resize(terms.size() * sizeof(PrefilterTerm) / sizeof(std::uint32_t));
         std::memcpy(bits.data(), terms.data(), terms.size_bytes());
-    });
+    };
+    gather_terms(tree.levels(), square, alpha, opening, scratch, keep, fns);
     return found;
 }
 
@@ -167,13 +169,16 @@ TEST(prefilter, blocks_that_share_a_walk_have_the_terms_of_blocks_alone)
     boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
     while (boxes.back().size > 1)
         boxes.push_back(half_cube_level(boxes.back(), jobs));
-    const LightTree tree = make_light_tree(boxes, jobs);
+    const LightTree tree = make_light_tree(boxes, jobs), unplaced = make_light_tree(boxes, jobs, 0);
     std::size_t fewest = 1u << 20, most = 0;
     for (const double alpha : {0.02, 0.1, 0.4, 1.0})
         for (const double opening : {0.02, 0.2, 1.0}) // all finest texels to whole faces
             for (const int face : {0, 3, 4}) {
                 const BlockSquare square = {face, 4, -1.0, 0.0, 0.25};
                 const auto together = terms_by_block(tree, square, alpha, opening);
+                ASSERT_EQ(terms_by_block(unplaced, square, alpha, opening), together) << "centres of texels, found anew";
+                for (const Isa isa : isas_with<LightTreeFns>())
+                    ASSERT_EQ(terms_by_block(tree, square, alpha, opening, pick<LightTreeFns>(isa)), together) << isa_name(isa);
                 for (int k = 0; k < 16; ++k) {
                     const BlockSquare one = {face, 1, square.u0 + k % 4 * square.side, square.v0 + k / 4 * square.side, square.side};
                     const auto alone = terms_by_block(tree, one, alpha, opening)[0];
