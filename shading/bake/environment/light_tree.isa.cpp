@@ -49,32 +49,33 @@ void centres(int face, int size, int x, int y, Parts& p)
 using Four = double __attribute__((vector_size(32)));
 using FourMasks = long long __attribute__((vector_size(32)));
 
-Four four(const double* from)
+// Vectors are passed by reference: by value they have another ABI where the processor lacks AVX.
+void load(const double* from, Four& x)
 {
-    Four x;
     __builtin_memcpy(&x, from, sizeof x);
-    return x;
 }
 
-Four root(Four x)
+void take_root(Four& x)
 {
     for (int k = 0; k < 4; ++k)
         x[k] = std::sqrt(x[k]);
-    return x;
 }
 
-// Returns positive numbers where a part opens. distance: from the nearest place of a block.
-Four openness(const GatherInput& in, Four distance, Four angle)
+// Writes positive numbers where a part opens. distance: from the nearest place of a block.
+void find_openness(const GatherInput& in, const Four& distance, const Four& angle, Four& open)
 {
     const Four reach = distance * distance + in.width2, most = in.farthest2 + Four{};
-    return angle - in.opening2 * (most < reach ? most : reach);
+    open = angle - in.opening2 * (most < reach ? most : reach);
 }
 
 // Finds the ways of parts whose directions are known. margin: error of the distance to the horizon. Returns false if a leaf lies within it.
 bool choose(const GatherInput& in, bool leaves, double margin, Parts& p)
 {
-    const Four dx = four(p.x) - in.centre[0], dy = four(p.y) - in.centre[1], dz = four(p.z) - in.centre[2], zero = {};
-    const Four distance = root(dx * dx + dy * dy + dz * dz), angle = four(p.angle);
+    Four x, y, z, angle;
+    load(p.x, x), load(p.y, y), load(p.z, z), load(p.angle, angle);
+    const Four dx = x - in.centre[0], dy = y - in.centre[1], dz = z - in.centre[2], zero = {};
+    Four distance = dx * dx + dy * dy + dz * dz;
+    take_root(distance);
     Four near = distance - in.nearer, far = distance - in.farther;
     near = near < zero ? zero : near, far = far < zero ? zero : far;
     const FourMasks seen = far < kHorizon - margin, hidden = near >= kHorizon + margin;
@@ -83,8 +84,10 @@ bool choose(const GatherInput& in, bool leaves, double margin, Parts& p)
         if (margin > 0.0 && (way[0] == differ || way[1] == differ || way[2] == differ || way[3] == differ))
             return false;
     } else {
-        const FourMasks opens = openness(in, far, angle) > zero ? FourMasks{} + open_it : FourMasks{} + differ;
-        way = openness(in, near, angle) > zero ? opens : way;
+        Four open_near, open_far;
+        find_openness(in, near, angle, open_near), find_openness(in, far, angle, open_far);
+        const FourMasks opens = open_far > zero ? FourMasks{} + open_it : FourMasks{} + differ;
+        way = open_near > zero ? opens : way;
     }
     for (int k = 0; k < 4; ++k)
         p.way[k] = static_cast<Way>(way[k]);
