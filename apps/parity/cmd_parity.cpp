@@ -26,8 +26,8 @@ constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares 32-bit words of each stage: clip positions, visibility (the triangle of each
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
 On a CPU device, with the exact sampler and --pipeline ids, all words must be equal, except visibility for one sample in a million. Other
-pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Each pixel that differs is assigned to the first stage that differs by
-more than 0.001, or to rounding.
+pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Each pixel that differs is assigned to the first stage that
+differs by more than 0.001, or to rounding.
 
 Examples:
   burnish parity

@@ -147,7 +147,17 @@ TEST(prefilter, every_level_is_within_one_percent_of_quadrature)
     }
 }
 
-// Bits of the terms by block.
+// Returns the levels of a small smooth environment, down to one texel a face.
+std::vector<CubeLevel> smooth_boxes(const Jobs& jobs)
+{
+    std::vector<CubeLevel> boxes;
+    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
+    while (boxes.back().size > 1)
+        boxes.push_back(half_cube_level(boxes.back(), jobs));
+    return boxes;
+}
+
+// Returns the bits of the terms by block.
 std::vector<std::vector<std::uint32_t>> terms_by_block(const LightTree& tree, const BlockSquare& square, double alpha, double opening,
                                                        const LightTreeFns& fns = pick<LightTreeFns>())
 {
@@ -165,10 +175,7 @@ std::vector<std::vector<std::uint32_t>> terms_by_block(const LightTree& tree, co
 TEST(prefilter, blocks_that_share_a_walk_have_the_terms_of_blocks_alone)
 {
     const Jobs jobs(2);
-    std::vector<CubeLevel> boxes;
-    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
-    while (boxes.back().size > 1)
-        boxes.push_back(half_cube_level(boxes.back(), jobs));
+    const std::vector<CubeLevel> boxes = smooth_boxes(jobs);
     const LightTree tree = make_light_tree(boxes, jobs), unplaced = make_light_tree(boxes, jobs, 0);
     std::size_t fewest = 1u << 20, most = 0;
     for (const double alpha : {0.02, 0.1, 0.4, 1.0})
@@ -193,10 +200,7 @@ TEST(prefilter, blocks_that_share_a_walk_have_the_terms_of_blocks_alone)
 TEST(prefilter, every_instruction_set_and_split_gives_the_same_bits)
 {
     const Jobs jobs(1);
-    std::vector<CubeLevel> boxes;
-    boxes.push_back(equirect_to_cube(make_equirect(smooth_equirect(64)), 32, jobs));
-    while (boxes.back().size > 1)
-        boxes.push_back(half_cube_level(boxes.back(), jobs));
+    const std::vector<CubeLevel> boxes = smooth_boxes(jobs);
     const LightTree tree = make_light_tree(boxes, jobs);
     std::vector<PrefilterTerm> terms;
     GatherScratch scratch;
