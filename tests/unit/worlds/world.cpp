@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "core/scene/gltf/gltf.h"
+
 namespace burnish::test {
 
 std::uint64_t Dice::next()
@@ -135,7 +137,7 @@ Material unlit(const glm::vec3& color)
     return m;
 }
 
-Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance)
+Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance, const Road& road, Dice& dice)
 {
     static const auto jobs = std::make_shared<const Jobs>(1);
     static std::map<float, std::shared_ptr<const Environment>> environments;
@@ -151,10 +153,20 @@ Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance)
         environment = std::make_shared<const Environment>(std::move(*baked));
     }
     update_world(world.scene);
+    if (road.by_file) {
+        const std::string text = gltf_of(world, dice);
+        Result<Scene> read = load_gltf_bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), "world.gltf", {});
+        if (!read)
+            return read.error();
+        world.scene = std::move(*read);
+    }
     Result<std::shared_ptr<const SceneData>> data = make_scene_data("world", std::move(world.scene), {});
     if (!data)
         return data.error();
-    Result<Session> session = Session::make({*data, environment, jobs, {}});
+    SessionOptions options;
+    options.backend = road.backend;
+    options.reference.samples = 64;
+    Result<Session> session = Session::make({*data, environment, jobs, {}}, options);
     return session ? session->render(desc) : Result<Frame>(session.error());
 }
 

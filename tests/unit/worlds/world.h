@@ -39,7 +39,16 @@ std::vector<glm::vec3> turned_inside(std::vector<glm::vec3> corners);
 glm::mat4 random_placement(Dice& dice, float size, float distance); // turned, stretched, sometimes mirrored
 Material unlit(const glm::vec3& color);
 
+// Returns the world as a glTF file. Chance leaves out what a file may leave out: indices, normals of flat meshes, tangents.
+std::string gltf_of(const World& world, Dice& dice);
+
+// Ways a world takes to its picture.
+struct Road {
+    bool by_file = false; // through a glTF file
+    Backend backend = Backend::tile;
+};
+
 // Draws a world under constant radiance. All worlds share the environment's light.
-Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance);
+Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance, const Road& road, Dice& dice);
 
 } // namespace burnish::test
