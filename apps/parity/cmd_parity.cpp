@@ -26,7 +26,8 @@ constexpr const char* kFooter =
     R"(Renders with the tile renderer and with Vulkan, and compares 32-bit words of each stage: clip positions, visibility (the triangle of each
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
 On a CPU device, with the exact sampler and --pipeline ids, all words must be equal, except visibility for one sample in a million. Other
-pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Each pixel that differs is assigned to the first stage that
+pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Rays through every sample must hit the device's triangle,
+except within 1/64 pixel of an edge and where two surfaces are equally deep; scenes with cut-out alpha are left out of this. Each pixel that differs is assigned to the first stage that
 differs by more than 0.001, or to rounding.
 
 Examples:
@@ -72,7 +73,8 @@ ParityRow failed_row(const Bench& bench, const ParityPlace& place, const ParityS
     return row;
 }
 
-Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions& options, const View& view, Session& tile, Session& vulkan)
+Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions& options, const View& view, Session& tile, Session& vulkan,
+                          Session& rays)
 {
     FrameDesc desc = options.frame;
     desc.view = view;
@@ -83,6 +85,9 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     BN_TRY(a);
     const Result<Frame> b = vulkan.render(desc);
     BN_TRY(b);
+    const Result<RayCounts> judged = compare_with_rays(*b, desc, rays);
+    BN_TRY(judged);
+    row.rays = *judged;
     row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
     row.counts = compare_stages(*a, *b, desc.msaa);
@@ -123,13 +128,14 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     }
     // Make both renderers
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
-    for (const Result<Session>* made : {&tile, &vulkan})
+    Result<Session> rays = ray_session(parts, base.isa);
+    for (const Result<Session>* made : {&tile, &vulkan, &rays})
         if (!*made)
             return made->error();
     // Compare every frame
     for (const RenderOptions& options : set.frames) {
         const Activity activity(row_text(out, named_row(bench, place, set, options)));
-        Result<ParityRow> compared = compare(bench, named_row(bench, place, set, options), options, scene->view, *tile, *vulkan);
+        Result<ParityRow> compared = compare(bench, named_row(bench, place, set, options), options, scene->view, *tile, *vulkan, *rays);
         const ParityRow row = compared ? std::move(*compared) : failed_row(bench, place, set, options, compared.error());
         if (row.failed())
             bench.report.event("failed", describe(row));

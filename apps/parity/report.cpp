@@ -78,6 +78,16 @@ std::string causes_text(const ParityRow& row)
     return text;
 }
 
+// Returns the sums of visibility against rays, in words.
+std::string rays_text(const ParityReport& report)
+{
+    RayCounts sum;
+    for (const ParityRow& row : report.rows)
+        sum.samples += row.rays.samples, sum.differ += row.rays.differ, sum.wrong += row.rays.wrong;
+    return fmt::format("Visibility by rays: {} of {} samples show another triangle, {} of them away from edges", sum.differ, sum.samples,
+                       sum.wrong);
+}
+
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; }
 body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 90rem; }
@@ -100,6 +110,9 @@ std::string fault_of(const ParityRow& row)
 {
     if (row.failed())
         return line_of(row.error);
+    if (row.rays.wrong > 0)
+        return fmt::format("visibility: {} of {} samples show another triangle than a ray, away from edges, the last at pixel {},{}",
+                           row.rays.wrong, row.rays.samples, row.rays.worst_x, row.rays.worst_y);
     if (!bits_promised(row))
         return row.flip_mean < kMaxFlipMean ? "" : fmt::format("mean FLIP {:.3g}, not below {}", row.flip_mean, kMaxFlipMean);
     for (const ParityStage& stage : row.counts.stages)
@@ -145,14 +158,16 @@ std::string describe(const ParityRow& row)
     const ParityCounts& c = row.counts;
     std::string text = row_name(row) + (row.samples_emulated ? ", samples emulated" : "") + ": ";
     const ParityStage* first = first_difference(c);
+    const std::string rays = row.rays.wrong ? fmt::format("; {} samples show another triangle than rays", row.rays.wrong) : "";
     if (!first)
-        return text + fmt::format("{} samples, all equal", c.samples);
+        return text + fmt::format("{} samples, all equal", c.samples) + rays;
     text += fmt::format("first difference in {}: {} of {} words, at most {} ulp{}", first->name, first->words_differ, first->values,
                         first->max_ulp, place_of(*first));
     if (c.visibility_differ)
         text += fmt::format("; {} of {} samples show another triangle", c.visibility_differ, c.samples);
-    return text + fmt::format("; {} pixels differ, {} of them at edges, by {}; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ,
-                              causes_text(row), row.flip_mean);
+    return text + rays +
+           fmt::format("; {} pixels differ, {} of them at edges, by {}; mean FLIP {:.3g}", c.pixels_differ, c.edge_pixels_differ,
+                       causes_text(row), row.flip_mean);
 }
 
 std::string stage_table(const ParityReport& report)
@@ -161,6 +176,7 @@ std::string stage_table(const ParityReport& report)
     for (const Total& t : totals(report))
         text += fmt::format("{:<16} {:>14} {:>12} {:>12}  {}\n", t.stage.name, t.stage.values, t.stage.words_differ, t.stage.max_ulp,
                             t.worst ? row_name(*t.worst) + place_of(t.stage) : "-");
+    text += rays_text(report) + "\n";
     const std::vector<CauseShare> causes = total_causes(report);
     if (causes.empty())
         return text;
@@ -189,6 +205,7 @@ Json parity_document(const ParityReport& report)
         r["sampler"] = row.sampler, r["pipeline"] = row.pipeline, r["samples_emulated"] = row.samples_emulated, r["gpu"] = row.gpu;
         r["pixel_hash"] = fmt::format("{:016x}", row.pixel_hash);
         r["samples"] = row.counts.samples, r["visibility_differ"] = row.counts.visibility_differ;
+        r["ray_samples"] = row.rays.samples, r["ray_differ"] = row.rays.differ, r["ray_wrong"] = row.rays.wrong;
         r["pixels_differ"] = row.counts.pixels_differ, r["edge_pixels_differ"] = row.counts.edge_pixels_differ;
         r["stages"] = Json::array();
         for (const ParityStage& stage : row.counts.stages) {
@@ -271,13 +288,14 @@ std::string parity_html(const ParityReport& report)
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
         "<title>burnish parity</title><style>{}</style></head><body>\n<h1>Parity: {}</h1>\n<p>{}, {}, Vulkan {}; {}; burnish {}; {}x{} "
         "pixels, {} rows.</p>\n<div class=\"scroll\"><table><tr><th>stage</th><th>values</th><th>differ</th><th>max "
-        "ulp</th><th>worst</th></tr>\n{}</table></div>\n{}"
+        "ulp</th><th>worst</th></tr>\n{}</table></div>\n<p>{}.</p>\n{}"
         "<div class=\"scroll\"><table><tr><th>scene</th><th>view</th><th>technique</th><th>sampler, "
         "pipeline</th><th>msaa</th><th>samples</th>"
         "<th>other triangle</th><th>first difference</th><th>pixels differ first by</th><th>mean "
         "FLIP</th></tr>\n{}</table></div>\n</body></html>\n",
         kStyle, passed(report) ? "as promised" : "not as promised", escaped(report.device), escaped(report.driver), report.api,
-        escaped(report.processor), report.version, report.width, report.height, report.rows.size(), stages, causes, rows);
+        escaped(report.processor), report.version, report.width, report.height, report.rows.size(), stages, rays_text(report), causes,
+        rows);
 }
 
 } // namespace burnish

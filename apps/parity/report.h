@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/parity/rays.h"
 #include "apps/parity/stages.h"
 
 namespace burnish {
@@ -16,6 +17,7 @@ struct ParityRow {
     bool gpu = false;             // a graphics processor, where Vulkan lets division and square roots be inexact
     std::uint64_t pixel_hash = 0; // the tile renderer's picture
     ParityCounts counts;
+    RayCounts rays; // the device's visibility against rays
     double flip_mean = 0.0;
     std::vector<CauseShare> causes;        // for differing pixels
     Error error{ExitCode::ok, "", "", ""}; // other than ok: the reason why nothing was compared

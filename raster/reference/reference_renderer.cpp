@@ -82,6 +82,7 @@ class ReferenceRenderer final : public Renderer {
     ReferenceParams params(const FrameDesc& desc);
     void add_extracted_lights(ReferenceParams& f);
     Result<Accumulator> integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats);
+    Status add_light(const FrameDesc& desc, const ReferenceParams& f, Frame& frame);
     void advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks);
     std::uint64_t pass_samples() const { return static_cast<std::uint64_t>(kPassPositions * options_.shades); }
     bool stopped() const { return options_.stop && options_.stop->load(std::memory_order_relaxed); }
@@ -184,7 +185,6 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         BN_TRY(resumed);
         stats.resumed = *resumed;
     }
-    workers_.assign(static_cast<std::size_t>(input_.jobs.threads()), {});
     std::uint32_t done = least_passes(a);
     stats.samples_before = done * pass_samples();
     Progress progress("passes", passes > done ? passes - done : 0, options_.quiet);
@@ -220,20 +220,14 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     return a;
 }
 
-Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
+// Integrates light. Fills the frame's picture, its variance and its statistics.
+Status ReferenceRenderer::add_light(const FrameDesc& desc, const ReferenceParams& f, Frame& frame)
 {
-    for (const Status& ok : {check_frame(input_.scene, with_msaa(reference_desc(desc), desc.msaa)), check_options(options_),
-                             check_ray_range(desc.view), check_prepared(input_.mips, desc)})
-        BN_TRY(ok);
-    const TraceSpan span("reference");
     const Clock::time_point begin = Clock::now();
-    Frame frame;
-    const ReferenceParams f = params(desc);
     SamplingStats& s = frame.stats.sampling;
     const Result<Accumulator> a = integrate(desc, f, s);
     BN_TRY(a);
     const double seconds = seconds_since(begin);
-    // Fill the frame and its statistics
     frame.color = mean_image(*a);
     frame.variance = variance_image(*a);
     s.samples = least_passes(*a) * pass_samples();
@@ -248,6 +242,21 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
     s.ray_share = count.all_ticks ? static_cast<double>(count.ticks) / static_cast<double>(count.all_ticks) : 0.0;
     s.million_samples_per_second =
         static_cast<double>(s.samples - std::min(s.samples, s.samples_before)) * desc.width * desc.height / seconds * 1e-6;
+    return {};
+}
+
+Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
+{
+    for (const Status& ok : {check_frame(input_.scene, with_msaa(reference_desc(desc), desc.msaa)), check_options(options_),
+                             check_ray_range(desc.view), check_prepared(input_.mips, desc)})
+        BN_TRY(ok);
+    const TraceSpan span("reference");
+    const Clock::time_point begin = Clock::now();
+    Frame frame;
+    const ReferenceParams f = params(desc);
+    workers_.assign(static_cast<std::size_t>(input_.jobs.threads()), {});
+    if (!options_.ids_only)
+        BN_TRY(add_light(desc, f, frame));
     // Trace triangle ids at sample positions
     if (desc.triangle_ids) {
         const std::size_t row = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.msaa);

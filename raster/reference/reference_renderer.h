@@ -24,6 +24,7 @@ struct ReferenceOptions {
     int bounces = 8;                  // path mode: most bounces between surfaces
     std::uint64_t samples = 1024;     // per pixel; rounded up to whole passes
     bool own_rays = false;            // by a tree of our own, not Embree's
+    bool ids_only = false;            // triangle ids alone: no light, and no colour
     bool area_lights_only = false;    // no other light, and a black background
     bool lamps_only = false;          // punctual lights alone, and extracted lights as points; a black background
     int shades = 4;                   // light samples at each of a pass's 16 camera positions, 1 to 4

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/simd/dispatch.h"
+#include "raster/frame/exact_projection.h"
 #include "raster/frame/frame_record.h"
 #include "raster/tile/tile_types.h"
 #include "shading/kernels/depth_plane.k.h"
 #include "shading/kernels/interpolate.k.h"
 #include "tests/unit/raster/fixture.h"
-#include "tests/unit/raster/projection_oracle.h"
 
 namespace burnish::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "shading/lang/records.h"
 
-namespace burnish::test {
+namespace burnish {
 
 using Long = long double;
 struct Long3 {
@@ -80,4 +80,4 @@ inline ProjectedTriangle project(const ViewRecord& v, int width, int height, con
     return t;
 }
 
-} // namespace burnish::test
+} // namespace burnish

@@ -1,0 +1,98 @@
+#include "apps/parity/rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/frame/exact_projection.h"
+#include "raster/frame/frame_record.h"
+
+namespace burnish {
+namespace {
+
+constexpr Long kEdge = Long{1} / 64; // pixels; corners snap to 1/256, and floats place them within the guard band
+constexpr Long kEqualDepth = 1e-4L;  // of the depth
+
+struct Place {
+    const DrawTables& tables;
+    ViewRecord view;
+    int width, height;
+    Long x, y; // pixels
+
+    ProjectedTriangle triangle(std::uint32_t id) const
+    {
+        glm::vec3 corners[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = tables.indices[std::size_t{3} * id + k];
+            corners[k] = glm::vec3(tables.px[v], tables.py[v], tables.pz[v]);
+        }
+        return project(view, width, height, corners);
+    }
+    // Returns true near the edges of a triangle, where rounding may decide.
+    bool near_edge(const ProjectedTriangle& t) const { return !t.seen_at_all || std::fabs(t.inside(x, y)) <= kEdge; }
+};
+
+// Returns true where rounding may choose between two triangles, or between one and none.
+bool may_be_either(const Place& place, std::uint32_t one, std::uint32_t other)
+{
+    Long depth[2] = {};
+    int count = 0;
+    for (std::uint32_t id : {one, other}) {
+        if (id == kNoTriangle)
+            continue;
+        const ProjectedTriangle t = place.triangle(id);
+        if (place.near_edge(t))
+            return true;
+        depth[count++] = t.z.value(place.x, place.y);
+    }
+    return count == 2 && std::fabs(depth[0] - depth[1]) <= kEqualDepth * std::max(std::fabs(depth[0]), std::fabs(depth[1]));
+}
+
+bool alpha_cuts_holes(const Scene& scene)
+{
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.alpha_mode == AlphaMode::mask; });
+}
+
+} // namespace
+
+Result<Session> ray_session(const SessionParts& parts, Isa isa)
+{
+    SessionOptions options;
+    options.backend = Backend::reference, options.isa = isa;
+    options.reference.own_rays = options.reference.ids_only = true;
+    return Session::make(parts, options);
+}
+
+Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays)
+{
+    RayCounts out;
+    if (alpha_cuts_holes(rays.scene()))
+        return out;
+    const FrameDesc drawn = rays.drawn(desc);
+    const Result<Frame> traced = rays.renderer().render(drawn);
+    BN_TRY(traced);
+    const SamplePattern pattern = standard_samples(desc.msaa);
+    const RenderInput input = rays.parts().input();
+    const auto msaa = static_cast<std::size_t>(desc.msaa);
+    out.samples = device.triangle_ids.size();
+    for (std::size_t i = 0; i < device.triangle_ids.size(); ++i) {
+        const std::uint32_t found = device.triangle_ids[i], right = traced->triangle_ids[i];
+        if (found == right)
+            continue;
+        ++out.differ;
+        const int x = static_cast<int>(i / msaa) % desc.width, y = static_cast<int>(i / msaa) / desc.width;
+        const std::size_t s = i % msaa;
+        const Place place = {input.tables,
+                             view_record(drawn.view),
+                             desc.width,
+                             desc.height,
+                             x + Long(pattern.x[s]) / kSubpixel,
+                             y + Long(pattern.y[s]) / kSubpixel};
+        if (may_be_either(place, found, right))
+            continue;
+        ++out.wrong;
+        out.worst_x = x, out.worst_y = y;
+    }
+    return out;
+}
+
+} // namespace burnish

@@ -1,0 +1,23 @@
+// Judges a device's visibility by rays and exact projections, which share no text with the clipping of triangles.
+#pragma once
+#include <cstdint>
+
+#include "raster/session/session.h"
+
+namespace burnish {
+
+struct RayCounts {
+    std::uint64_t samples = 0;      // compared; 0: rays cannot tell, as alpha cuts holes
+    std::uint64_t differ = 0;       // another triangle than the ray's
+    std::uint64_t wrong = 0;        // of these: away from edges, and not equally deep
+    int worst_x = -1, worst_y = -1; // a pixel with a wrong sample
+};
+
+// Makes the session that traces. No light is computed.
+Result<Session> ray_session(const SessionParts& parts, Isa isa);
+
+// Compares the triangle of each sample. A triangle other than the ray's is right where the sample is nearer than 1/64 pixel to an edge of
+// either triangle, and where both are equally deep.
+Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays);
+
+} // namespace burnish
