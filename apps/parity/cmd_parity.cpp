@@ -27,8 +27,8 @@ constexpr const char* kFooter =
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
 On a CPU device, with the exact sampler and --pipeline ids, all words must be equal, except visibility for one sample in a million. Other
 pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Rays through every sample must hit the device's triangle,
-except within 1/64 pixel of an edge and where two surfaces are equally deep; scenes with cut-out alpha are left out of this. Each pixel that differs is assigned to the first stage that
-differs by more than 0.001, or to rounding.
+except within 1/64 pixel of an edge (1/8 with --pipeline forward) and where two surfaces are equally deep; scenes with cut-out alpha are
+left out of this. Each pixel that differs is assigned to the first stage that differs by more than 0.001, or to rounding.
 
 Examples:
   burnish parity
@@ -85,7 +85,8 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     BN_TRY(a);
     const Result<Frame> b = vulkan.render(desc);
     BN_TRY(b);
-    const Result<RayCounts> judged = compare_with_rays(*b, desc, rays);
+    const Result<RayCounts> judged =
+        compare_with_rays(*b, desc, rays, options.vulkan.pipeline == VulkanPipeline::ids ? kOwnEdge : kDeviceEdge);
     BN_TRY(judged);
     row.rays = *judged;
     row.pixel_hash = pixel_hash(a->color);

@@ -9,14 +9,13 @@
 namespace burnish {
 namespace {
 
-constexpr Long kEdge = Long{1} / 64; // pixels; corners snap to 1/256, and floats place them within the guard band
-constexpr Long kEqualDepth = 1e-4L;  // of the depth
+constexpr Long kEqualDepth = 1e-4L; // of the depth
 
 struct Place {
     const DrawTables& tables;
     ViewRecord view;
     int width, height;
-    Long x, y; // pixels
+    Long x, y, edge; // pixels
 
     ProjectedTriangle triangle(std::uint32_t id) const
     {
@@ -28,7 +27,7 @@ struct Place {
         return project(view, width, height, corners);
     }
     // Returns true near the edges of a triangle, where rounding may decide.
-    bool near_edge(const ProjectedTriangle& t) const { return !t.seen_at_all || std::fabs(t.inside(x, y)) <= kEdge; }
+    bool near_edge(const ProjectedTriangle& t) const { return !t.seen_at_all || std::fabs(t.inside(x, y)) <= edge; }
 };
 
 // Returns true where rounding may choose between two triangles, or between one and none.
@@ -62,7 +61,7 @@ Result<Session> ray_session(const SessionParts& parts, Isa isa)
     return Session::make(parts, options);
 }
 
-Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays)
+Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays, double edge)
 {
     RayCounts out;
     if (alpha_cuts_holes(rays.scene()))
@@ -86,7 +85,8 @@ Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, 
                              desc.width,
                              desc.height,
                              x + Long(pattern.x[s]) / kSubpixel,
-                             y + Long(pattern.y[s]) / kSubpixel};
+                             y + Long(pattern.y[s]) / kSubpixel,
+                             edge};
         if (may_be_either(place, found, right))
             continue;
         ++out.wrong;

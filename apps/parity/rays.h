@@ -16,8 +16,11 @@ struct RayCounts {
 // Makes the session that traces. No light is computed.
 Result<Session> ray_session(const SessionParts& parts, Isa isa);
 
-// Compares the triangle of each sample. A triangle other than the ray's is right where the sample is nearer than 1/64 pixel to an edge of
-// either triangle, and where both are equally deep.
-Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays);
+// Distances in pixels to an edge below which rounding may decide: our own pipeline snaps corners to 1/256 pixel, devices to 1/16 or finer.
+inline constexpr double kOwnEdge = 1.0 / 64.0, kDeviceEdge = 1.0 / 8.0;
+
+// Compares the triangle of each sample. A triangle other than the ray's is right where the sample is nearer than `edge` pixels to an edge
+// of either triangle, and where both are equally deep.
+Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays, double edge = kOwnEdge);
 
 } // namespace burnish

@@ -58,7 +58,8 @@ TexturePyramid kept_pyramid(const Scene& scene, const Material& m, const Texture
 
 namespace {
 
-constexpr float kLeastLoss = 0.05f; // of light: below this loss, one lobe per texel is accurate enough
+constexpr float kLeastLoss = 0.01f; // of light: below this loss, one lobe per texel is accurate enough
+constexpr double kAlike = 0.05;     // of the squared lobe width: normals that differ by less are one group
 
 void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, MaterialRecord& to)
 {
@@ -67,8 +68,9 @@ void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, 
         return;
     to.facets_from = kept.loss;
     const float roughness = mean_roughness(scene, m), own2 = roughness * roughness;
+    const double alike = std::max(1e-4, kAlike * static_cast<double>(own2 * own2));
     std::copy(std::begin(kept.mean), std::end(kept.mean), to.facets_kept);
-    const std::vector<Facet> facets = facets_of(normals_of(scene, m));
+    const std::vector<Facet> facets = facets_of(normals_of(scene, m), alike);
     for (int knot = 0; knot < kKeptKnots; ++knot) {
         float of_groups = 0.0f;
         for (const Facet& facet : facets) {

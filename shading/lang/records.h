@@ -69,7 +69,7 @@ const int kCoatings = 0 // layers above a material's own lobe
 #define BN_COATING(id, at, strength, trait) const int kCoating_##id = at;
 #include "shading/coatings.def"
 
-const int kMostFacets = 16; // per material, see MaterialRecord::facet
+const int kMostFacets = 32; // per material, see MaterialRecord::facet
 const int kKeptKnots = 4;   // view cosines, see MaterialRecord::kept
 
 // Slope moments in a material's textures: none; moments of a tilt or normal map alone; moments of the map and the lobe;

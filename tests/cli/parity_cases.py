@@ -36,6 +36,7 @@ def check_equal(report):
         name = f"{row['scene']} {row['technique']} {row['msaa']}x"
         check([stage["name"] for stage in row["stages"]] == OF_IDS, f"{name}: other stages")
         check(row["visibility_differ"] == 0 and row["first_difference"] is None, f"{name}: {row}")
+        check(row["ray_wrong"] == 0, f"{name}: rays meet other triangles: {row}")
         check(row["samples"] == report["width"] * report["height"] * row["msaa"], f"{name}: wrong number of samples")
         for stage in row["stages"][:3] + row["stages"][-3:]:
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")

@@ -51,9 +51,8 @@ Group split(Group& group)
 
 } // namespace
 
-std::vector<Facet> facets_of(const MipSource& source)
+std::vector<Facet> facets_of(const MipSource& source, double alike)
 {
-    constexpr double kAlike = 1e-4; // mean squared distance of normals from their mean
     const std::vector<float> points = spread_points(source);
     const std::size_t stride = mip::row_stride(kSpreadPoints);
     std::vector<Group> groups(1);
@@ -63,7 +62,7 @@ std::vector<Facet> facets_of(const MipSource& source)
     while (static_cast<int>(groups.size()) < kMostFacets) {
         const auto widest =
             std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.spread() < b.spread(); });
-        if (widest->spread() < kAlike * kSpreadPoints)
+        if (widest->spread() < alike * kSpreadPoints)
             break;
         Group rest = split(*widest);
         if (rest.normals.empty() || widest->normals.empty())

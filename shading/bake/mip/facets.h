@@ -15,7 +15,7 @@ struct Facet {
 };
 
 // Groups 4096 texels into at most kMostFacets facets. Splits the group with the largest spread in two, across its direction of largest
-// spread, until normals in each group are alike or the number is reached.
-std::vector<Facet> facets_of(const MipSource& source);
+// spread, until the number is reached, or no group adds more than `alike` to the mean squared distance of normals from their group's mean.
+std::vector<Facet> facets_of(const MipSource& source, double alike);
 
 } // namespace burnish

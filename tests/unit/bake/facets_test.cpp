@@ -8,7 +8,7 @@
 namespace burnish::test {
 namespace {
 
-std::vector<Facet> facets_of_slopes(int side, float (*slope_x)(int x, int y), float (*slope_y)(int x, int y))
+std::vector<Facet> facets_of_slopes(int side, float (*slope_x)(int x, int y), float (*slope_y)(int x, int y), double alike = 1e-4)
 {
     Image map = make_image(side, side, 3, PixelType::f32);
     float* to = map.f32();
@@ -20,7 +20,7 @@ std::vector<Facet> facets_of_slopes(int side, float (*slope_x)(int x, int y), fl
     MipMaps maps;
     maps.normal = &map;
     maps.nearest = true; // else normals between texels count, too
-    return facets_of(MipSource(maps));
+    return facets_of(MipSource(maps), alike);
 }
 
 TEST(facets, of_four_slopes_are_these_slopes)
@@ -44,6 +44,20 @@ TEST(facets, of_a_flat_map_are_one)
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].weight, 1.0f);
     EXPECT_LT(found[0].spread, 1e-6f);
+}
+
+TEST(facets, are_fewer_where_normals_may_differ_more)
+{
+    std::size_t before = 0;
+    for (double alike : {0.1, 0.01, 0.003, 0.001}) {
+        const std::vector<Facet> found = facets_of_slopes(
+            64, [](int x, int) { return 0.02f * static_cast<float>(x) - 0.63f; },
+            [](int, int y) { return 0.02f * static_cast<float>(y) - 0.63f; }, alike);
+        EXPECT_GT(found.size(), before) << alike;
+        for (const Facet& f : found)
+            EXPECT_LT(static_cast<double>(f.weight * f.spread), alike);
+        before = found.size();
+    }
 }
 
 TEST(facets, keep_mean_and_spread_of_all_normals)

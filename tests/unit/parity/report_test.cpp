@@ -61,6 +61,18 @@ TEST(parity_report, holds_a_gpu_to_its_picture)
     EXPECT_NE(fault_of(row).find("FLIP"), std::string::npos);
 }
 
+TEST(parity_report, fails_where_rays_meet_another_triangle)
+{
+    const Frame a = two_pixels();
+    ParityRow row = row_of(a, a);
+    row.rays.samples = 8, row.rays.differ = 3;
+    EXPECT_TRUE(passed(report_of({row})));
+    row.rays.wrong = 1;
+    EXPECT_NE(fault_of(row).find("than a ray"), std::string::npos);
+    EXPECT_EQ(outcome(report_of({row})), ExitCode::differ);
+    EXPECT_NE(parity_json(report_of({row})).find("\"ray_wrong\": 1"), std::string::npos);
+}
+
 TEST(parity_report, allows_one_sample_in_a_million_in_all_rows_together)
 {
     ParityRow row;
