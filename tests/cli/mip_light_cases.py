@@ -218,7 +218,7 @@ def default_technique(bench):
     """One round fetch stands for each group of normals, and lights smaller than its lobe are blurred: bounds hold what is known."""
     needs_embree(bench)
     far_off = []
-    for kind, most in (("hammered", 0.22), ("knurled", 0.13), ("woven", 0.15), ("scratched", 0.15)):
+    for kind, most in (("hammered", 0.13), ("knurled", 0.1), ("woven", 0.11), ("scratched", 0.13)):
         name = far_plate(bench, kind, KINDS[kind][1][0])
         for light in ("builtin:studio", "builtin:sky"):
             off = []
