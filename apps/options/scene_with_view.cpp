@@ -20,8 +20,18 @@ Result<SceneWithView> load_scene_with_view(const std::string& name, const Render
     return SceneWithView{*data, view->view};
 }
 
-void warn_of_open_bodies(const SceneData& data, Report& report)
+void warn_of_glass(const SceneData& data, Report& report)
 {
+    const Material *glass = nullptr, *blended = nullptr;
+    for (std::uint32_t id : data.tables.triangle_material) {
+        const Material& m = data.scene.materials[id];
+        if (m.transmission > 0.0f)
+            glass = &m;
+        else if (m.alpha_mode == AlphaMode::blend)
+            blended = &m;
+    }
+    if (glass && blended)
+        report.warning("material '" + blended->name + "' is blended: glass ('" + glass->name + "') does not show it behind itself");
     for (std::size_t i = 0; i < data.scene.materials.size(); ++i) {
         const Material& m = data.scene.materials[i];
         const bool volume = m.transmission > 0.0f && (m.thickness > 0.0f || m.attenuation_distance > 0.0f);

@@ -18,7 +18,7 @@ struct SceneWithView {
 // Loads a scene with the limits, camera and picture size of `base`.
 Result<SceneWithView> load_scene_with_view(const std::string& name, const RenderOptions& base, Report& report);
 
-// Warns of each transmissive material with a volume whose mesh is open.
-void warn_of_open_bodies(const SceneData& data, Report& report);
+// Warns of each transmissive material with a volume whose mesh is open, and of blended surfaces, which glass does not show.
+void warn_of_glass(const SceneData& data, Report& report);
 
 } // namespace burnish

@@ -27,8 +27,8 @@ constexpr const char* kFooter =
 sample), depth, interpolants, material inputs, shaded colour, resolved colour and layers. Later stages are compared where visibility agrees.
 On a CPU device, with the exact sampler and --pipeline ids, all words must be equal, except visibility for one sample in a million. Other
 pictures must look the same (mean FLIP below 0.002): a GPU may divide inexactly. Rays through every sample must hit the device's triangle,
-except within 1/64 pixel of an edge (1/8 with --pipeline forward) and where two surfaces are equally deep; scenes with cut-out alpha are
-left out of this. Each pixel that differs is assigned to the first stage that differs by more than 0.001, or to rounding.
+except within 1/64 pixel of an edge (1/8 with --pipeline forward) and where two surfaces are equally deep; triangles with cut-out alpha
+are left out of this. Each pixel that differs is assigned to the first stage that differs by more than 0.001, or to rounding.
 
 Examples:
   burnish parity

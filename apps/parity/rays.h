@@ -7,7 +7,7 @@
 namespace burnish {
 
 struct RayCounts {
-    std::uint64_t samples = 0;      // compared; 0: rays cannot tell, as alpha cuts holes
+    std::uint64_t samples = 0;      // compared; triangles with holes by alpha are left out
     std::uint64_t differ = 0;       // another triangle than the ray's
     std::uint64_t wrong = 0;        // of these: away from edges, and not equally deep
     int worst_x = -1, worst_y = -1; // a pixel with a wrong sample

@@ -146,7 +146,7 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
     if (options.shadows == Shadows::ratio && parts.scene->tables.area_lights.empty())
         report.warning("--shadows has no effect: nothing in the scene is an area light");
     if (options.backend != "reference")
-        warn_of_open_bodies(*parts.scene, report);
+        warn_of_glass(*parts.scene, report);
 
     // Open and bake the environment
     const Stopwatch bake;

@@ -10,8 +10,8 @@
 namespace burnish {
 namespace {
 
-// Bound on coordinates in metres: squared distances overflow a float beyond 1.8e19 m.
-constexpr float kFarthest = 1e18f;
+// Bound on coordinates in metres. Doubles clip triangles right up to here, with near planes from 1e-6 m on.
+constexpr float kFarthest = 1e14f;
 
 bool within(const glm::vec3& v, float most)
 {
@@ -134,7 +134,7 @@ Status check_draw_range(const Scene& scene, const DrawTables& tables, const std:
     for (const Draw& draw : tables.draws) {
         if (!within(draw.bounds_min, kFarthest) || !within(draw.bounds_max, kFarthest))
             return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", draw.node),
-                         fmt::format("its mesh lies farther than {:g} m from the origin", kFarthest)};
+                         fmt::format("its mesh lies farther than {:g} m from the origin; scale the scene down", kFarthest)};
         if (draw.node >= 0)
             ++drawn[static_cast<std::size_t>(draw.node)];
     }

@@ -64,6 +64,20 @@ def no_line(bench):
     check(max(steps) < 0.2, f"the logarithm of the light steps by {max(steps)}")
 
 
+@case("glass.blended_surfaces_beside_glass_are_named", "input")
+def blended(bench):
+    """Glass shows opaque surfaces alone behind itself."""
+    gltf = glass()
+    gltf["materials"].append({"name": "veil", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 0.5]}})
+    veil = {**gltf["meshes"][0]["primitives"][0], "material": 1}
+    warning = "material 'veil' is blended: glass"
+    lone = scratch(bench, "lone.gltf", files.text(gltf))
+    check(warning not in bench.run("render", lone, *CLOSE).expect(0).err, "a material that nothing is made of is named")
+    gltf["meshes"][0]["primitives"].append(veil)
+    both = scratch(bench, "both.gltf", files.text(gltf))
+    check(bench.run("render", both, *CLOSE).expect(0).err.count(warning) == 1, "nothing says that glass shows no veil")
+
+
 @case("glass.every_factor_changes_the_picture_of_every_technique")
 def factors(bench):
     opaque_mirror = scene(bench, "opaque", ior=0, factor=0)

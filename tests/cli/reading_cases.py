@@ -83,6 +83,8 @@ def shapes(bench):
                            (attribute("adoptedNeutral", "v2f", struct.pack("<2f", 0.35, 0.36)), "adoptedNeutral")):
         warnings = drawn(bench, scratch(bench, "odd.exr", exr(WIDTH, HEIGHT, sky, attributes=words)))[1]
         check(len(warnings) == 1 and warning in warnings[0], f"{warnings}")
+    xyz = scratch(bench, "xyz.exr", exr(WIDTH, HEIGHT, sky, names=("X", "Y", "Z")))
+    refuse(bench, "builtin:plate", env=xyz, needles=("X, Y and Z hold CIE colours",))
     warnings = drawn(bench, scratch(bench, "layer.exr", exr(WIDTH, HEIGHT, sky, names=("a.R", "a.G", "a.B"))))[1]
     check(len(warnings) == 1 and "no channels R, G, B or Y" in warnings[0], f"{warnings}")
     for lines, place in (("EXPOSURE=0\n", "EXPOSURE"), ("COLORCORR=1 2\n", "COLORCORR"), ("FORMAT=32-bit_rle_xyze\n", "XYZE")):

@@ -60,6 +60,8 @@ Result<Selection> select_channels(const ImageBytes& file, const StoredHeader& he
     const int ry = find_channel(header, "RY"), by = find_channel(header, "BY");
     if (r >= 0 && g >= 0 && b >= 0)
         return take({r, g, b, a});
+    if (y >= 0 && find_channel(header, "X") >= 0 && find_channel(header, "Z") >= 0)
+        return file.error("header: channels", "X, Y and Z hold CIE colours, which are not supported, only R, G and B");
     if (y >= 0 && (ry >= 0) != (by >= 0))
         return file.error("header: channels", fmt::format("{} without {}", ry >= 0 ? "RY" : "BY", ry >= 0 ? "BY" : "RY"));
     if (y >= 0) {

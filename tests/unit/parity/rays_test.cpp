@@ -1,6 +1,8 @@
 // Visibility of renderers against rays.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/parity/rays.h"
 
 namespace burnish::test {
@@ -47,6 +49,12 @@ TEST(rays, see_a_hole_and_a_triangle_that_is_not_there)
     EXPECT_EQ(holed.wrong, 1u);
     EXPECT_EQ(holed.worst_x, 32);
     EXPECT_EQ(holed.worst_y, 24);
+    const RayCounts coplanar = judged("builtin:plate", [&](Column<std::uint32_t>& ids) {
+        EXPECT_NE(ids[middle], kNoTriangle);
+        const std::uint32_t here = ids[middle];
+        ids[middle] = *std::find_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id != here && id != kNoTriangle; });
+    });
+    EXPECT_EQ(coplanar.wrong, 1u);
     const RayCounts floating = judged("builtin:teapot", [&](Column<std::uint32_t>& ids) {
         EXPECT_EQ(ids[corner], kNoTriangle);
         ids[corner] = 7;
