@@ -11,7 +11,7 @@ namespace burnish {
 namespace {
 
 // Bound on coordinates in metres. Doubles clip triangles right up to here, with near planes from 1e-6 m on.
-constexpr float kFarthest = 1e14f;
+constexpr float kFarthest = 1e12f;
 
 bool within(const glm::vec3& v, float most)
 {

@@ -116,7 +116,7 @@ FEW_THREADS = {
     "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
     "report": (("chart", "builtin:plate", *CHART[1:]), (0, 4)),
     "lit.png": ((*PLATE, "--env", "sky.exr", "--threads", "4"), (0, 4)),
-    "found.json": (("compare", "a.pfm", "b.pfm", "--threads", "4", "-q"), (0,)),
+    "found.json": (("compare", "a.pfm", "b.pfm", "--threads", "4", "-q"), (0, 4)),
 }
 OUTPUT = {"found.json": "--json"}  # -o for all others
 

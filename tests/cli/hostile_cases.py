@@ -39,7 +39,7 @@ def perspective(near, yfov=1.0):
 
 # Scenes at the limits of floats, each with its view.
 DEGENERATE = {
-    **{f"scale_{scale:g}": (scaled(scale), ()) for scale in (1e-38, 1e-30, 1e-18, 1e-9, 1e9, 1e13, 1e16, 1e18, 1e20, 1e30, 3e38)},
+    **{f"scale_{scale:g}": (scaled(scale), ()) for scale in (1e-38, 1e-30, 1e-18, 1e-9, 1e9, 1e12, 1e16, 1e18, 1e20, 1e30, 3e38)},
     **{f"orthographic_{half:g}": (scaled(camera=orthographic(half)), ()) for half in (0.0, -1.0, 1e-30, 1e16, 1e18, 1e30, 3e38)},
     **{f"near_{near:g}": (scaled(camera=perspective(near)), ()) for near in (1e-30, 1e-9, 1e9, 1e18, 3e38)},
     **{f"yfov_{yfov:g}": (scaled(camera=perspective(0.1, yfov)), ()) for yfov in (1e-6, 3.1415)},
@@ -77,9 +77,9 @@ def degenerate_reference(bench):
     refused = run_degenerate(bench, REFERENCE)
     for name in ("scale_1e+18", "orthographic_1e+30", "eye_1e+20", "eye_1e+38"):
         check(name in refused, f"{name} was not refused, and rays go no further than 1e17")
-    for name in ("scale_1e+13", "scale_1e-09", "eye_1e+09"):
+    for name in ("scale_1e+12", "scale_1e-09", "eye_1e+09"):
         check(name not in refused, f"{name} was refused")
-    bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+14", "scale the scene down")
+    bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+12", "scale the scene down")
 
 
 @case("hostile.what_an_environment_needed_is_said")
@@ -357,4 +357,4 @@ def damaged_module(bench):
 @case("hostile.a_scene_out_of_the_range_of_floats", "input")
 def huge_vertex(bench):
     scene = scratch(bench, "huge.gltf", files.text(scaled(3e38)))
-    refuse(bench, scene, needles=["/nodes", "farther than 1e+14 m"])
+    refuse(bench, scene, needles=["/nodes", "farther than 1e+12 m"])

@@ -256,7 +256,7 @@ void random_triangles(Isa isa, std::uint64_t seed, int count, int places, bool o
     constexpr int kSizes[][2] = {{640, 360}, {512, 512}, {96, 96}, {333, 77}, {1920, 1080}};
     for (int n = 0; n < count; ++n) {
         const auto& size = kSizes[random.below(5)];
-        const double extent = exponential(random, 1e2, n % 4 ? 1e7 : 1e14), height = exponential(random, 1e-2, 0.1 * extent);
+        const double extent = exponential(random, 1e2, n % 4 ? 1e7 : 1e12), height = exponential(random, 1e-2, 0.1 * extent);
         const glm::vec3 eye(any_direction(random) * exponential(random, 1e-3, 1e2));
         glm::vec3 corners[3];
         random_corners(random, random.below(kKinds), extent, height, glm::dvec3(eye), corners);
