@@ -11,7 +11,7 @@ from environment_files import exr
 from gltf_files import data_uri, png, text
 from harness import case, check, scratch
 
-LIGHT = ("--env", "builtin:studio", "--env-size", "64", "--env-samples", "64")
+LIGHT = ("--env", "builtin:studio", "--env-size", "64", "--env-samples", "64", "--floor", "off")
 SIDE = ("--size", "64x64", "-q")
 
 
