@@ -24,7 +24,7 @@ inline Long dot(const Long3& a, const Long3& b)
 }
 inline Long3 long3(const float v[3])
 {
-    return {v[0], v[1], v[2]};
+    return {Long(v[0]), Long(v[1]), Long(v[2])};
 }
 
 // A value that is linear over the screen: at + by_x x + by_y y, in pixels from the top left corner.
@@ -62,10 +62,10 @@ inline ProjectedTriangle project(const ViewRecord& v, int width, int height, con
     Long3 p[3]; // clip space x, y, w
     Long z[3];  // clip space z
     for (int k = 0; k < 3; ++k) {
-        const Long3 d = {Long(corners[k].x) - v.eye[0], Long(corners[k].y) - v.eye[1], Long(corners[k].z) - v.eye[2]};
+        const Long3 d = {Long(corners[k].x) - Long(v.eye[0]), Long(corners[k].y) - Long(v.eye[1]), Long(corners[k].z) - Long(v.eye[2])};
         const Long depth = dot(long3(v.forward), d);
-        p[k] = {dot(long3(v.right), d) * v.inv_tan_x, dot(long3(v.up), d) * v.inv_tan_y, v.orthographic ? 1 : depth};
-        z[k] = v.orthographic ? (v.zfar - depth) / (Long(v.zfar) - v.znear) : v.znear;
+        p[k] = {dot(long3(v.right), d) * Long(v.inv_tan_x), dot(long3(v.up), d) * Long(v.inv_tan_y), v.orthographic ? 1 : depth};
+        z[k] = v.orthographic ? (Long(v.zfar) - depth) / (Long(v.zfar) - Long(v.znear)) : Long(v.znear);
     }
     ProjectedTriangle t = {};
     const Long volume = dot(p[0], cross(p[1], p[2]));
