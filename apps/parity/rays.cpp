@@ -88,7 +88,7 @@ Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, 
                              desc.height,
                              x + Long(pattern.x[s]) / kSubpixel,
                              y + Long(pattern.y[s]) / kSubpixel,
-                             edge};
+                             Long(edge)};
         if (may_be_either(place, found, right))
             continue;
         ++out.wrong;
