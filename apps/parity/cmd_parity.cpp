@@ -127,7 +127,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
         BN_TRY(tables);
         parts.phong = std::move(*tables);
     }
-    // Make both renderers
+    // Make both renderers, and the rays that judge them
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     Result<Session> rays = ray_session(parts, base.isa);
     for (const Result<Session>* made : {&tile, &vulkan, &rays})

@@ -157,14 +157,14 @@ def far_scratched(bench):
     light_is_kept(bench, "scratched")
 
 
-def light_is_that_of_texels(bench, kind, most_of_sun=0.12):
+def light_is_that_of_texels(bench, kind):
     """The whole table of a kind: both sizes, all filters, three eyes. Constant light is kept for each eye. For two environments with
     small lights the mean over eyes is kept: from one eye a sun shows details that 32 groups of normals omit."""
     needs_embree(bench)
     white, far_off = furnace(bench), []
     for size in KINDS[kind][1]:
         name = far_plate(bench, kind, size)
-        for light, most in ((white, 0.07), (("--env", "builtin:studio"), 0.1), (("--env", "builtin:sky"), most_of_sun)):
+        for light, most in ((white, 0.07), (("--env", "builtin:studio"), 0.1), (("--env", "builtin:sky"), 0.1)):
             off = {mip: [] for mip in FILTERS}
             for elevation in VIEWS:
                 look = (*light, *eye_at(elevation), "--size", "12x12", *horizon(bench, True))

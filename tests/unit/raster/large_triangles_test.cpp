@@ -1,4 +1,4 @@
-// Triangles that are thousands to 1e20 times larger than the near plane's distance. Coverage and interpolated values are checked
+// Triangles that are thousands to 1e18 times larger than the near plane's distance. Coverage and interpolated values are checked
 // against an oracle that neither clips nor snaps.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #include <cstdio>
-#include <cstring>
+#include <string>
+#include <vector>
 
 #include "tests/unit/worlds/world.h"
 
