@@ -55,7 +55,8 @@ void add_things(Dice& dice, World& world, int count, const std::function<Materia
                                              : dice.below(2) == 0 ? ball_corners(4 + dice.below(6))
                                                                   : plate_corners(1 + dice.below(5));
         const int parent = i > 0 && dice.below(3) == 0 ? first + dice.below(i) : kNone;
-        world.add(shape, material(), random_placement(dice, size, distance), parent);
+        const float unit = parent == kNone ? 1.0f : size; // a parent scales its children
+        world.add(shape, material(), random_placement(dice, size / unit, distance / unit), parent);
     }
 }
 
