@@ -9,7 +9,7 @@
 
 #include "apps/chart/cpu_load.h"
 #include "apps/chart/noise.h"
-#include "apps/chart/reference.h"
+#include "apps/render/cached_reference.h"
 #include "apps/cli/open.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/parameters.h"

@@ -186,6 +186,7 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.energy.gain = vec3(1.0);
     x.energy.compensation = vec3(1.0);
     x.pixel_id = pixel;
+    x.samples = f.samples;
     x.normal_dx = vec3(0.0);
     x.normal_dy = vec3(0.0);
     return x;

@@ -110,6 +110,19 @@ std::vector<Option> picture_rows(RenderArguments& to)
     };
 }
 
+std::vector<Option> budget_rows(RenderOptions& to)
+{
+    return {
+        {"--budget", "E",
+         "Largest mean HDR-FLIP of the picture: chooses technique and samples of each material, as cheap as possible. Between {}",
+         number(to.budget, 0.0, 1.0), ""},
+        {"--plan-out", "FILE", "JSON file with the choices of --budget, their predicted errors and costs; - for standard output",
+         file(to.plan_out)},
+        {"--plan", "FILE", "Draws with the choices of such a file, which must be for the same scene, view and options", file(to.plan_file)},
+        {"--verify", "", "Renders the reference too, and prints the picture's error beside the predicted one", flag(to.verify)},
+    };
+}
+
 std::vector<std::string> mip_filter_names()
 {
     std::vector<std::string> names;
@@ -249,6 +262,7 @@ OptionTable render_option_table(RenderArguments& to)
     table.add("Environment", environment_rows(to));
     table.add("Output", output_rows(to));
     table.add("Picture", picture_rows(to));
+    table.add("Budget", budget_rows(to.plain));
     table.add("Materials", material_rows(to.plain.overrides, to.plain.mips));
     table.add("Parameters of techniques", parameter_options(to.plain.frame));
     table.add("Pictures in a row", row_rows(to));

@@ -11,6 +11,7 @@
 #include "apps/options/animate.h"
 #include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
+#include "apps/render/planned.h"
 #include "core/image/io/apng.h"
 #include "core/image/io/image_io.h"
 
@@ -38,7 +39,7 @@ class Animation {
     {
         Animation row(arguments, given);
         const std::string asked = arguments.plain.turntable ? "--turntable" : "--animate";
-        for (const char* other : {"--frames", "--checkpoint", "--variance", "--trace", "--risks"})
+        for (const char* other : {"--frames", "--checkpoint", "--variance", "--trace", "--risks", "--plan", "--verify"})
             if (given.given(other))
                 return usage_error(other, "cannot be combined with " + asked);
         if (arguments.plain.turntable)
@@ -135,6 +136,17 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
     return view->view;
 }
 
+Result<std::vector<MaterialTechnique>> plan_first_step(const Step& step, Session& session, const std::vector<View>& turntable,
+                                                       Report& report)
+{
+    const Result<View> view = view_of_step(step, 0, session, turntable);
+    BN_TRY(view);
+    FrameDesc desc = step.options.frame;
+    desc.view = *view;
+    BN_TRY(plan_frame(step.options, desc, session, report));
+    return desc.by_material;
+}
+
 // Returns the previous step's parts with the changed parts made anew.
 Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts parts, bool lights, bool scene)
 {
@@ -179,6 +191,10 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
     if (first.turntable)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kDefaultOrbitDeg),
                                     first.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree, row->count());
+    // Plan the first step for all, so that no step changes how a material is drawn
+    const Result<std::vector<MaterialTechnique>> planned = plan_first_step(*row->step(0), *session, turntable, report);
+    if (!planned)
+        return fail(planned.error());
     report.release();
     Json steps = Json::array();
     RenderFigures last = figures;
@@ -201,7 +217,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
         if (!view)
             return fail(view.error());
         FrameDesc desc = step.options.frame;
-        desc.view = *view;
+        desc.view = *view, desc.by_material = *planned;
         const Result<Rendered> rendered = render_frames(step.options, desc, *session, figures);
         if (!rendered)
             return fail(rendered.error());

@@ -12,6 +12,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
+#include "apps/render/planned.h"
 #include "core/image/io/image_io.h"
 #include "raster/frame/upload.h"
 
@@ -54,7 +55,8 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
     const std::string times = ms.size() == 1 ? fmt::format("{:.2f} ms", ms[0])
                                              : fmt::format("median {:.2f} ms, min {:.2f}, p95 {:.2f} over {} frames", median(ms),
                                                            *std::min_element(ms.begin(), ms.end()), percentile_95(ms), ms.size());
-    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}: {}", frame.width, frame.height, frame.msaa, frame.technique, times));
+    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}: {}", frame.width, frame.height, frame.msaa,
+                                      figures.planned ? "by the plan" : frame.technique, times));
     if (figures.frame.samples_emulated)
         report.event("samples",
                      fmt::format("emulated: {} passes of one sample, as the device cannot take {} at once", frame.msaa, frame.msaa));
@@ -156,8 +158,14 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     desc.view = view->view;
     if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
-    // Render the frames and write the outputs
+    // Plan the frame, render it and write the outputs
+    const Result<std::optional<Plan>> plan = plan_frame(options, desc, *session, report);
+    if (!plan)
+        return fail(plan.error());
     report.release();
+    figures.planned = !desc.by_material.empty();
+    if (*plan && (*plan)->aside.empty())
+        figures.plan = PlanFigures{*options.budget, (*plan)->error, (*plan)->cost, (*plan)->usual_cost};
     Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
     if (!rendered)
         return fail(rendered.error());
@@ -168,6 +176,9 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const int code = finish(options, *rendered, report);
+    if (options.verify)
+        if (const Status verified = verify_plan(options, desc, *session, rendered->color, *plan, report); !verified)
+            return fail(verified.error());
     return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first
 }
 

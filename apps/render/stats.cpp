@@ -61,8 +61,13 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["version"] = version();
     json["scene"] = options.scene;
     json["env"] = figures.env;
-    json["technique"] = frame.technique;
-    json["samples"] = frame.samples;
+    json["technique"] = figures.planned ? Json() : Json(frame.technique);
+    json["samples"] = figures.planned ? Json() : Json(frame.samples);
+    if (const std::optional<PlanFigures>& plan = figures.plan)
+        json["plan"] = {{"budget", plan->budget},
+                        {"predicted_flip", plan->predicted},
+                        {"instructions", plan->instructions},
+                        {"usual_instructions", plan->usual_instructions}};
     json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
     json.update(parameters_json(frame));

@@ -1,6 +1,7 @@
 // Statistics of a render: frame times, and the JSON written by --stats.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "shading/bake/environment/environment.h"
 
 namespace burnish {
+
+struct PlanFigures {
+    double budget = 0.0, predicted = 0.0;                // mean HDR-FLIP
+    double instructions = 0.0, usual_instructions = 0.0; // for shading, by the plan and by the default technique
+};
 
 struct RenderFigures {
     std::string device;
@@ -23,6 +29,8 @@ struct RenderFigures {
     std::string env;              // environment name
     bool environment_from_cache = false;
     std::vector<ExtractedLight> extracted_lights; // as the turned environment has them
+    bool planned = false;                         // drawn by a plan
+    std::optional<PlanFigures> plan;              // of --budget
     std::vector<std::string> warnings;            // as they were said, or would have been without --quiet
 };
 

@@ -76,11 +76,11 @@ void run(benchmark::State& state, std::size_t technique, float eta, Isa isa)
     const CubeMap &specular = studio().environment.specular, &box = studio().box;
     f.specular = cube_record(specular), f.specular_texels = specular.texels.data();
     f.box = cube_record(box), f.box_texels = box.texels.data();
-    f.samples = info.default_samples;
     const std::vector<GridSample> grid = grid_samples(info.default_samples, info.sampling, info.traits);
     f.grid = grid.data(), f.grid_count = grid_count(grid, info.traits);
     put_parameters(FrameDesc{}, false, f);
-    const KernelSurfaces in = surfaces().of(eta);
+    KernelSurfaces in = surfaces().of(eta);
+    in.samples = info.default_samples;
     std::vector<float> rgb(3 * kCount);
 
     const KernelFns& counting = counted_fns<KernelFns>();

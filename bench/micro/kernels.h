@@ -9,8 +9,8 @@ namespace burnish {
 
 struct KernelSurfaces {              // count surfaces, a multiple of 16; unit vectors
     const float *n[3], *v[3], *t[3]; // normal, to the eye, tangent
-    int count;
-    float sigma_u, sigma_v; // for every lobe
+    int count, samples;              // samples: of techniques that count them
+    float sigma_u, sigma_v;          // for every lobe
 };
 
 struct KernelWork { // total over all surfaces so far; 0 outside the counting build

@@ -25,6 +25,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         x.s = s, x.lobe = lobe, x.geometric_axes = frame;
         x.energy.albedo = s.f0, x.energy.gain = vec3_all(lit(1.0));
         x.pixel_id = iota() + int_lit(i);
+        x.samples = in.samples;
         const real3 color = technique_specular(f, technique_tag<kTechnique>{}, x);
         store(rgb, color.x), store(rgb + kLanes, color.y), store(rgb + 2 * kLanes, color.z);
     }

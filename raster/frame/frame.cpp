@@ -205,6 +205,26 @@ Status check_view(const View& v)
     return {};
 }
 
+// Checks the techniques and samples of single materials.
+Status check_by_material(const FrameDesc& d)
+{
+    for (std::size_t i = 0; i < d.by_material.size(); ++i) {
+        const MaterialTechnique& m = d.by_material[i];
+        const auto usage = [&](std::string reason) {
+            return Error{ExitCode::usage, "", "", std::move(reason), "FrameDesc::by_material/" + std::to_string(i)};
+        };
+        const TechniqueInfo* technique = find_technique(m.technique);
+        if (!technique)
+            return usage("unknown technique '" + m.technique + "'");
+        if (technique->traits & kReadsBox)
+            return usage(m.technique + " draws all materials or none");
+        if (m.samples < 1 || m.samples > technique->most_samples)
+            return usage("samples of " + m.technique + " must lie in 1.." + std::to_string(technique->most_samples));
+        BN_TRY(check_lobe(d, *technique));
+    }
+    return {};
+}
+
 } // namespace
 
 Status check_desc(const FrameDesc& d)
@@ -235,6 +255,7 @@ Status check_desc(const FrameDesc& d)
         return usage("the anisotropy must lie in -1..1");
     if (const Status seen = check_view(d.view); !seen)
         return seen;
+    BN_TRY(check_by_material(d));
     return check_lobe(d, *find_technique(d.technique));
 }
 
@@ -265,11 +286,28 @@ const TechniqueInfo& automatic_technique()
     return info;
 }
 
+namespace {
+
+const TechniqueInfo& resolved(const std::string& technique)
+{
+    return technique == automatic_technique().name ? technique_with(kAutomatic) : *find_technique(technique);
+}
+
+} // namespace
+
 const TechniqueInfo& technique_of(const FrameDesc& desc)
 {
-    if (desc.technique == automatic_technique().name)
-        return technique_with(kAutomatic);
-    return *find_technique(desc.technique);
+    return resolved(desc.technique);
+}
+
+const TechniqueInfo& technique_of(const FrameDesc& desc, std::size_t material)
+{
+    return material < desc.by_material.size() ? resolved(desc.by_material[material].technique) : technique_of(desc);
+}
+
+int samples_of(const FrameDesc& desc, std::size_t material)
+{
+    return material < desc.by_material.size() ? desc.by_material[material].samples : desc.samples;
 }
 
 int traits_for(const TechniqueInfo& technique, bool anisotropic)

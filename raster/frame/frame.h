@@ -50,12 +50,20 @@ glm::mat4 clip_from_world(const View& view);
 inline constexpr int kMaxPictureSide = 16384;                 // pixels
 inline constexpr std::int64_t kMaxPictureSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
 
+struct MaterialTechnique { // of one material
+    std::string technique = "auto";
+    int samples = 16; // for techniques that take samples
+};
+
 struct FrameDesc {
     int width = 1280, height = 720;
     int msaa = 8; // 1, 2, 4, 8, 16
     View view;
     std::string technique = "auto";
     int samples = 16; // for techniques that take samples
+    // Techniques and samples of the scene's materials, by index, in place of the two fields above; empty: those for all. A technique that
+    // reads the box-filtered environment cannot be one of them.
+    std::vector<MaterialTechnique> by_material;
 #define BN_DESC_number(id, fallback) float id = static_cast<float>(fallback);
 #define BN_DESC_whole(id, fallback) std::uint32_t id = fallback;
 #define BN_DESC_flag(id, fallback) bool id = (fallback) != 0;
@@ -174,10 +182,12 @@ struct TechniqueInfo {
     int default_samples, most_samples;
     int traits; // sum of traits in shading/lang/records.h
 };
-const std::vector<TechniqueInfo>& techniques();                     // from shading/models.def
-const TechniqueInfo* find_technique(const std::string& name);       // accepts automatic_technique() too; null if unknown
-const TechniqueInfo& automatic_technique();                         // "auto": stands for one of techniques()
-const TechniqueInfo& technique_of(const FrameDesc& desc);           // resolves "auto"
+const std::vector<TechniqueInfo>& techniques();               // from shading/models.def
+const TechniqueInfo* find_technique(const std::string& name); // accepts automatic_technique() too; null if unknown
+const TechniqueInfo& automatic_technique();                   // "auto": stands for one of techniques()
+const TechniqueInfo& technique_of(const FrameDesc& desc);     // resolves "auto"
+const TechniqueInfo& technique_of(const FrameDesc& desc, std::size_t material);
+int samples_of(const FrameDesc& desc, std::size_t material);        // those of its technique
 int traits_for(const TechniqueInfo& technique, bool anisotropic);   // traits on a material with or without anisotropy
 int effective_samples(const TechniqueInfo& technique, int samples); // of the requested `samples`
 

@@ -98,7 +98,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     f.layer_sample = d.layers ? central_sample(f.pattern) : -1;
     f.positions = f.light_count > 0 || f.area_light_count > 0 || d.layers;
     f.background = d.background;
-    f.samples = d.samples, f.texture_taps = d.texture_anisotropy;
+    f.texture_taps = d.texture_anisotropy;
     put_parameters(d, tilts(input.scene, d), f);
     if (!has_mapped_normals(input.scene, d)) // then nothing reads the horizon
         f.horizon = 0;
@@ -137,9 +137,11 @@ bool refracts(const MaterialRecord& m, int lobe)
 void FrameMaker::choose_techniques(const FrameDesc& desc)
 {
     const int lobe = lobe_of(desc, tilts(input_.scene, desc));
-    for (MaterialRecord& m : materials_) {
-        const TechniqueInfo& t = technique_of(desc);
+    for (std::size_t i = 0; i < materials_.size(); ++i) {
+        MaterialRecord& m = materials_[i];
+        const TechniqueInfo& t = technique_of(desc, i);
         m.technique = static_cast<int>(&t - techniques().data());
+        m.samples = samples_of(desc, i);
         m.technique_traits = m.unlit ? 0 : traits_for(t, m.anisotropic != 0);
         m.refracts = refracts(m, lobe);
         m.hidden = desc.opaque_only && (m.refracts || m.alpha_mode == kAlpha_blend || m.emitter == kOpenEmitter);
@@ -239,15 +241,19 @@ void FrameMaker::slice_albedo(const FrameDesc& desc)
 
 bool FrameMaker::shows_behind(const FrameDesc& desc) const
 {
-    if (desc.glass == 0 || desc.opaque_only || (technique_of(desc).traits & kSamplesInterface))
+    if (desc.glass == 0 || desc.opaque_only)
         return false;
     const int lobe = lobe_of(desc, tilts(input_.scene, desc));
     const auto drawn = [&](const auto& test) {
-        return std::any_of(input_.tables.draws.begin(), input_.tables.draws.end(),
-                           [&](const Draw& d) { return test(scene_.materials[static_cast<std::size_t>(d.material)]); });
+        return std::any_of(input_.tables.draws.begin(), input_.tables.draws.end(), [&](const Draw& d) {
+            const std::size_t at = static_cast<std::size_t>(d.material);
+            return test(scene_.materials[at], (technique_of(desc, at).traits & kSamplesInterface) != 0);
+        });
     };
-    return drawn([&](const MaterialRecord& m) { return refracts(m, lobe); }) &&
-           drawn([&](const MaterialRecord& m) { return !refracts(m, lobe) && m.alpha_mode != kAlpha_blend && m.emitter != kOpenEmitter; });
+    return drawn([&](const MaterialRecord& m, bool samples_interface) { return refracts(m, lobe) && !samples_interface; }) &&
+           drawn([&](const MaterialRecord& m, bool) {
+               return !refracts(m, lobe) && m.alpha_mode != kAlpha_blend && m.emitter != kOpenEmitter;
+           });
 }
 
 void FrameMaker::take_behind(const Frame& frame)

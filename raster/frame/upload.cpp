@@ -265,6 +265,10 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
 {
     if (const Status ok = check_desc(desc); !ok)
         return ok;
+    if (!desc.by_material.empty() && desc.by_material.size() != scene.materials.size())
+        return Error{ExitCode::usage, "", "",
+                     std::to_string(desc.by_material.size()) + " techniques for " + std::to_string(scene.materials.size()) + " materials",
+                     "FrameDesc::by_material"};
     const auto has_heights = [](const Material& m) { return m.heights; };
     if (desc.height_scale != FrameDesc().height_scale && std::none_of(scene.materials.begin(), scene.materials.end(), has_heights))
         return Error{ExitCode::usage, "", "", "nothing in the scene has a height map", "FrameDesc::height_scale"};

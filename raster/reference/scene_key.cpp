@@ -91,7 +91,7 @@ FrameDesc reference_desc(FrameDesc desc)
     if (desc.area_way != kAreaWay_off) // the method matters to techniques only
         desc.area_way = defaults.area_way;
     desc.light_samples = defaults.light_samples;
-    desc.technique = "mc", desc.samples = 1, desc.msaa = 1, desc.tile_size = defaults.tile_size;
+    desc.technique = "mc", desc.samples = 1, desc.by_material.clear(), desc.msaa = 1, desc.tile_size = defaults.tile_size;
     for (const ParameterInfo& p : parameters())
         if (!reads("reference", p))
             set_parameter(desc, p, p.fallback);

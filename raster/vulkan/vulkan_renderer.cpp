@@ -122,8 +122,9 @@ void VulkanRenderer::make_targets(const FrameDesc& desc)
     require_width(context_, desc.width);
     const std::size_t msaa = static_cast<std::size_t>(desc.msaa);
     const std::vector<MaterialRecord> materials = in_frame(scene_.tables().materials, desc);
-    const bool anisotropic = std::any_of(materials.begin(), materials.end(), [](const MaterialRecord& m) { return m.anisotropic != 0; });
-    const bool shares = (traits_for(technique_of(desc), anisotropic) & kSharesSamples) != 0;
+    bool shares = false;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        shares = shares || (traits_for(technique_of(desc, i), materials[i].anisotropic != 0) & kSharesSamples) != 0;
     const std::int32_t recorded = recorded_of(desc, blends());
     const std::size_t words =
         std::max({std::size_t{3}, msaa * static_cast<std::size_t>(shares ? kGpuSharedSampleWords : 1),

@@ -137,7 +137,7 @@ struct FrameRecord {
     LtcTableRecord ltc;
     int positions;    // something reads the positions of visible points
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
-    int background, samples, texture_taps;
+    int background, texture_taps;
     int behind; // texture of what lies behind transmissive bodies, its inverse depths are the next one; -1: none
 #define BN_RECORD_number(id) float id;
 #define BN_RECORD_whole(id) int id;
@@ -198,6 +198,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int conductor;                   // has its own complex index: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
+    int samples;                     // of the technique; techniques on a grid read grid_count
     int refracts;                    // transmits light
     int thin;                        // an open mesh: light passes a pane without thickness
     float body_extent;               // metres through the body, along the normal; 0: thin

@@ -79,6 +79,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
                              integer pixel_id, BN_INOUT(shaded_point) x)
 {
     x.pixel_id = pixel_id;
+    x.samples = the_material(m).samples;
     // Find the shading frame and the lobe
     real3 v = k_normalize3(-p.ray);
     x.geometric_axes = facing_geometric_axes(p);

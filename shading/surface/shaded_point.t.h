@@ -36,6 +36,7 @@ struct shaded_point {
     real3 dielectric_f0;
     real dielectric_f90;
     integer pixel_id;           // y * width + x, for random numbers
+    int samples;                // of the technique
     real3 normal_dx, normal_dy; // of visible_point; only for techniques that share samples
     lobe_energy_terms energy;
     bool refracts;            // transmits light

@@ -46,7 +46,7 @@ BN_FN real3 lobe_line_radiance(frame_ref f, BN_IN(shaded_point) x, BN_IN(lobe_li
 {
     // Find the number of samples
     real one = lit(1.0);
-    int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
+    int limit = x.samples - (x.samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
     real per_width = alone + (lit(kLineSamplesShared) - alone) * alike;
     real all = to_real(int_lit(limit));
     real some = all + (lobe_line_limit(own, all) - all) * alike;

@@ -21,7 +21,7 @@ BN_FN real3 major_axis_specular(frame_ref f, BN_IN(shaded_point) x)
 {
     // Set up the line in the lobe's frame
     cube_desc cube = prefiltered_env(f);
-    int n = the_frame(f).samples;
+    int n = x.samples;
     int last = n > 1 ? n - 1 : 1;
     real inv = lit(1.0) / to_real(int_lit(n));
     real3 o = eye_in_lobe(x);
@@ -79,7 +79,7 @@ BN_FN major_axis_grain grain_of(frame_ref f, BN_IN(shaded_point) x)
 BN_FN real3 major_axis_weighted_specular(frame_ref f, BN_IN(shaded_point) x)
 {
     cube_desc cube = prefiltered_env(f);
-    int n = the_frame(f).samples;
+    int n = x.samples;
     // Set up the lobe and the spacing
     major_axis_grain grain = grain_of(f, x);
     uniform_real step_c = 2.0f / float(n);
@@ -106,7 +106,7 @@ BN_FN real3 major_axis_adaptive_specular(frame_ref f, BN_IN(shaded_point) x)
     major_axis_grain grain = grain_of(f, x);
     real beta = splat(the_frame(f).major_axis_beta);
     real one = lit(1.0);
-    int limit = the_frame(f).samples - (the_frame(f).samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
+    int limit = x.samples - (x.samples % 2 == 0 ? 1 : 0); // one in the middle, and pairs
     // Find the number of samples
     real k = splat(the_frame(f).major_axis_k);
     real count = major_axis_grain_count(grain, beta, to_real(int_lit(limit)));

@@ -20,7 +20,7 @@ BN_FN mc_points mc_points_of(frame_ref f, BN_IN(shaded_point) x)
 {
     mc_points r;
     // Hash the pixel to a shift
-    r.inv = 1.0f / float(the_frame(f).samples);
+    r.inv = 1.0f / float(x.samples);
     integer seed = k_hash_u32(x.pixel_id ^ int_lit(the_frame(f).seed));
     r.shift_x = k_unit_from_bits(seed);
     r.shift_y = k_unit_from_bits(k_hash_u32(seed));
@@ -51,7 +51,7 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
-    for (int i = 0; i < the_frame(f).samples; ++i) {
+    for (int i = 0; i < x.samples; ++i) {
         bsdf_sample b = bsdf_lobe_sample(lobe, mc_point(points, i));
         real3 fresnel = reflectance_of(x.s, b.o_dot_h);
         cube_terms_add(sum, b.wi, lit(0.0), fresnel, above_horizon(x, b.wi, b.weight));
@@ -72,7 +72,7 @@ BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
     cube_terms_begin(sum, cube, false);
-    for (int i = 0; i < the_frame(f).samples; ++i) {
+    for (int i = 0; i < x.samples; ++i) {
         // Sample a microfacet, and both directions
         ellipsoid_facet m = ellipsoid_facet_seen(g.p.shape, g.o, mc_point(points, i));
         bsdf_sample r = ellipsoid_facet_reflects(g.p.shape, m, g.o);

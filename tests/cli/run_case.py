@@ -9,6 +9,7 @@ import atlas_cases
 import bake_cases
 import blend_cases
 import brdf_cases
+import budget_cases
 import camera_cases
 import chart_cases
 import chart_page_cases

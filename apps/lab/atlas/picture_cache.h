@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/chart/reference.h"
+#include "apps/render/cached_reference.h"
 #include "apps/risks/entries.h"
 #include "raster/session/session.h"
 

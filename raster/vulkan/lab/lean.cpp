@@ -334,7 +334,7 @@ void LeanDrawer::fill_materials(const FrameDesc& desc)
         trait(m.roughness_fixed != 0, kFactorRoughness);
         trait(m.phong_slice >= 0, kPhongTable);
         const bool gridded = f.grid_count > 0;
-        constants_.push_back({std::max(lean_technique(m.technique), 0), gridded ? f.grid_count : f.samples, textures, traits});
+        constants_.push_back({std::max(lean_technique(m.technique), 0), gridded ? f.grid_count : m.samples, textures, traits});
     }
 }
 

@@ -1,4 +1,4 @@
-#include "apps/chart/reference.h"
+#include "apps/render/cached_reference.h"
 
 #include <filesystem>
 #include <fmt/core.h>

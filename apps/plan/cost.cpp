@@ -1,0 +1,81 @@
+#include "apps/plan/cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "raster/frame/frame_record.h"
+#include "shading/techniques/lobe_line.k.h"
+
+namespace burnish {
+namespace {
+
+enum class Count { all, line };
+constexpr double kSharing = 198.0; // instructions of `fixed` by which fragments share their samples
+
+// Returns the samples that lobe_line takes where all neighbours are alike: one, and pairs. A round lobe shares none.
+double line_samples(const PixelLobes::Lobe& at, int samples)
+{
+    const lobe_line line = lobe_line_of({at.o[0], at.o[1], at.o[2]}, at.sigma_u, at.sigma_v);
+    const float all = static_cast<float>(samples - (samples % 2 == 0 ? 1 : 0));
+    const bool shares = at.sigma_u != at.sigma_v;
+    const float most = shares ? std::max(lobe_line_limit(line, all), std::min(all, 3.0f)) : all;
+    const float per_width = static_cast<float>(shares ? kLineSamplesShared : kLineSamplesAlone);
+    const double count = static_cast<double>(lobe_line_count(line, per_width, most));
+    return 1.0 + 2.0 * std::ceil(0.5 * (count - 1.0));
+}
+
+} // namespace
+
+const std::vector<PlanCost>& plan_costs()
+{
+    static const std::vector<PlanCost> table = {
+#define BN_PLAN_SETTING(technique, samples, count, fixed, sample) {#technique, samples, Count::count == Count::line, fixed, sample},
+#include "apps/plan/costs.def"
+    };
+    return table;
+}
+
+PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc)
+{
+    PixelLobes lobes;
+    lobes.of.resize(frame.layers.size());
+    const View& view = desc.view;
+    for (std::size_t p = 0; p < lobes.of.size(); ++p) {
+        const PixelLayers& at = frame.layers[p];
+        const std::size_t width = static_cast<std::size_t>(desc.width);
+        const float sx = (static_cast<float>(p % width) + 0.5f) / static_cast<float>(desc.width) * 2.0f - 1.0f,
+                    sy = 1.0f - (static_cast<float>(p / width) + 0.5f) / static_cast<float>(desc.height) * 2.0f;
+        const glm::vec3 ray =
+            view.orthographic ? view.forward : view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y);
+        const glm::vec3 v = -glm::normalize(ray), n(at.normal[0], at.normal[1], at.normal[2]),
+                        t(at.tangent[0], at.tangent[1], at.tangent[2]);
+        const float alpha = at.roughness[0] * at.roughness[0], root2 = 1.41421356f;
+        lobes.of[p] = {{glm::dot(v, t), glm::dot(v, glm::cross(n, t)), glm::dot(v, n)},
+                       alpha * (1.0f + at.anisotropy[0]) / root2,
+                       alpha * (1.0f - at.anisotropy[0]) / root2};
+    }
+    return lobes;
+}
+
+std::vector<double> mean_costs(const MaterialTechnique& setting, const PixelLobes& lobes, const std::vector<int>& material,
+                               std::size_t count)
+{
+    const auto cost = std::find_if(plan_costs().begin(), plan_costs().end(),
+                                   [&](const PlanCost& c) { return c.technique == setting.technique && c.samples == setting.samples; });
+    BN_CHECK(cost != plan_costs().end());
+    std::vector<double> sums(count, 0.0), pixels(count, 0.0);
+    for (std::size_t p = 0; p < material.size(); ++p) {
+        if (material[p] < 0)
+            continue;
+        const std::size_t m = static_cast<std::size_t>(material[p]);
+        const double n = cost->line ? line_samples(lobes.of[p], setting.samples) : static_cast<double>(setting.samples);
+        const bool alone = cost->line && lobes.of[p].sigma_u == lobes.of[p].sigma_v;
+        sums[m] += cost->fixed - (alone ? kSharing : 0.0) + cost->sample * n, pixels[m] += 1.0;
+    }
+    for (std::size_t m = 0; m < count; ++m)
+        sums[m] /= std::max(1.0, pixels[m]);
+    return sums;
+}
+
+} // namespace burnish

@@ -1,0 +1,135 @@
+#include "apps/plan/plan.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+
+#include "apps/plan/cost.h"
+#include "apps/plan/hull.h"
+
+namespace burnish {
+namespace {
+
+constexpr int kLeastSide = 160; // pixels; a probe of a smaller frame costs more than it saves
+
+std::string name_of(const Scene& scene, std::size_t material)
+{
+    const std::string& name = scene.materials[material].name;
+    return name.empty() ? fmt::format("material {}", material) : name;
+}
+
+std::string setting_text(const MaterialTechnique& m)
+{
+    return find_technique(m.technique)->sampling == Sampling::none ? m.technique
+                                                                   : fmt::format("{} with {} samples", m.technique, m.samples);
+}
+
+// Returns the settings that the user's technique and samples leave.
+std::vector<MaterialTechnique> allowed(const std::string& technique, int samples)
+{
+    std::vector<MaterialTechnique> list;
+    for (const MaterialTechnique& s : plannable_settings())
+        if ((technique.empty() || s.technique == technique) && (samples == 0 || s.samples == samples || s.samples == 1))
+            list.push_back(s);
+    return list;
+}
+
+// Returns a material's settings as parts of the picture's error and cost.
+std::vector<PlanPoint> points_of(const ProbedMaterial& m, double pixels)
+{
+    std::vector<PlanPoint> points;
+    for (std::size_t i = 0; i < m.settings.size(); ++i)
+        points.push_back({m.settings[i].cost * m.share * pixels, m.settings[i].error * m.share, i});
+    return points;
+}
+
+PlanStep step_of(const ProbedMaterial& m, const PlanPoint& at)
+{
+    return {m.settings[at.setting].setting, m.settings[at.setting].error, at.cost};
+}
+
+} // namespace
+
+std::vector<MaterialTechnique> Plan::settings() const
+{
+    std::vector<MaterialTechnique> list;
+    for (const PlannedMaterial& m : materials)
+        list.push_back(m.chosen.setting);
+    return list;
+}
+
+Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, const std::string& technique, int samples)
+{
+    Plan plan;
+    if (std::min(desc.width, desc.height) < kLeastSide) {
+        plan.aside = fmt::format("a picture of {}x{} costs less than its plan", desc.width, desc.height);
+        return plan;
+    }
+    const std::vector<MaterialTechnique> list = allowed(technique, samples);
+    if (list.empty())
+        return Error{ExitCode::usage, "", "", "no plan can choose this technique or these samples: their costs are not known"};
+    const Result<Probe> probed = probe_frame(session, desc, list);
+    BN_TRY(probed);
+    const Probe& probe = *probed;
+    plan.probe_width = probe.width, plan.probe_height = probe.height;
+    // Climb the hulls of the materials that are seen
+    const double pixels = static_cast<double>(desc.width) * desc.height;
+    std::vector<std::vector<PlanPoint>> hulls;
+    std::vector<std::size_t> seen;
+    for (std::size_t m = 0; m < probe.materials.size(); ++m)
+        if (probe.materials[m].share > 0.0) {
+            hulls.push_back(lower_hull(points_of(probe.materials[m], pixels)));
+            seen.push_back(m);
+            plan.usual_cost += probe.materials[m].usual_cost * probe.materials[m].share * pixels;
+        }
+    if (hulls.empty()) {
+        plan.aside = "no solid surface is seen";
+        return plan;
+    }
+    const std::vector<std::size_t> at = within_error(hulls, budget / kPlanSafety);
+    // Tell the choices, and the neighbours on the hulls
+    const TechniqueInfo& usual = automatic_technique();
+    for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
+        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{usual.name, usual.default_samples}, 0.0, 0.0}, {}, {}});
+    for (std::size_t h = 0; h < hulls.size(); ++h) {
+        const ProbedMaterial& m = probe.materials[seen[h]];
+        const std::vector<PlanPoint>& hull = hulls[h];
+        PlannedMaterial& to = plan.materials[seen[h]];
+        to.share = m.share, to.chosen = step_of(m, hull[at[h]]);
+        if (at[h] > 0)
+            to.cheaper = step_of(m, hull[at[h] - 1]);
+        if (at[h] + 1 < hull.size())
+            to.better = step_of(m, hull[at[h] + 1]);
+        plan.error += hull[at[h]].error, plan.cost += hull[at[h]].cost;
+    }
+    if (plan.error * kPlanSafety > budget)
+        return Error{ExitCode::usage, "", "",
+                     fmt::format("no setting reaches {:.4g} here: the best one is predicted at {:.4g}", budget, plan.error)};
+    return plan;
+}
+
+std::vector<std::string> plan_lines(const Plan& plan, double budget)
+{
+    if (!plan.aside.empty())
+        return {fmt::format("stands aside: {}", plan.aside)};
+    std::vector<std::string> lines;
+    const double usual = std::max(1.0, plan.usual_cost);
+    lines.push_back(fmt::format("mean HDR-FLIP {:.4g}: predicted {:.4f}, shading at {:.2f} of the default's instructions", budget,
+                                plan.error, plan.cost / usual));
+    for (const PlannedMaterial& m : plan.materials) {
+        if (m.share == 0.0)
+            continue;
+        std::string line = fmt::format("{}, {:.1f} % of the picture: {}, error {:.4f}", m.name, 100.0 * m.share,
+                                       setting_text(m.chosen.setting), m.chosen.error);
+        const auto neighbour = [&](const char* what, const std::optional<PlanStep>& step) {
+            if (step)
+                line += fmt::format("; next {}: {}, {:.4f} at {:.2f} of its cost", what, setting_text(step->setting), step->error,
+                                    step->cost / std::max(1.0, m.chosen.cost));
+        };
+        neighbour("cheaper", m.cheaper);
+        neighbour("better", m.better);
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+} // namespace burnish

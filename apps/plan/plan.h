@@ -1,0 +1,54 @@
+// Plans a frame: chooses technique and samples of each material, so that the picture's error holds a budget at the least cost.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/plan/probe.h"
+#include "core/base/result.h"
+
+namespace burnish {
+
+struct PlanStep { // a setting of one material
+    MaterialTechnique setting;
+    double error = 0.0, cost = 0.0; // mean HDR-FLIP over its pixels; instructions of all its pixels
+};
+
+struct PlannedMaterial {
+    std::string name;   // the scene's, or "material 3"
+    double share = 0.0; // of the picture's pixels
+    PlanStep chosen;
+    std::optional<PlanStep> cheaper, better; // the neighbours on its hull
+};
+
+struct Plan {
+    std::vector<PlannedMaterial> materials; // by index in the scene
+    double error = 0.0;                     // predicted mean HDR-FLIP of the picture
+    double cost = 0.0, usual_cost = 0.0;    // instructions for shading, and those of the default technique
+    int probe_width = 0, probe_height = 0;
+    std::string aside; // why nothing was planned: then `materials` is empty
+    std::vector<MaterialTechnique> settings() const;
+};
+
+// A prediction is multiplied by kPlanSafety before it is held to the budget: the largest of errors over predictions that 98 % of the
+// fitting cases stay below.
+inline constexpr double kPlanSafety = 1.3;
+
+// budget: largest mean HDR-FLIP of the picture, above 0. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage for
+// a budget that no setting reaches.
+Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, const std::string& technique, int samples);
+
+// Returns a plan in words: a line for the picture, then one for each visible material.
+std::vector<std::string> plan_lines(const Plan& plan, double budget);
+
+// What a plan was made for. A plan for something else is refused.
+struct PlanSubject {
+    std::string scene, environment, view; // names, and the camera in words
+    int width = 0, height = 0;
+    std::string content; // hash of scene, environment and options
+};
+std::string plan_json(const Plan& plan, const PlanSubject& subject);
+// Reads the settings of a plan file. Errors: ExitCode::bad_input, with the JSON path of what differs from `subject` or is malformed.
+Result<std::vector<MaterialTechnique>> read_plan(const std::string& path, const PlanSubject& subject, std::size_t materials);
+
+} // namespace burnish

@@ -1,0 +1,257 @@
+#include "apps/plan/probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include "apps/plan/cost.h"
+#include "core/image/metrics/flip.h"
+#include "core/scene/draw_tables.h"
+#include "shading/lang/records.h"
+
+namespace burnish {
+namespace {
+
+constexpr double kLeastPixels = 14400;          // of a probe, unless the step would be below
+constexpr int kLeastStep = 4, kMostStep = 8;    // pixels of the frame a side of one of the probe's
+constexpr float kProbePpd = 0.5f * kDefaultPpd; // between the frame's filter and one as fine as the probe
+constexpr int kRandomSamples = 64;              // of mc, for each of two seeds
+constexpr std::uint32_t kSeeds[] = {0x51ed270b, 0x2545f491};
+constexpr double kPriorShare = 0.25; // error of the best prefiltered setting over its distance to a single fetch; see the notebook
+constexpr double kLeastShare = 0.05; // the same at least
+// FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
+constexpr double kFlipExponent = 0.7;
+constexpr int kBlock = 8; // pixels a side of a block, whose errors count as independent
+constexpr int kUnseen = -1;
+
+// Materials of the probe's pixels; kUnseen for pixels without a solid surface, or with blended surfaces before it.
+struct PixelMaterials {
+    std::vector<int> of; // [pixel]
+    int width = 0, height = 0;
+    std::vector<double> pixels; // of each material
+};
+
+PixelMaterials materials_of(const Frame& frame, const DrawTables& tables, std::size_t count)
+{
+    PixelMaterials m;
+    m.pixels.assign(count, 0.0);
+    m.width = frame.color.width, m.height = frame.color.height;
+    m.of.assign(frame.triangle_ids.size(), kUnseen);
+    for (std::size_t p = 0; p < m.of.size(); ++p) {
+        const std::uint32_t id = frame.triangle_ids[p];
+        if (id != kNoTriangle && (frame.through.empty() || frame.through[p] == 1.0f))
+            m.of[p] = static_cast<int>(tables.triangle_material[id]), m.pixels[tables.triangle_material[id]] += 1.0;
+    }
+    return m;
+}
+
+// Squared distance between colours that a FLIP error stands for, and back. Squares of independent errors add.
+double squared(double flip)
+{
+    return std::pow(std::max(0.0, flip), 2.0 / kFlipExponent);
+}
+double flip_of(double square)
+{
+    return std::pow(std::max(0.0, square), 0.5 * kFlipExponent);
+}
+
+// Returns the squared error of one noisy picture to the truth, relative to two noisy ones'.
+double squared_error_of_one()
+{
+    return flip_of(0.5) * flip_of(0.5);
+}
+
+// Returns the mean error of each material's pixels.
+std::vector<double> mean_errors(const Image& error, const PixelMaterials& materials)
+{
+    std::vector<double> sums(materials.pixels.size(), 0.0);
+    for (std::size_t p = 0; p < materials.of.size(); ++p)
+        if (materials.of[p] != kUnseen)
+            sums[static_cast<std::size_t>(materials.of[p])] += static_cast<double>(error.f32()[p]);
+    for (std::size_t m = 0; m < sums.size(); ++m)
+        sums[m] /= std::max(1.0, materials.pixels[m]);
+    return sums;
+}
+
+// Moments of errors over a material's pixels: of a picture against noisy ones, and of one noisy picture.
+struct Moments {
+    double mean = 0.0, square = 0.0, noise_square = 0.0; // mean error, means of squared errors
+    double deviation = 0.0;                              // standard error of `square` - `noise_square`
+};
+
+// of_a, of_b: errors of the picture against two independent noisy ones; of_noise: of these against each other. Blocks of pixels tell the
+// deviation.
+std::vector<Moments> moments_of(const Image& of_a, const Image& of_b, const Image& of_noise, const PixelMaterials& materials)
+{
+    struct Block {
+        double mean = 0.0, square = 0.0, noise_square = 0.0, pixels = 0.0;
+    };
+    const int across = (materials.width + kBlock - 1) / kBlock, down = (materials.height + kBlock - 1) / kBlock;
+    const std::size_t blocks = static_cast<std::size_t>(across) * static_cast<std::size_t>(down), count = materials.pixels.size();
+    const double of_one = squared_error_of_one();
+    std::vector<Block> sums(blocks * count);
+    for (std::size_t p = 0; p < materials.of.size(); ++p) {
+        if (materials.of[p] == kUnseen)
+            continue;
+        const std::size_t x = p % static_cast<std::size_t>(materials.width), y = p / static_cast<std::size_t>(materials.width);
+        const std::size_t block = y / kBlock * static_cast<std::size_t>(across) + x / kBlock;
+        Block& to = sums[block * count + static_cast<std::size_t>(materials.of[p])];
+        const double a = static_cast<double>(of_a.f32()[p]), b = static_cast<double>(of_b.f32()[p]),
+                     noise = static_cast<double>(of_noise.f32()[p]);
+        to.mean += 0.5 * (a + b), to.square += 0.5 * (a * a + b * b), to.noise_square += of_one * noise * noise, to.pixels += 1.0;
+    }
+    std::vector<Moments> out(count);
+    for (std::size_t m = 0; m < count; ++m) {
+        Moments& to = out[m];
+        const double pixels = std::max(1.0, materials.pixels[m]);
+        for (std::size_t block = 0; block < blocks; ++block) {
+            const Block& s = sums[block * count + m];
+            to.mean += s.mean / pixels, to.square += s.square / pixels, to.noise_square += s.noise_square / pixels;
+        }
+        double squares = 0.0;
+        for (std::size_t block = 0; block < blocks; ++block) {
+            const Block& s = sums[block * count + m];
+            const double away = (s.square - s.noise_square - s.pixels * (to.square - to.noise_square)) / pixels;
+            squares += away * away;
+        }
+        to.deviation = std::sqrt(squares);
+    }
+    return out;
+}
+
+bool prefiltered(const MaterialTechnique& m)
+{
+    return !(find_technique(m.technique)->traits & kSamplesLobe);
+}
+
+// Returns the mean error of the best prefiltered setting on a material: the error without the noise, as far as it stands out, else a guess
+// by its distance to a single fetch.
+double own_error(const Moments& m, double fetch)
+{
+    const double guess = kPriorShare * fetch, least = kLeastShare * fetch, risen = std::max(0.0, m.square - m.noise_square);
+    const double square = squared(std::sqrt(m.square)) - squared(std::sqrt(m.noise_square));
+    const double measured = flip_of(square) * m.mean / std::max(1e-30, std::sqrt(m.square));
+    const double weight = risen * risen / std::max(1e-30, risen * risen + m.deviation * m.deviation);
+    return std::max(least, guess + weight * (measured - guess));
+}
+
+double sum_of(const Image& error)
+{
+    const std::size_t pixels = error.bytes.size() / sizeof(float);
+    return std::accumulate(error.f32(), error.f32() + pixels, 0.0);
+}
+
+// Returns the error of two noisy pictures as FLIP filters a frame, relative to `error`, as it filters the probe.
+double noise_filter(const Image& a, const Image& b, const Image& error, FlipOptions flip, const Jobs& jobs)
+{
+    flip.ppd = kDefaultPpd;
+    return sum_of(flip_hdr(a, b, flip, jobs).error) / std::max(1e-30, sum_of(error));
+}
+
+FrameDesc probe_desc(const FrameDesc& desc)
+{
+    FrameDesc d = desc;
+    const double pixels = static_cast<double>(desc.width) * desc.height;
+    const int step = std::clamp(static_cast<int>(std::sqrt(pixels / kLeastPixels)), kLeastStep, kMostStep);
+    d.width = (desc.width + step - 1) / step, d.height = (desc.height + step - 1) / step, d.msaa = 1;
+    d.by_material.clear();
+    d.stages = d.profile = d.parts = d.layers = d.triangle_ids = false;
+    return d;
+}
+
+} // namespace
+
+std::vector<MaterialTechnique> plannable_settings()
+{
+    std::vector<MaterialTechnique> list;
+    for (const PlanCost& c : plan_costs())
+        list.push_back({c.technique, c.samples});
+    return list;
+}
+
+Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings)
+{
+    const Jobs& jobs = *session.parts().jobs;
+    const std::size_t count = session.scene().materials.size();
+    FrameDesc small = probe_desc(desc);
+    const auto draw = [&](const MaterialTechnique& by, std::uint32_t seed) {
+        small.technique = by.technique, small.samples = by.samples, small.seed = seed;
+        return session.render(small);
+    };
+    // Draw the best prefiltered setting, with the pixels' materials and lobes
+    small.layers = small.triangle_ids = true;
+    const std::vector<MaterialTechnique> all = plannable_settings();
+    const MaterialTechnique& best = *std::find_if(all.rbegin(), all.rend(), prefiltered);
+    const Result<Frame> first = draw(best, desc.seed);
+    BN_TRY(first);
+    small.layers = small.triangle_ids = false;
+    const PixelMaterials materials = materials_of(*first, session.tables(), count);
+    const PixelLobes lobes = lobes_of(*first, small);
+    // Draw two independent noisy pictures
+    const Result<Frame> one = draw({"mc", kRandomSamples}, kSeeds[0]), other = draw({"mc", kRandomSamples}, kSeeds[1]);
+    BN_TRY(one);
+    BN_TRY(other);
+    FlipOptions flip;
+    const FlipExposures range = find_exposures(first->color, flip, jobs);
+    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
+    flip.ppd = kProbePpd;
+    const auto error_of = [&](const Image& a, const Image& b) { return flip_hdr(a, b, flip, jobs).error; };
+    const Image of_noise = error_of(one->color, other->color);
+    const Image of_one = error_of(first->color, one->color), of_other = error_of(first->color, other->color);
+    const std::vector<Moments> moments = moments_of(of_one, of_other, of_noise, materials);
+    // Noise has no scale: filter it as the frame's is filtered
+    const double filtered = noise_filter(one->color, other->color, of_noise, flip, jobs);
+    std::vector<double> noise = mean_errors(of_noise, materials);
+    for (double& n : noise)
+        n *= filtered * flip_of(0.5);
+    // Find each setting's distance to the best one
+    std::vector<std::vector<double>> distances;
+    std::vector<double> fetch(count, 1.0); // of the better single fetch
+    for (const MaterialTechnique& s : all) {
+        distances.emplace_back(count, 0.0);
+        if (!prefiltered(s) || (s.technique == best.technique && s.samples == best.samples))
+            continue;
+        const Result<Frame> frame = draw(s, desc.seed);
+        BN_TRY(frame);
+        distances.back() = mean_errors(error_of(first->color, frame->color), materials);
+        for (std::size_t m = 0; m < count && s.samples == 1; ++m)
+            fetch[m] = std::min(fetch[m], distances.back()[m]);
+    }
+    // Find the best setting's own error
+    std::vector<double> own(count, 0.0);
+    for (std::size_t m = 0; m < count; ++m)
+        own[m] = own_error(moments[m], fetch[m]);
+    for (std::size_t m = 0; m < count; ++m)
+        if (getenv("DBG")) {
+            fprintf(stderr, "%zu px %g fetch %.4f guess %.4f own %.4f sq %.5f noise %.5f dev %.5f\n", m, materials.pixels[m], fetch[m],
+                    kPriorShare * fetch[m], own[m], moments[m].square, moments[m].noise_square, moments[m].deviation);
+        }
+    // Put the settings' errors together
+    Probe probe;
+    probe.width = small.width, probe.height = small.height;
+    probe.materials.resize(count);
+    const TechniqueInfo& usual = technique_of(FrameDesc{});
+    const std::vector<double> usual_costs = mean_costs({usual.name, usual.default_samples}, lobes, materials.of, count);
+    for (std::size_t m = 0; m < count; ++m)
+        probe.materials[m].share = materials.pixels[m] / static_cast<double>(materials.of.size()),
+        probe.materials[m].usual_cost = usual_costs[m];
+    for (const MaterialTechnique& s : settings) {
+        const std::vector<double> costs = mean_costs(s, lobes, materials.of, count);
+        const std::size_t at = static_cast<std::size_t>(
+            std::find_if(all.begin(), all.end(),
+                         [&](const MaterialTechnique& a) { return a.technique == s.technique && a.samples == s.samples; }) -
+            all.begin());
+        for (std::size_t m = 0; m < count; ++m) {
+            if (materials.pixels[m] == 0.0)
+                continue;
+            const double random = noise[m] * std::sqrt(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
+            const double error = prefiltered(s) ? flip_of(squared(distances[at][m]) + squared(own[m])) : random;
+            probe.materials[m].settings.push_back({s, error, costs[m]});
+        }
+    }
+    return probe;
+}
+
+} // namespace burnish

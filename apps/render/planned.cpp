@@ -1,0 +1,101 @@
+#include "apps/render/planned.h"
+
+#include <chrono>
+#include <fmt/core.h>
+
+#include "apps/cli/outputs.h"
+#include "apps/options/scene_view.h"
+#include "apps/render/cached_reference.h"
+#include "apps/render/stats.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "raster/reference/scene_key.h"
+
+namespace burnish {
+namespace {
+
+PlanSubject subject_of(const RenderOptions& options, const FrameDesc& desc, const Session& session)
+{
+    FrameDesc unplanned = desc;
+    unplanned.by_material.clear();
+    return {session.parts().scene->name,
+            session.parts().environment->name,
+            camera_options(desc.view, session.scene(), session.tables()),
+            desc.width,
+            desc.height,
+            hash_text(reference_key(session.parts().input(), session.drawn(unplanned), options.reference))};
+}
+
+// Plans with the tile renderer, whatever the frame is drawn with.
+Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, Session& session)
+{
+    const double budget = *options.budget;
+    const std::string technique = options.fixes_technique ? desc.technique : "";
+    const int samples = options.fixes_samples ? desc.samples : 0;
+    if (options.backend == "tile")
+        return make_plan(session, desc, budget, technique, samples);
+    SessionOptions by_tiles;
+    by_tiles.isa = options.isa;
+    Result<Session> tiles = Session::make(session.parts(), by_tiles);
+    BN_TRY(tiles);
+    return make_plan(*tiles, desc, budget, technique, samples);
+}
+
+} // namespace
+
+Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& desc, Session& session, Report& report)
+{
+    if (!options.plan_file.empty()) {
+        Result<std::vector<MaterialTechnique>> read =
+            read_plan(options.plan_file, subject_of(options, desc, session), session.scene().materials.size());
+        BN_TRY(read);
+        desc.by_material = std::move(*read);
+        if (const Status ok = check_desc(desc); !ok)
+            return Error{ExitCode::bad_input, options.plan_file, "/materials", ok.error().line()};
+        return std::optional<Plan>();
+    }
+    if (!options.budget)
+        return std::optional<Plan>();
+    const TraceSpan span("plan");
+    const auto begin = std::chrono::steady_clock::now();
+    Result<Plan> plan = plan_by_tiles(options, desc, session);
+    if (!plan)
+        return plan.error().code == ExitCode::usage ? usage_error("--budget", plan.error().line()) : plan.error();
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    if (options.fixes_technique || options.fixes_samples)
+        report.event("budget", options.fixes_technique ? fmt::format("chooses samples of {} alone", desc.technique)
+                                                       : fmt::format("chooses techniques with {} samples alone", desc.samples));
+    for (const std::string& line : plan_lines(*plan, *options.budget))
+        report.event("budget", line);
+    if (plan->aside.empty())
+        report.detail("probe", fmt::format("{}x{}, {:.1f} ms", plan->probe_width, plan->probe_height, ms));
+    if (plan->aside.empty())
+        desc.by_material = plan->settings();
+    if (!options.plan_out.empty()) {
+        BN_TRY(write_text(options.plan_out, plan_json(*plan, subject_of(options, desc, session))));
+        report.wrote(options.plan_out);
+    }
+    return std::optional<Plan>(std::move(*plan));
+}
+
+Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Session& session, const Image& color,
+                   const std::optional<Plan>& plan, Report& report)
+{
+    const TraceSpan span("verify");
+    FrameDesc whole = desc;
+    whole.by_material.clear(), whole.triangle_ids = whole.parts = whole.layers = false;
+    ReferenceOptions reference;
+    reference.quiet = options.quiet;
+    const Result<Frame> truth = cached_reference(session, whole, reference, options.isa, {options.environment.use_cache, ""}, report);
+    BN_TRY(truth);
+    const Jobs& jobs = *session.parts().jobs;
+    const ErrorSummary errors = summarise_errors(flip_hdr(truth->color, color, {}, jobs).error);
+    std::string text = fmt::format("mean HDR-FLIP {:.4f}, p99 {:.4f}, against {} samples of the reference", errors.mean, errors.p99,
+                                   truth->stats.sampling.samples);
+    if (plan && plan->aside.empty())
+        text += fmt::format("; predicted {:.4f}", plan->error);
+    report.figure("verified", text);
+    return {};
+}
+
+} // namespace burnish

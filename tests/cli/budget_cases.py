@@ -1,0 +1,124 @@
+"""burnish render --budget: technique and samples of each material, chosen for a largest error."""
+
+import json
+import re
+
+from harness import case, check
+
+SMALL = ("--env-size", "64", "--env-samples", "64")
+POT = ("render", "builtin:teapot", "--size", "320x180", "--msaa", "2", *SMALL)
+
+
+def stats_of(bench, name):
+    return json.loads((bench.folder / name).read_text())
+
+
+def settings_of(bench, name):
+    return [(m["technique"], m["samples"]) for m in stats_of(bench, name)["materials"]]
+
+
+def flip(bench, reference, test):
+    done = bench.run("compare", reference, test, "--metric", "flip-hdr")
+    return float(re.search(r"flip-hdr +mean ([\d.]+)", done.out)[1])
+
+
+@case("budget.holds_and_saves", budget=20)
+def holds(bench):
+    """The error stays below the budget, at the cost of fewer instructions; materials get settings of their own."""
+    bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "truth.pfm").expect(0)
+    before = 0.0
+    for budget in (0.1, 0.05):
+        name = f"b{budget}"
+        done = bench.run(*POT, "--budget", budget, "-o", f"{name}.pfm", "--stats", f"{name}.json", "--plan-out", "plan.json").expect(0)
+        plan, error = stats_of(bench, f"{name}.json")["plan"], flip(bench, "truth.pfm", f"{name}.pfm")
+        check(error <= budget, f"the error is {error}, the budget {budget}")
+        check(error <= 1.3 * plan["predicted_flip"], f"the error is {error}, predicted {plan['predicted_flip']}")
+        check(before < plan["instructions"] < 0.6 * plan["usual_instructions"], plan)
+        check(f"mean HDR-FLIP {budget}: predicted" in done.err and "next better: " in done.err, done.err)
+        before = plan["instructions"]
+    check(len(set(settings_of(bench, "plan.json"))) > 1, "all materials have one setting")
+
+
+@case("budget.plans_are_drawn_again_with_the_same_pixels")
+def replayed(bench):
+    bench.run(*POT, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)
+    for i, words in enumerate((("--threads", "1"), ("--isa", "scalar"), ("--tile-size", "32"))):
+        bench.run(*POT, "--plan", "plan.json", *words, "--stats", "b.json").expect(0)
+        check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], words)
+        bench.run(*POT, "--budget", "0.06", *words, "--plan-out", f"p{i}.json").expect(0)
+        check((bench.folder / f"p{i}.json").read_text() == (bench.folder / "plan.json").read_text(), f"another plan with {words}")
+    done = bench.run(*POT, "--budget", "0.06", "--plan-out", "-", "-q").expect(0)
+    check(done.out == (bench.folder / "plan.json").read_text(), "standard output has another plan")
+
+
+@case("budget.plans_are_drawn_on_a_device_with_the_same_pixels", tier="nightly")
+def on_device(bench):
+    """Materials with different techniques share one frame of the device."""
+    small = ("render", "builtin:teapot", "--size", "200x160", "--msaa", "1", *SMALL)
+    bench.run(*small, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)
+    check(len(set(settings_of(bench, "plan.json"))) > 1, "all materials have one setting")
+    for words in (("--plan", "plan.json"), ("--budget", "0.06")):
+        bench.run(*small, *words, "--backend", "vulkan", "--device", "lavapipe", "--stats", "b.json", timeout=300.0).expect(0)
+        check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the device draws other pixels")
+
+
+@case("budget.plan_of_something_else_is_refused_by_name")
+def other(bench):
+    bench.run(*POT, "--budget", "0.1", "--plan-out", "plan.json").expect(0)
+    for words, place in ((("--size", "320x200"), "/size"), (("--env", "builtin:sky"), "/environment"), (("--zoom", "2"), "/view"),
+                         (("--roughness", "0.3"), "/content"), (("--env-exposure", "1"), "/content")):
+        bench.run(*POT, "--plan", "plan.json", *words).expect(4).expect_one_line("plan.json", place)
+    bench.run("render", "builtin:spheres", *POT[2:], "--plan", "plan.json").expect(4).expect_one_line("plan.json", "/scene")
+    plan = stats_of(bench, "plan.json")
+    for change, place in (({"technique": "none"}, "/materials"), ({"technique": "filtered_is"}, "/materials"), ({"samples": 0}, "/materials"),
+                          ({"samples": "many"}, "/materials/0")):
+        changed = {**plan, "materials": [{**plan["materials"][0], **change}, *plan["materials"][1:]]}
+        (bench.folder / "changed.json").write_text(json.dumps(changed))
+        bench.run(*POT, "--plan", "changed.json").expect(4).expect_one_line("changed.json", place)
+    (bench.folder / "changed.json").write_text(json.dumps({**plan, "version": "0.0.1"}))
+    bench.run(*POT, "--plan", "changed.json").expect(4).expect_one_line("changed.json", "/version")
+    bench.run(*POT, "--plan", "absent.json").expect(4).expect_one_line("absent.json")
+
+
+@case("budget.wrong_options_say_one_line_and_exit_2")
+def wrong(bench):
+    for words, needle in (
+            (("--budget", "0"), "no technique is exact"), (("--budget", "-1"), "--budget"), (("--budget", "nan"), "--budget"),
+            (("--budget", "2"), "--budget"), (("--budget", "1e-9"), "no setting reaches"),
+            (("--budget", "0.1", "--backend", "reference"), "reference"), (("--budget", "0.1", "--plan", "p.json"), "--plan"),
+            (("--budget", "0.1", "--technique", "mc", "--samples", "64"), "nothing to choose"),
+            (("--budget", "0.01", "--technique", "split_isotropic"), "no setting reaches"),
+            (("--budget", "0.1", "--technique", "filtered_is"), "--budget"), (("--plan", "p.json", "--samples", "4"), "--samples"),
+            (("--plan-out", "p.json"), "--plan-out"), (("--verify",), "--verify"), (("--budget", "0.1", "--risks", "-"), "--risks"),
+            (("--budget", "0.1", "--verify", "--shadows", "on"), "--verify")):
+        bench.run(*POT, *words).expect(2).expect_one_line(needle)
+
+
+@case("budget.keeps_what_is_fixed")
+def fixed(bench):
+    done = bench.run(*POT, "--budget", "0.1", "--technique", "lobe_line", "--plan-out", "plan.json").expect(0)
+    check({t for t, _ in settings_of(bench, "plan.json")} <= {"lobe_line", "auto"} and "samples of lobe_line alone" in done.err, done.err)
+
+
+@case("budget.stands_aside_where_a_plan_costs_more_than_it_saves")
+def aside(bench):
+    empty = ("--eye", "0,5,0", "--target", "0,9,0.1", "--floor", "off", "--size", "320x180")
+    for words in (("--size", "96x64"), empty):
+        done = bench.run("render", "builtin:teapot", *SMALL, *words, "--budget", "0.05", "--stats", "a.json").expect(0)
+        check("stands aside" in done.err and "plan" not in stats_of(bench, "a.json"), done.err)
+        bench.run("render", "builtin:teapot", *SMALL, *words, "--stats", "b.json").expect(0)
+        check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the picture changed")
+
+
+@case("budget.verify_measures_the_picture", budget=30)
+def verify(bench):
+    done = bench.run("render", "builtin:plate", "--size", "200x160", "--msaa", "4", *SMALL, "--budget", "0.1", "--verify").expect(0)
+    found = re.search(r"verified +mean HDR-FLIP ([\d.]+), p99 [\d.]+, against 1024 samples of the reference; predicted ([\d.]+)", done.out)
+    check(found and 0 < float(found[1]) < 0.1, done.describe())
+
+
+@case("budget.one_plan_draws_an_animation")
+def animated(bench):
+    done = bench.run(*POT, "--budget", "0.06", "--turntable", "3", "--plan-out", "plan.json", "-o", "t_%d.pfm").expect(0)
+    check(done.err.count("mean HDR-FLIP") == 1, done.err)
+    bench.run(*POT, "--plan", "plan.json", "--turntable", "3").expect(2).expect_one_line("--plan")
