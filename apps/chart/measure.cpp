@@ -9,12 +9,12 @@
 
 #include "apps/chart/cpu_load.h"
 #include "apps/chart/noise.h"
-#include "apps/render/cached_reference.h"
 #include "apps/cli/open.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/parameters.h"
 #include "apps/options/scene_view.h"
 #include "apps/options/scene_with_view.h"
+#include "apps/render/cached_reference.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
 #include "core/base/clock.h"

@@ -89,12 +89,14 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, c
     // Tell the choices, and the neighbours on the hulls
     const TechniqueInfo& usual = automatic_technique();
     for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
-        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{usual.name, usual.default_samples}, 0.0, 0.0}, {}, {}});
+        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{usual.name, usual.default_samples}, 0.0, 0.0}, {}, {}, {}});
     for (std::size_t h = 0; h < hulls.size(); ++h) {
         const ProbedMaterial& m = probe.materials[seen[h]];
         const std::vector<PlanPoint>& hull = hulls[h];
         PlannedMaterial& to = plan.materials[seen[h]];
         to.share = m.share, to.chosen = step_of(m, hull[at[h]]);
+        for (const PlanPoint& p : points_of(m, pixels))
+            to.all.push_back(step_of(m, p));
         if (at[h] > 0)
             to.cheaper = step_of(m, hull[at[h] - 1]);
         if (at[h] + 1 < hull.size())

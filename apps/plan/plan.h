@@ -19,6 +19,7 @@ struct PlannedMaterial {
     double share = 0.0; // of the picture's pixels
     PlanStep chosen;
     std::optional<PlanStep> cheaper, better; // the neighbours on its hull
+    std::vector<PlanStep> all;               // every setting of the probe
 };
 
 struct Plan {

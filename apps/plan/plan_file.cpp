@@ -50,6 +50,8 @@ std::string plan_json(const Plan& plan, const PlanSubject& subject)
             row["next_cheaper"] = step_json(*m.cheaper);
         if (m.better)
             row["next_better"] = step_json(*m.better);
+        for (const PlanStep& step : m.all)
+            row["settings"].push_back(step_json(step));
         json["materials"].push_back(std::move(row));
     }
     return json_text(json, 2) + "\n";

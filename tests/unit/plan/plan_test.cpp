@@ -106,7 +106,7 @@ TEST(plan, every_setting_has_a_technique_that_materials_may_have)
     }
 }
 
-class PlanFile : public testing::Test {
+class plan_file : public testing::Test {
   protected:
     const std::string path_ = testing::TempDir() + "plan_test.json";
     const PlanSubject subject_ = {"a scene", "a sky", "a view", 480, 320, "0123"};
@@ -120,7 +120,7 @@ class PlanFile : public testing::Test {
     }
 };
 
-TEST_F(PlanFile, holds_the_choices)
+TEST_F(plan_file, holds_the_choices)
 {
     const Plan plan = plan_of(spheres(), 0.03);
     write(plan_json(plan, subject_));
@@ -133,7 +133,7 @@ TEST_F(PlanFile, holds_the_choices)
     }
 }
 
-TEST_F(PlanFile, for_something_else_names_what_differs)
+TEST_F(plan_file, for_something_else_names_what_differs)
 {
     const Plan plan = plan_of(spheres(), 0.03);
     const std::size_t count = plan.materials.size();
@@ -152,7 +152,7 @@ TEST_F(PlanFile, for_something_else_names_what_differs)
     refused(subject_, count + 1, "/materials");
 }
 
-TEST_F(PlanFile, that_is_malformed_is_refused_with_its_place)
+TEST_F(plan_file, that_is_malformed_is_refused_with_its_place)
 {
     write("no JSON");
     refused(subject_, 1, "");
