@@ -95,7 +95,7 @@
     const image = (css, alt) => element('img', {className: css, alt, draggable: false});
     const technique = image('picture', ''), error = image('error', '');
     const reference = element('img', {className: 'reference', alt: '', src: picture(place.reference), draggable: false});
-    const view = element('div', {className: 'view', tabIndex: 0, role: 'img', style: `aspect-ratio: ${data.width} / ${data.height}`},
+    const view = element('div', {className: 'view', tabIndex: 0, role: 'img', style: `aspect-ratio: ${place.width || data.width} / ${place.height || data.height}`},
                          reference, element('div', {className: 'clip technique'}, technique), error);
     const list = element('select', {}, ...keys.map(key => element('option', {value: key}, data.rows[key].setting)));
     list.setAttribute('aria-label', 'setting of ' + first.technique);
@@ -119,7 +119,7 @@
   class Wall {
     constructor(place, index) {
       this.zoom = 1, this.x = 0, this.y = 0;  // x, y: of the picture's corner, in parts of the view
-      const modes = [['split', 'Side by side'], ['technique', data.subject], ['reference', 'Reference'], ['error', 'Error map']];
+      const modes = [['split', 'Side by side'], ['technique', data.subject], ['reference', data.other || 'Reference'], ['error', 'Error map']];
       this.radios = modes.map(([value]) => element('input', {type: 'radio', name: 'mode-' + index, value, checked: value === 'split'}));
       this.split = element('input', {type: 'range', min: 0, max: 100, step: 1, value: 50, className: 'split'});
       this.zoomer = element('input', {type: 'range', min: 0, max: Math.log2(kMostZoom), step: 0.1, value: 0, className: 'zoom'});
@@ -132,7 +132,7 @@
       const legend = element('legend', {}, 'Show');
       const controls = element('div', {className: 'controls'},
         element('fieldset', {}, legend, ...modes.map(([, text], i) => element('label', {}, this.radios[i], text))),
-        element('label', {}, 'Reference | ' + data.subject.toLowerCase(), this.split), this.button, element('label', {}, 'Zoom', this.zoomer), reset);
+        element('label', {}, (data.other || 'Reference') + ' | ' + data.subject.toLowerCase(), this.split), this.button, element('label', {}, 'Zoom', this.zoomer), reset);
       this.node = element('div', {}, controls, this.tiles);
       this.radios.forEach(radio => radio.addEventListener('change', () => this.setMode(radio.value)));
       this.split.addEventListener('input', () => this.tiles.style.setProperty('--split', this.split.value + '%'));

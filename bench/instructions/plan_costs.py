@@ -4,7 +4,7 @@
 Usage: plan_costs.py --program build/release/bench_instructions [--scale FACTOR]
 
 The eye is near a sphere's centre, so that every pixel sees its lobe from above. --scale multiplies the table's costs, to see the check fail.
-Settings with more than 256 samples are left out: their costs are lines through the others. Exit code 1: a cost is off; 77: skipped, as
+Settings with more than 512 samples are left out: their costs are lines through the others. Exit code 1: a cost is off; 77: skipped, as
 count.py is.
 """
 
@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PIXELS = 160 * 90
 LOBES = ((0.5, 0.8), (0.3, 0.5))  # alpha_lin, eta
 THIRD = 0.33333334  # in floats: a third of 9 samples is more than 3
-MOST_SAMPLES = 256
+MOST_SAMPLES = 512
 
 
 def settings():

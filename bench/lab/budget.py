@@ -31,7 +31,7 @@ TRUTH, NOISY = 2048, 512  # samples of mc
 BUILTINS = ("teapot", "spheres", "sphere", "plate", "bumps", "lacquer", "shaderballs")
 UNSEEN_BUILTINS = ("bumps", "shaderballs")
 FIXED = [("split_isotropic", 1), ("bent_normal", 1), ("major_axis_weighted", 4), *(("lobe_line", n) for n in (5, 9, 17, 36, 64)),
-         *(("mc", n) for n in (64, 256, 1024))]
+         *(("mc", n) for n in (512, 1024, 2048))]
 
 
 class Failed(Exception):

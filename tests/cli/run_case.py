@@ -26,6 +26,7 @@ import fault_cases
 import file_cases
 import fresnel_cases
 import glass_cases
+import golden_cases
 import harness
 import hostile_cases
 import image_light_cases

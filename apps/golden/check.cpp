@@ -1,0 +1,171 @@
+#include "apps/golden/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fmt/core.h>
+#include <system_error>
+
+#include "apps/golden/child.h"
+#include "apps/golden/difference.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostPictureBytes = 1ull << 30, kMostHashBytes = 1024;
+
+std::string in_folder(const std::string& folder, const std::string& path)
+{
+    return fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
+}
+
+std::string absolute(const std::string& path)
+{
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(path, ignored);
+    return whole.empty() ? path : whole.string();
+}
+
+Error bad(std::string reason)
+{
+    return Error{ExitCode::bad_input, "", "", std::move(reason)};
+}
+
+// Runs the row's program, so that its picture lies at `to`.
+Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const std::string& to,
+                    const std::string& log)
+{
+    ChildRun run;
+    run.words = row.command, run.folder = manifest.folder, run.environment = row.environment, run.seconds = row.seconds;
+    run.output = absolute(log), run.stop = setting.stop;
+    if (row.kind == GoldenKind::scene) {
+        run.words.insert(run.words.begin(), setting.program);
+        run.words.insert(run.words.end(), {"-q", "-o", absolute(to)});
+        if (row.limits.z)
+            run.words.insert(run.words.end(), {"--variance", absolute(to) + ".variance.exr"});
+        return run_child(run);
+    }
+    // A picture from before the run must not pass for a new one
+    const std::string from = in_folder(manifest.folder, row.picture);
+    std::error_code missing, failed;
+    const fs::file_time_type before = fs::last_write_time(from, missing);
+    if (row.kind == GoldenKind::command) {
+        BN_TRY(run_child(run));
+        const fs::file_time_type after = fs::last_write_time(from, failed);
+        if (failed || (!missing && after == before))
+            return bad(fmt::format("{} wrote no {}", row.command[0], row.picture));
+    }
+    const Result<std::vector<std::uint8_t>> bytes = read_file(from, kMostPictureBytes);
+    if (!bytes)
+        return bad(fmt::format("{}: {}", row.picture, bytes.error().reason));
+    return write_file_atomic(to, bytes->data(), bytes->size());
+}
+
+// Reads a picture, or tells why not in one sentence.
+Result<Image> picture_at(const std::string& path, const std::string& name, const Limits& limits)
+{
+    PictureNotes notes;
+    Result<Image> image = read_colours(path, limits, notes);
+    if (!image)
+        return bad(fmt::format("{}: {}", name, image.error().reason));
+    return image;
+}
+
+// Judges the picture by a golden that is a hash.
+void judge_hash(const GoldenRow& row, const std::string& golden, const Image& picture, GoldenResult& result)
+{
+    const Result<std::vector<std::uint8_t>> text = read_file(golden, kMostHashBytes);
+    if (!text) {
+        result.verdict = GoldenVerdict::failed, result.reason = fmt::format("{}: {}", row.golden, text.error().reason);
+        return;
+    }
+    std::string wanted(text->begin(), text->end());
+    wanted.erase(std::remove_if(wanted.begin(), wanted.end(), [](char c) { return c == '\n' || c == '\r' || c == ' '; }), wanted.end());
+    const std::string now = golden_hash(picture);
+    if (now != wanted)
+        result.verdict = GoldenVerdict::differs, result.reason = fmt::format("its hash is {}, the golden's {}", now, wanted.substr(0, 16));
+}
+
+} // namespace
+
+bool file_exists(const std::string& path)
+{
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+const char* verdict_name(GoldenVerdict verdict)
+{
+    constexpr const char* kNames[] = {"passed", "differs", "missing", "failed"};
+    return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::string golden_hash(const Image& image)
+{
+    const std::int32_t shape[] = {image.width, image.height, image.channels, static_cast<std::int32_t>(image.type)};
+    return fmt::format("{:016x}", hash_bytes(image.bytes.data(), image.bytes.size(), hash_bytes(shape, sizeof(shape))));
+}
+
+GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
+{
+    const std::string stem = file_stem(row.name), results = setting.results + "/";
+    GoldenResult result;
+    result.name = row.name, result.golden = in_folder(manifest.folder, row.golden), result.hash_alone = row.hash_alone;
+    result.picture = "pictures/" + stem + row.extension;
+    if (row.kind != GoldenKind::picture)
+        result.log = "logs/" + stem + ".txt";
+    const auto fails = [&](const std::string& reason) {
+        result.verdict = GoldenVerdict::failed, result.reason = reason;
+        return result;
+    };
+    // Make the picture
+    std::error_code ignored;
+    fs::remove(results + result.picture, ignored);
+    if (const Status made = make_picture(manifest, row, setting, results + result.picture, results + "logs/" + stem + ".txt"); !made)
+        return fails(made.error().reason);
+    const Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
+    if (!picture)
+        return fails(picture.error().reason);
+    result.width = picture->width, result.height = picture->height;
+    const std::string shown = results + "shown/" + stem;
+    if (const Status written = show(*picture, 0.0f, shown + ".png"); !written)
+        return fails(written.error().line());
+    // Judge it
+    if (!file_exists(result.golden)) {
+        result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
+        return result;
+    }
+    if (row.hash_alone) {
+        judge_hash(row, result.golden, *picture, result);
+        return result;
+    }
+    Result<Image> golden = picture_at(result.golden, row.golden, setting.limits);
+    if (!golden)
+        return fails(golden.error().reason);
+    DifferenceInput input{std::move(*golden), *picture, {}, {}, {}};
+    if (!row.mask.empty()) {
+        Result<Image> mask = picture_at(in_folder(manifest.folder, row.mask), row.mask, setting.limits);
+        if (!mask)
+            return fails(mask.error().reason);
+        input.mask = std::move(*mask);
+    }
+    if (row.limits.z) {
+        Result<Image> of_golden = picture_at(result.golden + ".variance.exr", row.golden + ".variance.exr", setting.limits);
+        if (!of_golden)
+            return fails(of_golden.error().reason);
+        input.golden_variance = std::move(*of_golden);
+        if (file_exists(results + result.picture + ".variance.exr"))
+            if (Result<Image> own = picture_at(results + result.picture + ".variance.exr", "its variance", setting.limits))
+                input.variance = std::move(*own);
+    }
+    judge(row.limits, std::move(input), jobs, shown, result);
+    return result;
+}
+
+} // namespace burnish

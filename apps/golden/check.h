@@ -1,0 +1,45 @@
+// Makes the pictures of a manifest and judges them by their goldens.
+#pragma once
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "apps/golden/manifest.h"
+#include "core/base/limits.h"
+#include "core/image/image.h"
+#include "core/jobs/jobs.h"
+
+namespace burnish {
+
+enum class GoldenVerdict { passed, differs, missing, failed }; // missing: there is no golden; failed: there is no picture
+const char* verdict_name(GoldenVerdict verdict);
+
+struct GoldenResult {
+    std::string name;
+    GoldenVerdict verdict = GoldenVerdict::passed;
+    std::string reason; // one sentence; empty: every value is equal
+    int width = 0, height = 0;
+    double flip = 0.0, flip_p99 = 0.0, differing = 0.0, largest = 0.0; // zeros for equal pictures; differing: share of pixels
+    std::string golden;                                                // path as bless writes it
+    std::string picture;                                               // in the results' folder: the new picture
+    std::string log;                                                   // in the results' folder: what the program printed; empty: none
+    bool hash_alone = false;
+};
+
+struct GoldenSetting {
+    std::string results; // folder; pictures, shown and logs are made below it
+    std::string program; // of scene rows: this one
+    Limits limits;
+    const std::atomic<bool>* stop = nullptr;
+};
+
+// Makes and judges one row. Writes below the results' folder: pictures/STEM.EXT, the new picture; logs/STEM.txt; for the page
+// shown/STEM.png, and STEM.golden.png, STEM.error.png where there is a golden with other values.
+GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs);
+
+bool file_exists(const std::string& path);
+
+// Returns 16 hexadecimal digits over a picture's size, type and values, as goldens hold that are a hash alone.
+std::string golden_hash(const Image& image);
+
+} // namespace burnish

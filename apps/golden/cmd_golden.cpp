@@ -1,0 +1,358 @@
+// `burnish golden`: makes pictures, compares them with golden ones, and lets people bless what changed.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/cli/values.h"
+#include "apps/golden/golden_report.h"
+#include "apps/report/json.h"
+#include "core/base/file.h"
+#include "core/image/io/image_io.h"
+#include "core/jobs/cores.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFooter =
+    R"~(check MANIFEST.json: makes the manifest's pictures and compares them with their goldens. check EXPECTED ACTUAL: compares two folders.
+bless: takes over new pictures of the last check that differ or have no golden; with --from, only those of the list.
+merge FOLDER...: joins the results of shards; the files are those of one run.
+
+A manifest is a JSON object. "rows" lists pictures:
+  {"name": "pot", "scene": "builtin:teapot", "options": ["--size", "320x180"]}      drawn by burnish render
+  {"name": "page", "command": ["node", "draw.js"], "picture": "out/page.png"}       drawn by any program
+  {"name": "old", "picture": "out/old.exr"}                                         there already
+Rows may have "hold": {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE} in place of equal values, "mask" (black pixels do not count),
+"seconds" (300), "environment" (variables), "format" of scenes (png), "golden" (goldens/NAME.png), and "keep": "hash" for a golden that is
+a hash. "defaults" holds the same members, and "options" of scenes. Paths are relative to the manifest, and programs run beside it.
+
+The results' folder gets index.html with what differs, results.jsonl, junit.xml, summary.md, all new pictures and the programs' output. On
+GitHub, annotations and the step's summary are written too.
+
+Exit codes: 0 all passed, 1 a picture differs, 4 a picture could not be made or the manifest is wrong, 5 a golden is missing.
+
+Examples:
+  burnish golden check goldens.json
+  burnish golden check goldens.json --jobs 4 --shard 2/3 -o shard-2
+  burnish golden merge shard-1 shard-2 shard-3 -o golden-results
+  burnish golden bless goldens.json --from bless.txt
+  burnish golden check expected actual --flip 0.01)~";
+
+enum class What { check, bless, merge };
+
+struct GoldenArguments {
+    What what = What::check;
+    std::vector<std::string> paths;
+    std::string results = "golden-results", from, shard;
+    GoldenLimits limits; // of folders
+    int jobs = 0;
+    Limits input;
+    bool quiet = false;
+    int verbosity = 0;
+};
+
+struct Shard {
+    std::size_t index = 0, count = 1;
+};
+
+// Reads "2/3".
+Result<Shard> read_shard(const std::string& text)
+{
+    if (text.empty())
+        return Shard{};
+    unsigned index = 0, count = 0;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%5u/%5u%n", &index, &count, &read) != 2 || read != static_cast<int>(text.size()) || index < 1 ||
+        index > count)
+        return usage_error("--shard", fmt::format("'{}' is no I/N with I from 1 to N", text));
+    return Shard{index - 1, count};
+}
+
+bool is_folder(const std::string& path)
+{
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+// Reads the manifest, or the two folders.
+Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
+{
+    if (arguments.paths.size() == 2 && is_folder(arguments.paths[0]))
+        return manifest_of_folders(arguments.paths[0], arguments.paths[1], arguments.limits);
+    if (arguments.paths.size() != 1)
+        return usage_error("PATH", "is one manifest, or two folders: the expected pictures and the actual ones");
+    if (!arguments.limits.exact())
+        return usage_error("--flip", "belongs to folders; rows of a manifest have their own \"hold\"");
+    return read_manifest(arguments.paths[0]);
+}
+
+// Makes the results' folders, empty of earlier results.
+Status make_folders(const std::string& results)
+{
+    BN_TRY(make_output_folder(results));
+    for (const char* name : {"results.jsonl", "junit.xml", "summary.md", "index.html"}) {
+        std::error_code ignored;
+        fs::remove(results + "/" + name, ignored);
+    }
+    for (const char* name : {"pictures", "shown", "logs"}) {
+        std::error_code failed;
+        fs::remove_all(results + "/" + name, failed);
+        if (!failed)
+            fs::create_directory(results + "/" + name, failed);
+        if (failed)
+            return Error{ExitCode::output_failed, results + "/" + name, "", failed.message()};
+    }
+    return {};
+}
+
+void sort_by_name(std::vector<GoldenResult>& results)
+{
+    std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
+}
+
+// Writes the reports, and what GitHub shows. Returns the exit code.
+int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments, Report& report)
+{
+    sort_by_name(results);
+    if (const Status written = write_reports(results, arguments.results); !written)
+        return fail(written.error());
+    if (const char* actions = std::getenv("GITHUB_ACTIONS"); actions && std::string_view(actions) == "true")
+        report.figures(golden_annotations(results));
+    if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
+        std::ofstream(summary, std::ios::app) << golden_summary(results);
+    for (const GoldenResult& r : results)
+        if (r.verdict != GoldenVerdict::passed)
+            report.figure(verdict_name(r.verdict), r.name + ": " + r.reason);
+    const GoldenCounts counts = count_of(results);
+    report.figure("golden", fmt::format("{} passed, {} differ, {} have no golden, {} could not be made; {}/index.html", counts.passed,
+                                        counts.differs, counts.missing, counts.failed, arguments.results));
+    return exit_code_of(counts);
+}
+
+int check(const GoldenArguments& arguments, Report& report)
+{
+    const Result<Shard> shard = read_shard(arguments.shard);
+    if (!shard)
+        return fail(shard.error());
+    Result<GoldenManifest> manifest = manifest_at(arguments);
+    if (!manifest)
+        return fail(manifest.error());
+    std::vector<GoldenRow> rows;
+    for (std::size_t i = 0; i < manifest->rows.size(); ++i)
+        if (i % shard->count == shard->index)
+            rows.push_back(manifest->rows[i]);
+    if (const Status folders = make_folders(arguments.results); !folders)
+        return fail(folders.error());
+    report.release();
+    // Make and judge the rows
+    GoldenSetting setting;
+    setting.results = arguments.results, setting.limits = arguments.input, setting.stop = &watch_stop_signals();
+    std::error_code ignored;
+    setting.program = fs::read_symlink("/proc/self/exe", ignored).string();
+    const int wanted = arguments.jobs > 0 ? arguments.jobs : usable_cores();
+    const Jobs side_by_side(std::max(1, std::min(wanted, static_cast<int>(rows.size()))));
+    std::vector<GoldenResult> results(rows.size());
+    Progress progress("golden pictures", rows.size(), arguments.quiet);
+    side_by_side.parallel_for(rows.size(), [&](std::size_t i, int) {
+        const Jobs jobs(1);
+        results[i] = check_row(*manifest, rows[i], setting, jobs);
+        progress.step();
+    });
+    if (*setting.stop)
+        return 128 + stop_signal();
+    return conclude(std::move(results), arguments, report);
+}
+
+// Reads names, one a line, as they are or as JSON texts.
+Result<std::set<std::string>> read_list(const std::string& path)
+{
+    constexpr std::uint64_t kMostListBytes = 64ull << 20;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostListBytes);
+    BN_TRY(bytes);
+    std::set<std::string> names;
+    const std::string text(bytes->begin(), bytes->end());
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::string line = text.substr(begin, end - begin);
+        if (!line.empty() && line.back() == '\r')
+            line.pop_back();
+        const Json json = line.starts_with('"') ? Json::parse(line, nullptr, false) : Json();
+        if (!line.empty())
+            names.insert(json.is_string() ? json.get<std::string>() : line);
+        begin = end + 1;
+    }
+    return names;
+}
+
+// Writes bytes unless the file holds them already. Sets `changed`.
+Status replace(const std::string& path, const std::vector<std::uint8_t>& bytes, bool& changed)
+{
+    constexpr std::uint64_t kMostBytes = 1ull << 30;
+    if (const Result<std::vector<std::uint8_t>> before = read_file(path, kMostBytes); before && *before == bytes)
+        return {};
+    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) {
+        std::error_code failed;
+        fs::create_directories(folder, failed);
+        if (failed)
+            return Error{ExitCode::output_failed, folder.string(), "", failed.message()};
+    }
+    changed = true;
+    return write_file_atomic(path, bytes.data(), bytes.size());
+}
+
+// Makes a row's new picture golden.
+Status bless_row(const GoldenResult& result, const GoldenArguments& arguments, bool& changed)
+{
+    constexpr std::uint64_t kMostBytes = 1ull << 30;
+    const std::string picture = arguments.results + "/" + result.picture;
+    if (result.hash_alone) {
+        PictureNotes notes;
+        const Result<Image> image = read_colours(picture, arguments.input, notes);
+        BN_TRY(image);
+        const std::string text = golden_hash(*image) + "\n";
+        return replace(result.golden, {text.begin(), text.end()}, changed);
+    }
+    for (const char* end : {"", ".variance.exr"}) {
+        const Result<std::vector<std::uint8_t>> bytes = read_file(picture + end, kMostBytes);
+        if (!bytes && *end)
+            continue; // there is no variance
+        BN_TRY(bytes);
+        BN_TRY(replace(result.golden + end, *bytes, changed));
+    }
+    return {};
+}
+
+int bless(const GoldenArguments& arguments, Report& report)
+{
+    const Result<GoldenManifest> manifest = manifest_at(arguments);
+    if (!manifest)
+        return fail(manifest.error());
+    const Result<std::vector<GoldenResult>> results = read_results(arguments.results);
+    if (!results)
+        return fail(results.error());
+    std::map<std::string, const GoldenResult*> by_name;
+    for (const GoldenResult& r : *results)
+        by_name[r.name] = &r;
+    std::set<std::string> chosen, rows;
+    for (const GoldenRow& row : manifest->rows)
+        rows.insert(row.name);
+    if (!arguments.from.empty()) {
+        const Result<std::set<std::string>> list = read_list(arguments.from);
+        if (!list)
+            return fail(list.error());
+        chosen = *list;
+    } else
+        for (const GoldenResult& r : *results)
+            if (r.verdict == GoldenVerdict::differs || r.verdict == GoldenVerdict::missing)
+                chosen.insert(r.name);
+    // Check every name before the first golden changes
+    const std::string source = arguments.from.empty() ? arguments.results : arguments.from;
+    for (const std::string& name : chosen)
+        if (!rows.contains(name))
+            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' is no row of the manifest"});
+        else if (!by_name.contains(name) || by_name[name]->verdict == GoldenVerdict::failed)
+            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' has no new picture in the last check"});
+    report.release();
+    std::size_t count = 0;
+    for (const std::string& name : chosen) {
+        bool changed = false;
+        const GoldenResult& r = *by_name[name];
+        if (const Status done = bless_row(r, arguments, changed); !done)
+            return fail(done.error());
+        if (changed)
+            report.figure("blessed", fmt::format("{}: {}", r.golden, r.verdict == GoldenVerdict::missing ? "new" : r.reason));
+        count += changed;
+    }
+    report.figure("golden", count == 0 ? "nothing to bless" : counted(count, "picture") + " blessed");
+    return 0;
+}
+
+int merge(const GoldenArguments& arguments, Report& report)
+{
+    std::vector<GoldenResult> all;
+    std::set<std::string> names;
+    for (const std::string& folder : arguments.paths) {
+        if (same_file(folder, arguments.results))
+            return fail(usage_error("-o", "is one of the folders to merge"));
+        const Result<std::vector<GoldenResult>> results = read_results(folder);
+        if (!results)
+            return fail(results.error());
+        for (const GoldenResult& r : *results) {
+            if (!names.insert(r.name).second)
+                return fail(Error{ExitCode::bad_input, folder, "", "'" + r.name + "' is in an earlier folder too"});
+            all.push_back(r);
+        }
+    }
+    if (const Status folders = make_folders(arguments.results); !folders)
+        return fail(folders.error());
+    for (const std::string& folder : arguments.paths)
+        for (const char* name : {"/pictures", "/shown", "/logs"}) {
+            std::error_code failed;
+            fs::copy(folder + name, arguments.results + name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
+            if (failed)
+                return fail(Error{ExitCode::output_failed, folder + name, "", failed.message()});
+        }
+    report.release();
+    return conclude(std::move(all), arguments, report);
+}
+
+int run_golden(const GoldenArguments& arguments, const OptionTable& given)
+{
+    Report report(arguments.quiet, arguments.verbosity);
+    for (const auto& [option, what] : {std::pair{"--from", What::bless}, {"--shard", What::check}, {"--jobs", What::check}})
+        if (given.given(option) && arguments.what != what)
+            return fail(usage_error(option, fmt::format("belongs to `golden {}`", what == What::bless ? "bless" : "check")));
+    switch (arguments.what) {
+    case What::check:
+        return check(arguments, report);
+    case What::bless:
+        return bless(arguments, report);
+    case What::merge:
+        return merge(arguments, report);
+    }
+    return 0;
+}
+
+OptionTable golden_option_table(GoldenArguments& to)
+{
+    OptionTable table;
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"check", "bless", "merge"})},
+                   Option("PATH", "", "A manifest, the folders of expected and actual pictures, or results to merge", files(to.paths))
+                       .must_be_given()});
+    table.add("Goldens",
+              {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
+               {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
+               {"--shard", "I/N", "Makes every N-th row alone, from the I-th; merge joins the shards' results", text(to.shard), ""},
+               {"--from", "LIST", "File with names of rows to bless, one a line, as the page saves it", file(to.from), ""},
+               {"--flip", "MEAN", "Of two folders: mean FLIP that pictures may differ by, {}", number(to.limits.flip, 0.0, 1.0),
+                "not a single value"},
+               quiet_option(to.quiet),
+               verbose_option(to.verbosity)});
+    table.add("Limits on input", limit_options(to.input));
+    return table;
+}
+
+} // namespace
+
+Command golden_command()
+{
+    auto arguments = std::make_shared<GoldenArguments>();
+    return {"golden", "Compare many pictures with golden ones, and bless changes", golden_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_golden(*arguments, given); }};
+}
+
+} // namespace burnish

@@ -1,0 +1,193 @@
+#include "apps/golden/golden_report.h"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "apps/cli/outputs.h"
+#include "apps/report/html.h"
+#include "apps/report/json.h"
+#include "core/base/file.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::uint64_t kMostResultBytes = 256ull << 20;
+
+std::string without_controls(std::string text)
+{
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32)
+            c = ' ';
+    return text;
+}
+
+// Escapes what GitHub's commands treat as their own.
+std::string annotation_text(const std::string& text, bool in_property)
+{
+    std::string out;
+    for (const char c : text)
+        if (c == '%' || c == '\n' || c == '\r' || (in_property && (c == ',' || c == ':')))
+            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        else
+            out += c;
+    return out;
+}
+
+// Escapes Markdown and HTML within a table's cell.
+std::string markdown_text(const std::string& text)
+{
+    std::string out;
+    for (const char c : without_controls(text))
+        if (std::string_view("\\`*_{}[]()#+-!|~@").find(c) != std::string_view::npos)
+            out += std::string("\\") + c;
+        else
+            out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    return out;
+}
+
+Json json_of(const GoldenResult& r)
+{
+    return {{"name", r.name},
+            {"verdict", verdict_name(r.verdict)},
+            {"reason", r.reason},
+            {"width", r.width},
+            {"height", r.height},
+            {"flip_mean", r.flip},
+            {"flip_p99", r.flip_p99},
+            {"differing_fraction", r.differing},
+            {"max_abs", r.largest},
+            {"golden", r.golden},
+            {"picture", r.picture},
+            {"log", r.log},
+            {"hash_alone", r.hash_alone}};
+}
+
+GoldenResult result_of(const Json& json)
+{
+    GoldenResult r;
+    r.name = json.at("name").get<std::string>(), r.reason = json.at("reason").get<std::string>();
+    const std::string verdict = json.at("verdict").get<std::string>();
+    for (const GoldenVerdict v : {GoldenVerdict::passed, GoldenVerdict::differs, GoldenVerdict::missing, GoldenVerdict::failed})
+        if (verdict == verdict_name(v))
+            r.verdict = v;
+    r.width = json.at("width").get<int>(), r.height = json.at("height").get<int>();
+    r.flip = json.at("flip_mean").get<double>(), r.flip_p99 = json.at("flip_p99").get<double>();
+    r.differing = json.at("differing_fraction").get<double>(), r.largest = json.at("max_abs").get<double>();
+    r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
+    r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();
+    return r;
+}
+
+} // namespace
+
+GoldenCounts count_of(const std::vector<GoldenResult>& results)
+{
+    GoldenCounts counts;
+    for (const GoldenResult& r : results)
+        switch (r.verdict) {
+        case GoldenVerdict::passed:
+            ++counts.passed;
+            break;
+        case GoldenVerdict::differs:
+            ++counts.differs;
+            break;
+        case GoldenVerdict::missing:
+            ++counts.missing;
+            break;
+        case GoldenVerdict::failed:
+            ++counts.failed;
+            break;
+        }
+    return counts;
+}
+
+int exit_code_of(const GoldenCounts& counts)
+{
+    const ExitCode code = counts.failed    ? ExitCode::bad_input
+                          : counts.differs ? ExitCode::differ
+                          : counts.missing ? ExitCode::golden_missing
+                                           : ExitCode::ok;
+    return static_cast<int>(code);
+}
+
+std::string results_text(const std::vector<GoldenResult>& results)
+{
+    std::string text;
+    for (const GoldenResult& r : results)
+        text += json_text(json_of(r), -1) + "\n";
+    return text;
+}
+
+Result<std::vector<GoldenResult>> read_results(const std::string& folder)
+{
+    const std::string path = folder + "/results.jsonl";
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostResultBytes);
+    if (!bytes)
+        return Error{ExitCode::bad_input, path, "", bytes.error().reason + "; `burnish golden check` writes it"};
+    std::vector<GoldenResult> results;
+    const std::string text(bytes->begin(), bytes->end());
+    for (std::size_t begin = 0, line = 1; begin < text.size(); ++line) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        try {
+            results.push_back(result_of(Json::parse(text.substr(begin, end - begin))));
+        } catch (const Json::exception&) {
+            return Error{ExitCode::bad_input, path, fmt::format("line {}", line), "is no result of a golden"};
+        }
+        begin = end + 1;
+    }
+    return results;
+}
+
+std::string golden_junit(const std::vector<GoldenResult>& results)
+{
+    const GoldenCounts counts = count_of(results);
+    std::string cases;
+    for (const GoldenResult& r : results) {
+        cases += fmt::format("  <testcase classname=\"golden\" name=\"{}\"", escaped(without_controls(r.name)));
+        const char* element = r.verdict == GoldenVerdict::failed ? "error" : "failure";
+        cases += r.verdict == GoldenVerdict::passed
+                     ? "/>\n"
+                     : fmt::format("><{} message=\"{}\"/></testcase>\n", element, escaped(without_controls(r.reason)));
+    }
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"burnish golden\" tests=\"{}\" failures=\"{}\" "
+                       "errors=\"{}\">\n{}</testsuite>\n",
+                       results.size(), counts.differs + counts.missing, counts.failed, cases);
+}
+
+std::string golden_summary(const std::vector<GoldenResult>& results)
+{
+    const GoldenCounts counts = count_of(results);
+    std::string text = fmt::format("### Golden pictures: {} of {} passed\n\n", counts.passed, results.size());
+    if (counts.passed == results.size())
+        return text;
+    text += "| picture | verdict | why |\n| --- | --- | --- |\n";
+    for (const GoldenResult& r : results)
+        if (r.verdict != GoldenVerdict::passed)
+            text += fmt::format("| {} | {} | {} |\n", markdown_text(r.name), verdict_name(r.verdict), markdown_text(r.reason));
+    return text;
+}
+
+std::string golden_annotations(const std::vector<GoldenResult>& results)
+{
+    std::string text;
+    for (const GoldenResult& r : results)
+        if (r.verdict != GoldenVerdict::passed)
+            text += fmt::format("::error title={}::{}\n", annotation_text("golden " + r.name + " " + verdict_name(r.verdict), true),
+                                annotation_text(r.reason, false));
+    return text;
+}
+
+Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder)
+{
+    const Result<std::string> page = golden_page(results, folder);
+    BN_TRY(page);
+    for (const auto& [name, text] : {std::pair<const char*, std::string>{"results.jsonl", results_text(results)},
+                                     {"junit.xml", golden_junit(results)},
+                                     {"summary.md", golden_summary(results)},
+                                     {"index.html", *page}})
+        BN_TRY(write_text(folder + "/" + name, text));
+    return {};
+}
+
+} // namespace burnish

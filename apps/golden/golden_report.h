@@ -1,0 +1,32 @@
+// What a run of goldens leaves: JSON Lines, JUnit, a summary in Markdown, GitHub annotations and a page. The same results give the same
+// bytes, whatever shares they were made in.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/golden/check.h"
+#include "core/base/result.h"
+
+namespace burnish {
+
+struct GoldenCounts {
+    std::size_t passed = 0, differs = 0, missing = 0, failed = 0;
+};
+GoldenCounts count_of(const std::vector<GoldenResult>& results);
+int exit_code_of(const GoldenCounts& counts); // bad_input where a picture was not made, else differ, else golden_missing
+
+std::string results_text(const std::vector<GoldenResult>& results); // an object a line
+// Reads results.jsonl of a results' folder. Errors: ExitCode::bad_input with the line.
+Result<std::vector<GoldenResult>> read_results(const std::string& folder);
+
+std::string golden_junit(const std::vector<GoldenResult>& results);
+std::string golden_summary(const std::vector<GoldenResult>& results);     // Markdown, for a step's page
+std::string golden_annotations(const std::vector<GoldenResult>& results); // "::error ...", a line a row that did not pass
+
+// Returns the page. Pictures are in the results' folder; small ones are within the page.
+Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder);
+
+// Writes all files into the folder: results.jsonl, junit.xml, summary.md, index.html.
+Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder);
+
+} // namespace burnish

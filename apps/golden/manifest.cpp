@@ -1,0 +1,268 @@
+#include "apps/golden/manifest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+
+#include "apps/cli/report.h"
+#include "core/base/file.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+using Value = nlohmann::ordered_json;
+
+constexpr std::uint64_t kMostManifestBytes = 64ull << 20;
+constexpr std::size_t kMostName = 150; // bytes
+constexpr double kMostSeconds = 86400.0;
+
+// A mistake, thrown within this file alone.
+struct Mistake {
+    std::string place, reason;
+};
+
+const Value* member(const Value& of, const char* name)
+{
+    const auto at = of.find(name);
+    return at == of.end() ? nullptr : &*at;
+}
+
+void check_members(const Value& of, const std::string& place, const std::set<std::string>& known)
+{
+    if (!of.is_object())
+        throw Mistake{place, "is no object"};
+    for (const auto& [name, value] : of.items())
+        if (!known.contains(name))
+            throw Mistake{place + "/" + name, "is unknown; known are " + join({known.begin(), known.end()})};
+}
+
+std::string text_of(const Value& of, const char* name, const std::string& place, const std::string& fallback)
+{
+    const Value* value = member(of, name);
+    if (value && !value->is_string())
+        throw Mistake{place + "/" + name, "is no text"};
+    const std::string text = value ? value->get<std::string>() : fallback;
+    if (text.find('\0') != std::string::npos)
+        throw Mistake{place + "/" + name, "holds a zero byte"};
+    return text;
+}
+
+std::vector<std::string> words_of(const Value& of, const char* name, const std::string& place)
+{
+    std::vector<std::string> words;
+    const Value* value = member(of, name);
+    if (value && !value->is_array())
+        throw Mistake{place + "/" + name, "is no list of words"};
+    for (std::size_t i = 0; value && i < value->size(); ++i) {
+        if (!(*value)[i].is_string() || (*value)[i].get<std::string>().find('\0') != std::string::npos)
+            throw Mistake{fmt::format("{}/{}/{}", place, name, i), "is no text"};
+        words.push_back((*value)[i].get<std::string>());
+    }
+    return words;
+}
+
+std::optional<double> number_of(const Value& of, const char* name, const std::string& place, double most)
+{
+    const Value* value = member(of, name);
+    if (!value)
+        return std::nullopt;
+    if (!value->is_number() || !(value->get<double>() >= 0.0 && value->get<double>() <= most))
+        throw Mistake{place + "/" + name, fmt::format("is no number from 0 to {:g}", most)};
+    return value->get<double>();
+}
+
+void read_limits(const Value& of, const std::string& place, GoldenLimits& to)
+{
+    const Value* hold = member(of, "hold");
+    if (!hold)
+        return;
+    check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z"});
+    to = {number_of(*hold, "flip", place + "/hold", 1.0), number_of(*hold, "flip_p99", place + "/hold", 1.0),
+          number_of(*hold, "pattern", place + "/hold", 100.0), number_of(*hold, "z", place + "/hold", 1.0)};
+}
+
+void read_environment(const Value& of, const std::string& place, std::map<std::string, std::string>& to)
+{
+    const Value* variables = member(of, "environment");
+    if (!variables)
+        return;
+    if (!variables->is_object())
+        throw Mistake{place + "/environment", "is no object"};
+    for (const auto& [name, value] : variables->items()) {
+        if (name.empty() || name.find('=') != std::string::npos || name.find('\0') != std::string::npos)
+            throw Mistake{place + "/environment/" + name, "is no name of a variable"};
+        to[name] = text_of(*variables, name.c_str(), place + "/environment", "");
+    }
+}
+
+// What rows take unless they say otherwise.
+struct Defaults {
+    std::vector<std::string> options;
+    std::string goldens = "goldens", format = "png";
+    GoldenRow row;
+};
+
+// Reads the members that both a row and the defaults may have.
+void read_common(const Value& of, const std::string& place, std::string& format, GoldenRow& to)
+{
+    read_limits(of, place, to.limits);
+    read_environment(of, place, to.environment);
+    to.seconds = number_of(of, "seconds", place, kMostSeconds).value_or(to.seconds);
+    to.mask = text_of(of, "mask", place, to.mask);
+    format = text_of(of, "format", place, format);
+    static const std::set<std::string> formats = {"png", "exr", "hdr", "pfm", "tif", "jpg"};
+    if (!formats.contains(format))
+        throw Mistake{place + "/format", "is none of " + join({formats.begin(), formats.end()})};
+    if (const std::string keep = text_of(of, "keep", place, to.hash_alone ? "hash" : "picture"); keep == "hash" || keep == "picture")
+        to.hash_alone = keep == "hash";
+    else
+        throw Mistake{place + "/keep", "is neither picture nor hash"};
+}
+
+void check_name(const std::string& name, const std::string& place, std::set<std::string>& taken)
+{
+    if (name.empty() || name.size() > kMostName)
+        throw Mistake{place + "/name", fmt::format("has {} bytes; 1 to {} are allowed", name.size(), kMostName)};
+    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }))
+        throw Mistake{place + "/name", "holds a control character"};
+    if (!taken.insert(name).second)
+        throw Mistake{place + "/name", "'" + name + "' is the name of an earlier row"};
+}
+
+GoldenRow read_row(const Value& of, const std::string& place, const Defaults& defaults, std::set<std::string>& taken)
+{
+    check_members(of, place,
+                  {"name", "scene", "options", "command", "picture", "golden", "hold", "environment", "seconds", "mask", "format", "keep"});
+    GoldenRow row = defaults.row;
+    row.name = text_of(of, "name", place, "");
+    check_name(row.name, place, taken);
+    std::string format = defaults.format;
+    read_common(of, place, format, row);
+    // Tell the three kinds apart
+    const std::string scene = text_of(of, "scene", place, "");
+    const std::vector<std::string> options = words_of(of, "options", place);
+    row.command = words_of(of, "command", place), row.picture = text_of(of, "picture", place, "");
+    if (!scene.empty()) {
+        if (!row.command.empty() || !row.picture.empty())
+            throw Mistake{place, "has a scene, and a command or a picture too"};
+        row.kind = GoldenKind::scene;
+        row.command = {"render", scene};
+        row.command.insert(row.command.end(), defaults.options.begin(), defaults.options.end());
+        row.command.insert(row.command.end(), options.begin(), options.end());
+        row.extension = "." + format;
+    } else {
+        if (!options.empty())
+            throw Mistake{place + "/options", "belong to a scene"};
+        if (row.picture.empty())
+            throw Mistake{place, row.command.empty() ? "needs a scene, a command with its picture, or a picture"
+                                                     : "needs the picture that its command writes"};
+        row.kind = row.command.empty() ? GoldenKind::picture : GoldenKind::command;
+        row.extension = fs::path(row.picture).extension().string();
+    }
+    if (row.hash_alone && !row.limits.exact())
+        throw Mistake{place + "/hold", "needs the golden picture, and this row keeps its hash alone"};
+    if (row.limits.z && row.hash_alone)
+        throw Mistake{place + "/hold/z", "needs the golden picture"};
+    const fs::path usual = fs::path(defaults.goldens) / (file_stem(row.name) + (row.hash_alone ? ".hash" : row.extension));
+    row.golden = text_of(of, "golden", place, usual.string());
+    return row;
+}
+
+GoldenManifest manifest_of(const Value& json, const std::string& folder)
+{
+    check_members(json, "", {"$schema", "goldens", "defaults", "rows"});
+    Defaults defaults;
+    defaults.goldens = text_of(json, "goldens", "", defaults.goldens);
+    if (const Value* given = member(json, "defaults")) {
+        check_members(*given, "/defaults", {"options", "hold", "environment", "seconds", "mask", "format", "keep"});
+        defaults.options = words_of(*given, "options", "/defaults");
+        read_common(*given, "/defaults", defaults.format, defaults.row);
+    }
+    const Value* rows = member(json, "rows");
+    if (!rows || !rows->is_array() || rows->empty())
+        throw Mistake{"/rows", "is no list of rows"};
+    GoldenManifest manifest;
+    manifest.folder = folder;
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < rows->size(); ++i)
+        manifest.rows.push_back(read_row((*rows)[i], fmt::format("/rows/{}", i), defaults, taken));
+    return manifest;
+}
+
+// Returns "line 3, column 7" of a byte.
+std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t byte)
+{
+    std::size_t line = 1, column = 1;
+    for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i)
+        text[i] == '\n' ? (++line, column = 1) : ++column;
+    return fmt::format("line {}, column {}", line, column);
+}
+
+const std::set<std::string> kPictureExtensions = {".png", ".exr",  ".hdr",  ".pfm", ".tif", ".tiff",
+                                                  ".jpg", ".jpeg", ".webp", ".bmp", ".ppm"};
+
+} // namespace
+
+std::string file_stem(const std::string& name)
+{
+    std::string stem;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+                           (c == '.' && !stem.empty());
+        stem += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return stem;
+}
+
+Result<GoldenManifest> read_manifest(const std::string& path)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostManifestBytes);
+    BN_TRY(bytes);
+    Value json;
+    try {
+        json = Value::parse(bytes->begin(), bytes->end());
+    } catch (const Value::parse_error& e) {
+        return Error{ExitCode::bad_input, path, line_and_column(*bytes, e.byte), "is no JSON here; JSON has no comments"};
+    }
+    try {
+        const std::string folder = fs::path(path).parent_path().string();
+        return manifest_of(json, folder.empty() ? "." : folder);
+    } catch (const Mistake& mistake) {
+        return Error{ExitCode::bad_input, path, mistake.place, mistake.reason};
+    }
+}
+
+Result<GoldenManifest> manifest_of_folders(const std::string& expected, const std::string& actual, const GoldenLimits& limits)
+{
+    GoldenManifest manifest;
+    manifest.folder = ".";
+    std::error_code failed;
+    std::set<std::string> names;
+    for (const std::string& folder : {expected, actual}) {
+        fs::recursive_directory_iterator at(folder, failed);
+        if (failed)
+            return Error{ExitCode::bad_input, folder, "", failed.message()};
+        for (; at != fs::recursive_directory_iterator(); at.increment(failed)) {
+            if (kPictureExtensions.contains(at->path().extension().string()) && at->is_regular_file(failed))
+                names.insert(at->path().lexically_relative(folder).string());
+            if (failed)
+                return Error{ExitCode::bad_input, folder, "", failed.message()};
+        }
+    }
+    if (names.empty())
+        return Error{ExitCode::bad_input, expected, "", "holds no picture"};
+    for (const std::string& name : names) {
+        GoldenRow row;
+        row.name = name, row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
+        row.extension = fs::path(name).extension().string(), row.limits = limits;
+        manifest.rows.push_back(std::move(row));
+    }
+    return manifest;
+}
+
+} // namespace burnish

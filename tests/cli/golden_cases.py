@@ -1,0 +1,230 @@
+"""burnish golden: many pictures against golden ones, and the way of a change from a failed check to a blessed golden."""
+
+import json
+import os
+import stat
+import xml.etree.ElementTree
+
+from browser import Browser
+from harness import case, check
+
+SMALL = ["--size", "64x48", "--env-size", "64", "--env-samples", "64"]
+ROWS = [{"name": "pot", "scene": "builtin:teapot"}, {"name": "plate", "scene": "builtin:plate", "hold": {"flip": 0.01}},
+        {"name": "ball", "scene": "builtin:sphere", "keep": "hash"}]
+
+
+def write(bench, rows, **more):
+    (bench.folder / "m.json").write_text(json.dumps({"defaults": {"options": SMALL}, "rows": rows, **more}))
+
+
+def results(bench, folder="golden-results"):
+    return {r["name"]: r for r in map(json.loads, (bench.folder / folder / "results.jsonl").read_text().splitlines())}
+
+
+def verdicts(bench, folder="golden-results"):
+    return {name: r["verdict"] for name, r in results(bench, folder).items()}
+
+
+def program(bench, name, text):
+    path = bench.folder / name
+    path.write_text("#!/bin/sh\n" + text + "\n")
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+    return f"./{name}"
+
+
+@case("golden.goes_from_nothing_to_a_blessed_change", budget=20)
+def whole_way(bench):
+    write(bench, ROWS)
+    bench.run("golden", "check", "m.json").expect(5)
+    check(set(verdicts(bench).values()) == {"missing"}, verdicts(bench))
+    done = bench.run("golden", "bless", "m.json").expect(0)
+    check(done.out.count("blessed ") == 3 and "3 pictures blessed" in done.out, done.out)
+    bench.run("golden", "check", "m.json").expect(0)
+    check(set(verdicts(bench).values()) == {"passed"}, verdicts(bench))
+    check("nothing to bless" in bench.run("golden", "bless", "m.json").expect(0).out, "something was blessed")
+    # A small change passes by its tolerance, a large one fails with reasons in words
+    changed = [{**row, "options": ["--exposure", "0.001" if row["name"] == "plate" else "0.5"]} for row in ROWS]
+    write(bench, changed)
+    done = bench.run("golden", "check", "m.json").expect(1)
+    check(verdicts(bench) == {"pot": "differs", "plate": "passed", "ball": "differs"}, verdicts(bench))
+    check("% of the pixels differ, within 64x48 pixels from 0,0" in results(bench)["pot"]["reason"] and "its hash is" in done.out, done.out)
+    suite = xml.etree.ElementTree.parse(bench.folder / "golden-results/junit.xml").getroot()
+    check(suite.get("tests") == "3" and suite.get("failures") == "2" and suite.get("errors") == "0", suite.attrib)
+    # The list chooses what is blessed
+    (bench.folder / "list.txt").write_text('"pot"\n')
+    done = bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0)
+    check("1 picture blessed" in done.out and "goldens/pot.png" in done.out, done.out)
+    bench.run("golden", "check", "m.json").expect(1)
+    check(verdicts(bench) == {"pot": "passed", "plate": "passed", "ball": "differs"}, verdicts(bench))
+
+
+@case("golden.draws_with_any_program")
+def commands(bench):
+    (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))
+    copy = program(bench, "copy.sh", 'cp "$FROM" "$1"; echo made "$1"')
+    rows = [{"name": "copied", "command": [copy, "out.ppm"], "picture": "out.ppm", "environment": {"FROM": "a.ppm"}},
+            {"name": "there", "picture": "a.ppm"}]
+    write(bench, rows)
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    bench.run("golden", "check", "m.json").expect(0)
+    check((bench.folder / "golden-results/logs/copied.txt").read_text() == "made out.ppm\n", "the output of the program is not kept")
+    (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 254, 0]))
+    bench.run("golden", "check", "m.json").expect(1)
+    check("50.0 % of the pixels differ, within 1x1 pixels from 1,0" in results(bench)["there"]["reason"], results(bench))
+
+
+@case("golden.programs_that_fail_are_named")
+def failing(bench):
+    (bench.folder / "old.png").write_bytes(b"")
+    bad = {"ends": ["sh", "-c", "echo no >&2; exit 3"], "hangs": ["sh", "-c", "sleep 60 & sleep 60"], "dies": ["sh", "-c", "kill -9 $$"],
+           "writes nothing": ["true"], "absent": ["./no-such-program"]}
+    rows = [{"name": name, "command": words, "picture": "old.png", "seconds": 0.5} for name, words in bad.items()]
+    rows.append({"name": "no picture", "picture": "absent.png"})
+    rows.append({"name": "no scene", "scene": "absent.glb"})
+    write(bench, rows)
+    done = bench.run("golden", "check", "m.json", "--jobs", "3", timeout=30.0).expect(4)
+    reasons = {name: r["reason"] for name, r in results(bench).items()}
+    for name, words in {"ends": "exit code 3", "hangs": "stopped after 0.5 seconds", "dies": "signal 9", "writes nothing": "wrote no old.png",
+                        "absent": "cannot be started", "no picture": "absent.png", "no scene": "exit code 4"}.items():
+        check(words in reasons[name], f"{name}: {reasons[name]}")
+    check(set(verdicts(bench).values()) == {"failed"} and "7 could not be made" in done.out, done.out)
+    check((bench.folder / "golden-results/logs/ends.txt").read_text() == "no\n", "the output of the program is not kept")
+    bench.run("golden", "bless", "m.json").expect(0)  # nothing can be
+    (bench.folder / "list.txt").write_text("ends\n")
+    bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("ends", "no new picture")
+
+
+@case("golden.shards_merge_to_the_files_of_one_run", budget=20)
+def shards(bench):
+    write(bench, [*ROWS, {"name": "late <b>|", "scene": "builtin:plate"}])
+    bench.run("golden", "check", "m.json", "-o", "whole").expect(5)
+    for i in (1, 2, 3):
+        bench.run("golden", "check", "m.json", "--shard", f"{i}/3", "-o", f"s{i}", "--jobs", i).expect(5)
+    bench.run("golden", "merge", "s3", "s1", "s2", "-o", "merged").expect(5)
+    files = lambda folder: {str(p.relative_to(bench.folder / folder)): p.read_bytes() for p in (bench.folder / folder).rglob("*") if p.is_file()}
+    check(files("merged") == files("whole"), "other files")
+    bench.run("golden", "merge", "s1", "s1", "-o", "twice").expect(4).expect_one_line("s1", "earlier folder")
+    bench.run("golden", "merge", "s1", "-o", "s1").expect(2).expect_one_line("-o")
+    for bad in ("0/3", "4/3", "1/", "1/3x", "a"):
+        bench.run("golden", "check", "m.json", "--shard", bad).expect(2).expect_one_line("--shard")
+
+
+@case("golden.folders_need_no_manifest")
+def folders(bench):
+    for folder in ("e/sub", "a/sub"):
+        (bench.folder / folder).mkdir(parents=True)
+    pixel = lambda value: b"P6 1 1 255\n" + bytes([value, 0, 0])
+    for name, expected, actual in (("same.ppm", 9, 9), ("sub/other.ppm", 9, 200), ("gone.ppm", 9, None), ("new.ppm", None, 9)):
+        if expected is not None:
+            (bench.folder / "e" / name).write_bytes(pixel(expected))
+        if actual is not None:
+            (bench.folder / "a" / name).write_bytes(pixel(actual))
+    bench.run("golden", "check", "e", "a").expect(4)
+    check(verdicts(bench) == {"same.ppm": "passed", "sub/other.ppm": "differs", "gone.ppm": "failed", "new.ppm": "missing"}, verdicts(bench))
+    (bench.folder / "e/gone.ppm").unlink()
+    bench.run("golden", "bless", "e", "a").expect(0)
+    bench.run("golden", "check", "e", "a").expect(0)
+    check((bench.folder / "e/new.ppm").read_bytes() == pixel(9), "the new picture is not golden")
+    (bench.folder / "a/same.ppm").write_bytes(pixel(10))
+    bench.run("golden", "check", "e", "a").expect(1)
+    bench.run("golden", "check", "e", "a", "--flip", "0.05").expect(0)
+
+
+@case("golden.limits_and_masks_decide", budget=20)
+def limits(bench):
+    pot = {"name": "pot", "scene": "builtin:teapot", "format": "exr"}
+    write(bench, [pot])
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    darker = {**pot, "options": ["--env-exposure", "-0.2"]}
+    for hold, code in (({"flip": 0.5}, 0), ({"flip": 1e-6}, 1), ({"flip": 0.5, "flip_p99": 1e-6}, 1), ({"pattern": 1e-9}, 1), ({"pattern": 50}, 0)):
+        write(bench, [{**darker, "hold": hold}])
+        bench.run("golden", "check", "m.json").expect(code)
+    # Black pixels of the mask do not count
+    (bench.folder / "none.ppm").write_bytes(b"P6 64 48 255\n" + bytes(3 * 64 * 48))
+    (bench.folder / "all.ppm").write_bytes(b"P6 64 48 255\n" + b"\xff" * (3 * 64 * 48))
+    (bench.folder / "small.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
+    for mask, code in (("none.ppm", 0), ("all.ppm", 1), ("small.ppm", 4), ("absent.ppm", 4)):
+        write(bench, [{**darker, "mask": mask}])
+        bench.run("golden", "check", "m.json").expect(code)
+    # Another size or kind differs, and says so
+    write(bench, [{**pot, "options": ["--size", "32x32"]}])
+    bench.run("golden", "check", "m.json").expect(1)
+    check("32x32" in results(bench)["pot"]["reason"] and "64x48" in results(bench)["pot"]["reason"], results(bench))
+
+
+@case("golden.noise_is_judged_by_variance", budget=20)
+def noise(bench):
+    row = {"name": "noisy", "scene": "builtin:sphere", "format": "exr", "hold": {"z": 0.02},
+           "options": ["--backend", "reference", "--samples", "256", "--size", "32x32", "--no-background"]}
+    write(bench, [row])
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    check((bench.folder / "goldens/noisy.exr.variance.exr").exists(), "the variance is not kept")
+    write(bench, [{**row, "options": [*row["options"], "--seed", "9"]}])
+    bench.run("golden", "check", "m.json").expect(0)
+    write(bench, [{**row, "options": [*row["options"], "--env-exposure", "0.5"]}])
+    bench.run("golden", "check", "m.json").expect(1)
+    check("z-test" in results(bench)["noisy"]["reason"], results(bench))
+
+
+@case("golden.mistakes_of_a_manifest_have_their_place")
+def mistakes(bench):
+    pot = {"name": "pot", "scene": "builtin:teapot"}
+    for rows, place in (([], "/rows"), ([1], "/rows/0"), ([{"scene": "builtin:teapot"}], "/rows/0/name"), ([pot, pot], "/rows/1/name"),
+                        ([{**pot, "sceen": "x"}], "/rows/0/sceen"), ([{**pot, "hold": {"flip": 2}}], "/rows/0/hold/flip"),
+                        ([{**pot, "hold": {"flop": 0}}], "/rows/0/hold/flop"), ([{**pot, "options": "x"}], "/rows/0/options"),
+                        ([{**pot, "options": [1]}], "/rows/0/options/0"), ([{**pot, "picture": "x.png"}], "/rows/0"),
+                        ([{**pot, "seconds": -1}], "/rows/0/seconds"), ([{**pot, "format": "gif"}], "/rows/0/format"),
+                        ([{**pot, "keep": "all"}], "/rows/0/keep"), ([{**pot, "keep": "hash", "hold": {"flip": 0.1}}], "/rows/0/hold"),
+                        ([{**pot, "environment": {"A=B": "x"}}], "/rows/0/environment/A=B"), ([{"name": "a", "command": ["x"]}], "/rows/0"),
+                        ([{"name": "a\n", "picture": "x.png"}], "/rows/0/name"), ([{"name": "a", "picture": "x.png", "options": ["-q"]}], "/rows/0/options")):
+        write(bench, rows)
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
+    for text, place in (('{"rows": [\n  // no\n]}', "line 2, column 3"), ("", "m.json"), ("[]", "m.json"), ('{"rows": [], "more": 1}', "/more")):
+        (bench.folder / "m.json").write_text(text)
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
+    bench.run("golden", "check", "absent.json").expect(4).expect_one_line("absent.json")
+    write(bench, [pot])
+    bench.run("golden", "bless", "m.json").expect(4).expect_one_line("results.jsonl", "golden check")
+    bench.run("golden", "check", "m.json", "--from", "x").expect(2).expect_one_line("--from")
+    bench.run("golden", "check", "m.json", "--flip", "0.1").expect(2).expect_one_line("--flip")
+    bench.run("golden", "check", "m.json", "m.json").expect(2).expect_one_line("PATH")
+
+
+@case("golden.hostile_names_stay_text")
+def hostile(bench):
+    """Names are text in HTML, Markdown, annotations and file names."""
+    names = ["<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]
+    (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
+    write(bench, [{"name": name, "picture": "a.ppm"} for name in names])
+    done = bench.run("golden", "check", "m.json", env={"GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(bench.folder / "step.md")}).expect(5)
+    check(set(verdicts(bench)) == set(names), verdicts(bench))
+    page = (bench.folder / "golden-results/index.html").read_text()
+    check("<script>alert" not in page and "&lt;script&gt;alert" in page, "a name is markup")
+    annotations = [line for line in done.out.splitlines() if line.startswith("::error ")]
+    check(len(annotations) == len(names) and not any("::x%0A" in line for line in annotations), annotations)
+    check("<script>" not in (bench.folder / "step.md").read_text() and "a\\|b" in (bench.folder / "step.md").read_text(), "Markdown")
+    check(not (bench.folder / "up.ppm").exists() and len(list((bench.folder / "golden-results/pictures").iterdir())) == len(names), "files")
+    bench.run("golden", "bless", "m.json").expect(0)
+    bench.run("golden", "check", "m.json").expect(0)
+    check(len(list((bench.folder / "goldens").iterdir())) == len(names), os.listdir(bench.folder / "goldens"))
+
+
+@case("golden.the_page_makes_the_list_to_bless", tier="nightly")
+def page(bench):
+    write(bench, ROWS)
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    write(bench, [{**row, "options": ["--exposure", "0.5"]} for row in ROWS])
+    bench.run("golden", "check", "m.json").expect(1)
+    with Browser(bench.folder) as browser:
+        browser.open(bench.folder / "golden-results/index.html")
+        check(browser.value("document.querySelectorAll('.view').length") == 2, "no picture under a slider")
+        check(browser.value("[...document.querySelectorAll('.view img')].every(i => !i.src || i.complete)"), "a picture is missing")
+        browser.value("document.querySelectorAll('input.bless')[0].click()")
+        names = browser.value("document.getElementById('list').value")
+        check(not browser.faults, browser.faults)
+    (bench.folder / "list.txt").write_text(names)
+    check("1 picture blessed" in bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0).out, names)
