@@ -6,7 +6,8 @@ import shlex
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr"}  # placeholder: file below tests/data
+STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr",
+             "goldens.json": "goldens.json"}  # placeholder: file below tests/data
 LAB = ("atlas", "race", "plot", "train")  # run by burnish-lab
 
 

@@ -28,6 +28,7 @@ RUNS = {
                (("builtin:lights", *VIEW, "--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "-o", "l.exr"), (0,))],
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
+    "golden": [(("check", "goldens.json"), (5,)), (("bless", "goldens.json"), (0,)), (("merge", "golden-results", "-o", "merged"), (5,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77)),
               (("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips"), (0,))],
     "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
@@ -61,6 +62,7 @@ def each(bench):
     said = bench.run("--help").expect(0).out
     named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
     check(set(named) == set(RUNS), f"{sorted(set(named) ^ set(RUNS))}: in the help or among these runs, not in both")
+    (bench.folder / "goldens.json").write_text('{"rows": [{"name": "a", "picture": "a.png"}]}')
     for name in named:
         whats = re.search(r"^  WHAT(?: REQUIRED)? +(.*)$", bench.run(name, "--help").expect(0).out, re.MULTILINE)
         whats = re.findall(r"[a-z-]+", re.sub(r"\(.*| or ", " ", whats.group(1))) if whats else []
@@ -84,7 +86,7 @@ def bad_input(bench):
     (bench.folder / "bad.exr").write_bytes(b"\x76\x2f\x31\x01, not")
     for words, codes in ((("render", "bad.glb"), (4,)), (("render", "--env", "bad.exr"), (4,)), (("compare", "bad.exr", "bad.exr"), (4,)),
                          (("chart", "bad.glb", "-o", "r"), (4, 77)), (("chart", "--env", "bad.exr", "-o", "r"), (4, 77)),
-                         (("atlas", "nothing"), (2,)), (("train", "mip", "--evaluate", "bad.exr"), (4,)), (("profile", "bad.glb"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
+                         (("atlas", "nothing"), (2,)), (("train", "mip", "--evaluate", "bad.exr"), (4,)), (("profile", "bad.glb"), (4,)), (("golden", "check", "bad.glb"), (4,)), (("list", "nothing"), (2,)), (("info", "nothing"), (2,))):
         done = bench.run(*words)
         check(done.code in codes, done.describe())
         done.expect_one_line()
