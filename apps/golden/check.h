@@ -22,7 +22,7 @@ struct GoldenResult {
     double flip = 0.0, flip_p99 = 0.0, differing = 0.0, largest = 0.0; // zeros for equal pictures; differing: share of pixels
     std::string golden;                                                // path as bless writes it
     std::string picture;                                               // in the results' folder: the new picture
-    std::string log;                                                   // in the results' folder: what the program printed; empty: none
+    std::string log;                                                   // in the results' folder: output of the program; empty: none
     bool hash_alone = false;
 };
 

@@ -1,4 +1,4 @@
-// `burnish golden`: makes pictures, compares them with golden ones, and lets people bless what changed.
+// `burnish golden`: makes pictures, compares them with golden ones, and lets people bless changes.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -124,7 +124,7 @@ void sort_by_name(std::vector<GoldenResult>& results)
     std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
 }
 
-// Writes the reports, and what GitHub shows. Returns the exit code.
+// Writes the reports, also for GitHub. Returns the exit code.
 int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments, Report& report)
 {
     sort_by_name(results);

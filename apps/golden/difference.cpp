@@ -115,7 +115,7 @@ std::string words_of(const Image& golden, const Image& picture, const GoldenResu
     return text;
 }
 
-// Returns what exceeds a limit, or nothing.
+// Returns the excess over a limit in words, or nothing.
 std::string excess(const char* name, double value, const std::optional<double>& limit)
 {
     return limit && !(value <= *limit) ? fmt::format("{} is {:.4g}, above {:.4g}; ", name, value, *limit) : "";
@@ -179,7 +179,7 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
     result.reason = words_of(golden, picture, result);
     if (!over.empty() || limits.exact())
         result.verdict = GoldenVerdict::differs, result.reason = over + result.reason;
-    // Write what the page shows
+    // Write the page's pictures
     const float exposure = golden.type == PixelType::f32 ? 0.5f * (flip.exposures.start_ev + flip.exposures.stop_ev) : 0.0f;
     for (const Status& written : {show(picture, exposure, shown + ".png"), show(golden, exposure, shown + ".golden.png"),
                                   write_image(shown + ".error.png", magma_map(flip.error))})

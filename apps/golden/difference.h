@@ -1,4 +1,4 @@
-// What differs between a picture and its golden, in figures and in words.
+// The difference of a picture and its golden, in figures and in words.
 #pragma once
 #include <optional>
 #include <string>

@@ -99,7 +99,7 @@ std::string row_html(const GoldenResult& r, const std::string& folder, int wall)
 
 Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder)
 {
-    // Put what did not pass first
+    // Put rows that did not pass first
     std::vector<const GoldenResult*> ordered;
     for (const GoldenResult& r : results)
         ordered.push_back(&r);

@@ -22,7 +22,7 @@ std::string without_controls(std::string text)
     return text;
 }
 
-// Escapes what GitHub's commands treat as their own.
+// Escapes characters with a meaning in GitHub's commands.
 std::string annotation_text(const std::string& text, bool in_property)
 {
     std::string out;

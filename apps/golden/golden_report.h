@@ -1,4 +1,4 @@
-// What a run of goldens leaves: JSON Lines, JUnit, a summary in Markdown, GitHub annotations and a page. The same results give the same
+// The files of a run of goldens: JSON Lines, JUnit, a summary in Markdown, GitHub annotations and a page. The same results give the same
 // bytes, whatever shares they were made in.
 #pragma once
 #include <string>

@@ -100,7 +100,7 @@ void read_environment(const Value& of, const std::string& place, std::map<std::s
     }
 }
 
-// What rows take unless they say otherwise.
+// Members that rows take over unless they have their own.
 struct Defaults {
     std::vector<std::string> options;
     std::string goldens = "goldens", format = "png";

@@ -1,4 +1,4 @@
-// Manifests of `burnish golden`: pictures to make, and what holds them.
+// Manifests of `burnish golden`: pictures to make, and their limits.
 #pragma once
 #include <map>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace burnish {
 
-struct GoldenLimits {                     // what a picture may differ by; none: not a single value
+struct GoldenLimits {                     // largest differences; none: no value may differ
     std::optional<double> flip, flip_p99; // mean and 99th percentile of FLIP
     std::optional<double> pattern;        // RMS of patterns
     std::optional<double> z;              // share of pixels that the z-test rejects, by the golden's variance

@@ -1,4 +1,4 @@
-// What settings of techniques cost, in counted instructions: equal on every machine.
+// Costs of techniques' settings, in counted instructions: equal on every machine.
 #pragma once
 #include <string>
 #include <vector>

@@ -31,8 +31,7 @@ struct Plan {
     std::vector<MaterialTechnique> settings() const;
 };
 
-// A prediction is multiplied by kPlanSafety before it is held to the budget: the largest of errors over predictions that 98 % of the
-// fitting cases stay below.
+// Factor on predictions before they are held to a budget. 98 % of the errors lie below their prediction times this factor.
 inline constexpr double kPlanSafety = 1.3;
 
 // budget: largest mean HDR-FLIP of the picture, above 0. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage for
@@ -42,14 +41,15 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, c
 // Returns a plan in words: a line for the picture, then one for each visible material.
 std::vector<std::string> plan_lines(const Plan& plan, double budget);
 
-// What a plan was made for. A plan for something else is refused.
+// The subject of a plan. A plan for another subject is refused.
 struct PlanSubject {
     std::string scene, environment, view; // names, and the camera in words
     int width = 0, height = 0;
     std::string content; // hash of scene, environment and options
 };
 std::string plan_json(const Plan& plan, const PlanSubject& subject);
-// Reads the settings of a plan file. Errors: ExitCode::bad_input, with the JSON path of what differs from `subject` or is malformed.
+// Reads the settings of a plan file. Errors: ExitCode::bad_input, with the JSON path of the first member that differs from `subject` or is
+// malformed.
 Result<std::vector<MaterialTechnique>> read_plan(const std::string& path, const PlanSubject& subject, std::size_t materials);
 
 } // namespace burnish
