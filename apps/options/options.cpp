@@ -104,25 +104,28 @@ Status check_budget(const OptionTable& given, RenderOptions& out)
 {
     if (out.budget && !(*out.budget > 0.0))
         return usage_error("--budget", "0: no technique is exact; mc comes near with many samples");
-    if (out.budget && !out.plan_file.empty())
-        return usage_error("--plan", "cannot be combined with --budget");
-    for (const char* option : {"--budget", "--plan"})
+    const bool planned = out.budget || out.budget_ms;
+    if (planned && !out.plan_file.empty())
+        return usage_error("--plan", "cannot be combined with a budget");
+    if (out.budget_ms && out.backend == "vulkan")
+        return usage_error("--budget-ms", "only the tile renderer's time is known");
+    for (const char* option : {"--budget", "--budget-ms", "--plan"})
         if (given.given(option) && out.backend == "reference")
             return usage_error(option, "the reference has no technique");
     for (const char* option : {"--technique", "--samples"})
         if (!out.plan_file.empty() && given.given(option))
             return usage_error(option, "cannot be combined with --plan");
-    if (!out.budget && !out.plan_out.empty())
+    if (!planned && !out.plan_out.empty())
         return usage_error("--plan-out", "needs --budget");
-    if (!out.budget && out.plan_file.empty() && out.verify)
+    if (!planned && out.plan_file.empty() && out.verify)
         return usage_error("--verify", "needs --budget or --plan");
     if (out.verify && (out.shadows != Shadows::off || out.floor == FloorChoice::mirror))
         return usage_error("--verify", "the reference has neither --shadows nor --floor mirror");
-    if (!out.risks.empty() && (out.budget || !out.plan_file.empty()))
+    if (!out.risks.empty() && (planned || !out.plan_file.empty()))
         return usage_error("--risks", "marks the limits of one technique, and a plan has several");
     out.fixes_technique = given.given("--technique"), out.fixes_samples = given.given("--samples");
-    if (out.budget && out.fixes_technique && out.fixes_samples)
-        return usage_error("--budget", "leaves nothing to choose beside --technique and --samples");
+    if (planned && out.fixes_technique && out.fixes_samples)
+        return usage_error(out.budget ? "--budget" : "--budget-ms", "leaves nothing to choose beside --technique and --samples");
     return {};
 }
 

@@ -45,6 +45,7 @@ struct RenderOptions {
     std::string stats_file;                              // empty: none; "-": standard output
     std::string trace_file;                              // empty: none
     std::optional<double> budget;                        // largest mean HDR-FLIP: the plan chooses technique and samples of each material
+    std::optional<double> budget_ms;                     // largest processor time of the frame, milliseconds
     bool fixes_technique = false, fixes_samples = false; // given beside `budget`
     std::string plan_file, plan_out;                     // plan to draw by, and plan to write; empty: none
     bool verify = false;                                 // compares the planned picture with the reference

@@ -36,6 +36,15 @@ const std::vector<PlanCost>& plan_costs()
     return table;
 }
 
+double random_over_fetch(int samples)
+{
+    const auto find = [](const char* technique) {
+        return *std::find_if(plan_costs().begin(), plan_costs().end(), [&](const PlanCost& c) { return c.technique == technique; });
+    };
+    const PlanCost random = find("mc"), fetch = find("split_isotropic");
+    return random.fixed + random.sample * samples - fetch.fixed - fetch.sample;
+}
+
 PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc)
 {
     PixelLobes lobes;

@@ -26,6 +26,9 @@ struct PixelLobes {
 // frame: drawn by desc with layers.
 PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc);
 
+// Returns the instructions a fragment of mc with this many samples, less those of a single fetch.
+double random_over_fetch(int samples);
+
 // Returns the mean cost over each material's pixels, instructions a fragment. material: of each pixel, below `count`, or negative.
 std::vector<double> mean_costs(const MaterialTechnique& setting, const PixelLobes& lobes, const std::vector<int>& material,
                                std::size_t count);

@@ -17,8 +17,9 @@ struct PlanPoint {
 // Expects at least one point.
 std::vector<PlanPoint> lower_hull(std::vector<PlanPoint> points);
 
-// Return a point of each hull. The cheapest with a summed error of `error` or less: the chosen errors never rise as `error` falls. Where no
-// choice reaches it: the least errors.
+// Return a point of each hull.
+// within_error: the cheapest with a summed error of `error` or less. The chosen errors never rise as `error` falls. Where no choice reaches
+// it: the least errors. within_cost: the least summed error with a summed cost of `cost` or less. Where no choice reaches it: the cheapest.
 std::vector<std::size_t> within_error(const std::vector<std::vector<PlanPoint>>& hulls, double error);
 std::vector<std::size_t> within_cost(const std::vector<std::vector<PlanPoint>>& hulls, double cost);
 

@@ -5,6 +5,7 @@
 
 #include "apps/plan/cost.h"
 #include "apps/plan/hull.h"
+#include "core/base/clock.h"
 
 namespace burnish {
 namespace {
@@ -47,6 +48,38 @@ PlanStep step_of(const ProbedMaterial& m, const PlanPoint& at)
     return {m.settings[at.setting].setting, m.settings[at.setting].error, at.cost};
 }
 
+// Processor time of a frame on this machine, by the cost of its shading.
+struct Clock {
+    double cost = 0.0, ms = 0.0; // of the cheapest plan
+    double ms_per_instruction = 0.0;
+    double ms_of(double of) const { return ms + ms_per_instruction * (of - cost); }
+    double cost_within(double most_ms) const { return cost + (most_ms - ms) / std::max(1e-30, ms_per_instruction); }
+};
+
+// Draws the frame by the cheapest plan.
+Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& probe, const std::vector<std::vector<PlanPoint>>& hulls,
+                      const std::vector<std::size_t>& seen)
+{
+    FrameDesc cheap = desc;
+    const TechniqueInfo& usual = automatic_technique();
+    cheap.by_material.assign(probe.materials.size(), {usual.name, usual.default_samples});
+    Clock clock;
+    double covered = 0.0;
+    for (std::size_t h = 0; h < hulls.size(); ++h) {
+        const ProbedMaterial& m = probe.materials[seen[h]];
+        cheap.by_material[seen[h]] = m.settings[hulls[h].front().setting].setting;
+        clock.cost += hulls[h].front().cost, covered += m.share;
+    }
+    const double begin = process_cpu_ms();
+    const Result<Frame> frame = session.render(cheap);
+    BN_TRY(frame);
+    clock.ms = process_cpu_ms() - begin;
+    // Pixels at edges have several fragments
+    const double pixels = covered * static_cast<double>(desc.width) * desc.height;
+    clock.ms_per_instruction = probe.ms_per_instruction * std::max(1.0, static_cast<double>(frame->stats.visible_fragments) / pixels);
+    return clock;
+}
+
 } // namespace
 
 std::vector<MaterialTechnique> Plan::settings() const
@@ -57,7 +90,7 @@ std::vector<MaterialTechnique> Plan::settings() const
     return list;
 }
 
-Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, const std::string& technique, int samples)
+Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const std::string& technique, int samples)
 {
     Plan plan;
     if (std::min(desc.width, desc.height) < kLeastSide) {
@@ -85,7 +118,14 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, c
         plan.aside = "no solid surface is seen";
         return plan;
     }
-    const std::vector<std::size_t> at = within_error(hulls, budget / kPlanSafety);
+    std::optional<Clock> clock;
+    if (budget.cpu_ms) {
+        const Result<Clock> measured = measure(session, desc, probe, hulls, seen);
+        BN_TRY(measured);
+        clock = *measured;
+    }
+    const std::vector<std::size_t> at = budget.error ? within_error(hulls, *budget.error / kPlanSafety)
+                                                     : within_cost(hulls, clock->cost_within(*budget.cpu_ms / kTimeSafety));
     // Tell the choices, and the neighbours on the hulls
     const TechniqueInfo& usual = automatic_technique();
     for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
@@ -103,20 +143,25 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, c
             to.better = step_of(m, hull[at[h] + 1]);
         plan.error += hull[at[h]].error, plan.cost += hull[at[h]].cost;
     }
-    if (plan.error * kPlanSafety > budget)
+    if (clock)
+        plan.cpu_ms = clock->ms_of(plan.cost);
+    if (budget.error && plan.error * kPlanSafety > *budget.error)
         return Error{ExitCode::usage, "", "",
-                     fmt::format("no setting reaches {:.4g} here: the best one is predicted at {:.4g}", budget, plan.error)};
+                     fmt::format("no setting reaches {:.4g} here: the best one is predicted at {:.4g}", *budget.error, plan.error)};
     return plan;
 }
 
-std::vector<std::string> plan_lines(const Plan& plan, double budget)
+std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
 {
     if (!plan.aside.empty())
         return {fmt::format("stands aside: {}", plan.aside)};
     std::vector<std::string> lines;
     const double usual = std::max(1.0, plan.usual_cost);
-    lines.push_back(fmt::format("mean HDR-FLIP {:.4g}: predicted {:.4f}, shading at {:.2f} of the default's instructions", budget,
-                                plan.error, plan.cost / usual));
+    const std::string wanted = budget.error ? fmt::format("mean HDR-FLIP {:.4g}", *budget.error) : fmt::format("{:.4g} ms", *budget.cpu_ms);
+    lines.push_back(fmt::format("{}: predicted {:.4f}{}, shading at {:.2f} of the default's instructions", wanted, plan.error,
+                                plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / usual));
+    if (!budget.error)
+        lines.push_back("times are those of this machine: another one may get another plan and another hash");
     for (const PlannedMaterial& m : plan.materials) {
         if (m.share == 0.0)
             continue;

@@ -9,6 +9,11 @@
 
 namespace burnish {
 
+struct PlanBudget {               // at least one
+    std::optional<double> error;  // largest mean HDR-FLIP of the picture, above 0
+    std::optional<double> cpu_ms; // largest processor time of the frame on this machine; the error goes first
+};
+
 struct PlanStep { // a setting of one material
     MaterialTechnique setting;
     double error = 0.0, cost = 0.0; // mean HDR-FLIP over its pixels; instructions of all its pixels
@@ -27,19 +32,21 @@ struct Plan {
     double error = 0.0;                     // predicted mean HDR-FLIP of the picture
     double cost = 0.0, usual_cost = 0.0;    // instructions for shading, and those of the default technique
     int probe_width = 0, probe_height = 0;
-    std::string aside; // why nothing was planned: then `materials` is empty
+    std::optional<double> cpu_ms; // predicted; only for a budget of time
+    std::string aside;            // why nothing was planned: then `materials` is empty
     std::vector<MaterialTechnique> settings() const;
 };
 
 // Factor on predictions before they are held to a budget. 98 % of the errors lie below their prediction times this factor.
 inline constexpr double kPlanSafety = 1.3;
+inline constexpr double kTimeSafety = 1.05; // the same for times
 
-// budget: largest mean HDR-FLIP of the picture, above 0. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage for
-// a budget that no setting reaches.
-Result<Plan> make_plan(Session& session, const FrameDesc& desc, double budget, const std::string& technique, int samples);
+// A budget of time draws the cheapest plan once, to measure. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage
+// for a budget that no setting reaches.
+Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const std::string& technique, int samples);
 
 // Returns a plan in words: a line for the picture, then one for each visible material.
-std::vector<std::string> plan_lines(const Plan& plan, double budget);
+std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget);
 
 // The subject of a plan. A plan for another subject is refused.
 struct PlanSubject {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "apps/plan/cost.h"
+#include "core/base/clock.h"
 #include "core/image/metrics/flip.h"
 #include "core/scene/draw_tables.h"
 #include "shading/lang/records.h"
@@ -189,10 +190,12 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     small.layers = small.triangle_ids = false;
     const PixelMaterials materials = materials_of(*first, session.tables(), count);
     const PixelLobes lobes = lobes_of(*first, small);
-    // Draw two independent noisy pictures
+    // Draw two independent noisy pictures, and note their processor time
+    const double begin = process_cpu_ms();
     const Result<Frame> one = draw({"mc", kRandomSamples}, kSeeds[0]), other = draw({"mc", kRandomSamples}, kSeeds[1]);
     BN_TRY(one);
     BN_TRY(other);
+    const double noisy_ms = 0.5 * (process_cpu_ms() - begin);
     FlipOptions flip;
     const FlipExposures range = find_exposures(first->color, flip, jobs);
     flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
@@ -209,12 +212,16 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     // Find each setting's distance to the best one
     std::vector<std::vector<double>> distances;
     std::vector<double> fetch(count, 1.0); // of the better single fetch
+    double fetch_ms = noisy_ms;
     for (const MaterialTechnique& s : all) {
         distances.emplace_back(count, 0.0);
         if (!prefiltered(s) || (s.technique == best.technique && s.samples == best.samples))
             continue;
+        const double before = process_cpu_ms();
         const Result<Frame> frame = draw(s, desc.seed);
         BN_TRY(frame);
+        if (s.samples == 1)
+            fetch_ms = std::min(fetch_ms, process_cpu_ms() - before);
         distances.back() = mean_errors(error_of(first->color, frame->color), materials);
         for (std::size_t m = 0; m < count && s.samples == 1; ++m)
             fetch[m] = std::min(fetch[m], distances.back()[m]);
@@ -232,6 +239,10 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     Probe probe;
     probe.width = small.width, probe.height = small.height;
     probe.materials.resize(count);
+    double instructions = 0.0;
+    for (std::size_t m = 0; m < count; ++m)
+        instructions += materials.pixels[m] * random_over_fetch(kRandomSamples);
+    probe.ms_per_instruction = std::max(0.0, noisy_ms - fetch_ms) / std::max(1.0, instructions);
     const TechniqueInfo& usual = technique_of(FrameDesc{});
     const std::vector<double> usual_costs = mean_costs({usual.name, usual.default_samples}, lobes, materials.of, count);
     for (std::size_t m = 0; m < count; ++m)

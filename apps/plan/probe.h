@@ -23,6 +23,7 @@ struct ProbedMaterial {
 struct Probe {
     std::vector<ProbedMaterial> materials; // by index in the scene
     int width = 0, height = 0;
+    double ms_per_instruction = 0.0; // processor time of this machine; no part of a plan by error
 };
 
 // Returns the settings with a measured cost.

@@ -165,7 +165,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     report.release();
     figures.planned = !desc.by_material.empty();
     if (*plan && (*plan)->aside.empty())
-        figures.plan = PlanFigures{*options.budget, (*plan)->error, (*plan)->cost, (*plan)->usual_cost};
+        figures.plan = PlanFigures{options.budget, options.budget_ms, (*plan)->error, (*plan)->cost, (*plan)->usual_cost, (*plan)->cpu_ms};
     Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
     if (!rendered)
         return fail(rendered.error());

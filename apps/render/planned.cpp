@@ -29,7 +29,7 @@ PlanSubject subject_of(const RenderOptions& options, const FrameDesc& desc, cons
 // Plans with the tile renderer, whatever the frame is drawn with.
 Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
-    const double budget = *options.budget;
+    const PlanBudget budget = {options.budget, options.budget_ms};
     const std::string technique = options.fixes_technique ? desc.technique : "";
     const int samples = options.fixes_samples ? desc.samples : 0;
     if (options.backend == "tile")
@@ -54,19 +54,26 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
             return Error{ExitCode::bad_input, options.plan_file, "/materials", ok.error().line()};
         return std::optional<Plan>();
     }
-    if (!options.budget)
+    if (!options.budget && !options.budget_ms)
         return std::optional<Plan>();
     const TraceSpan span("plan");
     const auto begin = std::chrono::steady_clock::now();
     Result<Plan> plan = plan_by_tiles(options, desc, session);
     if (!plan)
-        return plan.error().code == ExitCode::usage ? usage_error("--budget", plan.error().line()) : plan.error();
+        return plan.error().code == ExitCode::usage ? usage_error(options.budget ? "--budget" : "--budget-ms", plan.error().line())
+                                                    : plan.error();
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     if (options.fixes_technique || options.fixes_samples)
         report.event("budget", options.fixes_technique ? fmt::format("chooses samples of {} alone", desc.technique)
                                                        : fmt::format("chooses techniques with {} samples alone", desc.samples));
-    for (const std::string& line : plan_lines(*plan, *options.budget))
+    for (const std::string& line : plan_lines(*plan, {options.budget, options.budget_ms}))
         report.event("budget", line);
+    if (plan->cpu_ms && *plan->cpu_ms > *options.budget_ms) {
+        report.release();
+        return Error{ExitCode::differ, "", "--budget-ms",
+                     fmt::format("{:.4g} ms cannot be met: the plan above takes about {:.1f} ms of processor time here", *options.budget_ms,
+                                 *plan->cpu_ms)};
+    }
     if (plan->aside.empty())
         report.detail("probe", fmt::format("{}x{}, {:.1f} ms", plan->probe_width, plan->probe_height, ms));
     if (plan->aside.empty())

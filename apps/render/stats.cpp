@@ -63,11 +63,12 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["env"] = figures.env;
     json["technique"] = figures.planned ? Json() : Json(frame.technique);
     json["samples"] = figures.planned ? Json() : Json(frame.samples);
-    if (const std::optional<PlanFigures>& plan = figures.plan)
-        json["plan"] = {{"budget", plan->budget},
-                        {"predicted_flip", plan->predicted},
-                        {"instructions", plan->instructions},
-                        {"usual_instructions", plan->usual_instructions}};
+    if (const std::optional<PlanFigures>& plan = figures.plan) {
+        const auto value = [](const std::optional<double>& number) { return number ? Json(*number) : Json(); };
+        json["plan"] = {{"budget", value(plan->budget)},      {"budget_ms", value(plan->budget_ms)},
+                        {"predicted_flip", plan->predicted},  {"predicted_ms", value(plan->predicted_ms)},
+                        {"instructions", plan->instructions}, {"usual_instructions", plan->usual_instructions}};
+    }
     json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
     json.update(parameters_json(frame));

@@ -94,6 +94,21 @@ def wrong(bench):
         bench.run(*POT, *words).expect(2).expect_one_line(needle)
 
 
+@case("budget.of_time_takes_the_least_error_within_it")
+def time(bench):
+    done = bench.run(*POT, "--budget-ms", "100000", "--stats", "a.json").expect(0)
+    plan = stats_of(bench, "a.json")["plan"]
+    check(plan["predicted_ms"] < 100000 and plan["predicted_flip"] < 0.01 and "another hash" in done.err, done.err)
+    for words in ((), ("--budget", "0.1")):
+        done = bench.run(*POT, "--budget-ms", "0.001", *words).expect(1)
+        check("cannot be met" in done.err and "of the picture: " in done.err, done.describe())
+    # A budget of errors goes first
+    bench.run(*POT, "--budget-ms", "100000", "--budget", "0.1", "--stats", "b.json").expect(0)
+    check(stats_of(bench, "b.json")["plan"]["predicted_flip"] > plan["predicted_flip"], "the error does not go first")
+    for words in (("--backend", "reference"), ("--backend", "vulkan"), ("--plan", "p.json")):
+        bench.run(*POT, "--budget-ms", "10", *words).expect(2).expect_one_line("-")
+
+
 @case("budget.keeps_what_is_fixed")
 def fixed(bench):
     done = bench.run(*POT, "--budget", "0.1", "--technique", "lobe_line", "--plan-out", "plan.json").expect(0)

@@ -91,6 +91,27 @@ TEST(hull, choices_hold_the_bound_at_nearly_the_least_cost)
     EXPECT_LE(chosen, 1.15 * best);
 }
 
+TEST(hull, a_larger_cost_never_errs_more)
+{
+    std::mt19937 random(17);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Points> hulls;
+        for (int m = 0; m < 4; ++m)
+            hulls.push_back(lower_hull(random_points(random, 7)));
+        double least = 0.0, error = 10.0;
+        for (const Points& hull : hulls)
+            least += hull.front().cost;
+        for (double cost = 0.0; cost < 4.5; cost += 0.05) {
+            const std::vector<std::size_t> at = within_cost(hulls, cost);
+            EXPECT_LE(sum(hulls, at, &PlanPoint::cost), std::max(cost, least));
+            EXPECT_LE(sum(hulls, at, &PlanPoint::error), error);
+            error = sum(hulls, at, &PlanPoint::error);
+        }
+        for (std::size_t h = 0; h < hulls.size(); ++h)
+            EXPECT_EQ(within_cost(hulls, 10.0)[h] + 1, hulls[h].size());
+    }
+}
+
 TEST(hull, a_smaller_bound_never_costs_less_or_errs_more)
 {
     std::mt19937 random(13);

@@ -32,7 +32,7 @@ FrameDesc desc_of(const Session& session)
 
 Plan plan_of(Session& session, double error)
 {
-    Result<Plan> plan = make_plan(session, desc_of(session), error, "", 0);
+    Result<Plan> plan = make_plan(session, desc_of(session), {error, {}}, "", 0);
     EXPECT_TRUE(plan) << (plan ? "" : plan.error().line());
     return plan ? *plan : Plan{};
 }
@@ -67,31 +67,45 @@ TEST(plan, is_equal_for_every_number_of_threads_and_instruction_set)
 
 TEST(plan, keeps_what_the_user_fixed)
 {
-    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), 0.5, "lobe_line", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {0.5, {}}, "lobe_line", 0);
     ASSERT_TRUE(plan);
     for (const PlannedMaterial& m : plan->materials)
         EXPECT_TRUE(m.share == 0.0 || m.chosen.setting.technique == "lobe_line") << m.chosen.setting.technique;
-    const Result<Plan> none = make_plan(spheres(), desc_of(spheres()), 0.5, "filtered_is_ggx", 0);
+    const Result<Plan> none = make_plan(spheres(), desc_of(spheres()), {0.5, {}}, "filtered_is_ggx", 0);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ExitCode::usage);
 }
 
 TEST(plan, budgets_out_of_reach_are_errors)
 {
-    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), 1e-7, "", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {1e-7, {}}, "", 0);
     ASSERT_FALSE(plan);
     EXPECT_EQ(plan.error().code, ExitCode::usage);
     EXPECT_NE(plan.error().reason.find("no setting reaches"), std::string::npos);
-    const Result<Plan> fixed = make_plan(spheres(), desc_of(spheres()), 0.01, "split_isotropic", 0);
+    const Result<Plan> fixed = make_plan(spheres(), desc_of(spheres()), {0.01, {}}, "split_isotropic", 0);
     ASSERT_FALSE(fixed);
     EXPECT_NE(fixed.error().reason.find("no setting reaches"), std::string::npos);
+}
+
+TEST(plan, more_time_errs_less)
+{
+    double error = 1.0;
+    for (const double ms : {1e-3, 1e3, 1e6}) {
+        const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {{}, ms}, "", 0);
+        ASSERT_TRUE(plan);
+        ASSERT_TRUE(plan->cpu_ms);
+        EXPECT_GT(*plan->cpu_ms, 0.0);
+        EXPECT_LE(plan->error, error);
+        error = plan->error;
+    }
+    EXPECT_LT(error, 0.02) << "mc with many samples fits into a quarter of an hour";
 }
 
 TEST(plan, stands_aside_for_small_pictures)
 {
     FrameDesc desc = desc_of(spheres());
     desc.width = desc.height = 64;
-    const Result<Plan> plan = make_plan(spheres(), desc, 0.03, "", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc, {0.03, {}}, "", 0);
     ASSERT_TRUE(plan);
     EXPECT_FALSE(plan->aside.empty());
     EXPECT_TRUE(plan->settings().empty());
