@@ -1,0 +1,209 @@
+"""Pictures of brushed metal and other anisotropic materials, drawn on the CPU, without a display.
+
+    import burnish
+    scene = burnish.load("lamp.glb", environment="workshop.hdr")
+    picture = scene.render(width=640, height=480, technique="lobe_line")
+    picture.save("lamp.png")
+
+Colours are linear Rec.709 radiance as 32-bit floats; lengths are metres, angles degrees. Equal calls give equal bits on every machine.
+Errors are exceptions of class Error with the program's words. numpy is not needed; where it is there, `numpy.asarray(picture)` copies nothing.
+"""
+
+import ctypes
+import threading
+
+from . import _native
+from ._native import Error, library
+
+__all__ = ["Comparison", "Error", "Mesh", "Picture", "Scene", "compare", "load", "meshes", "options", "techniques", "version"]
+
+
+def version():
+    """The library's version, such as "0.1.0"."""
+    return library().burnish_version().decode()
+
+
+def techniques():
+    """Techniques for light from the environment: {name: summary}."""
+    return _native.listed("burnish_technique_name", "burnish_technique_help")
+
+
+def options():
+    """Keywords of load(), Scene.render() and Scene.reference(): {name: meaning}."""
+    return _native.listed("burnish_option_name", "burnish_option_help")
+
+
+class Picture:
+    """A picture of `height` rows and `width` columns, 3 floats a pixel. Offers the buffer of its pixels and numpy's array interface."""
+
+    def __init__(self, frame, scene=None):
+        self._frame, self._scene = frame, scene
+        self.width, self.height = library().burnish_frame_width(frame), library().burnish_frame_height(frame)
+
+    def __del__(self):
+        if getattr(self, "_frame", None):
+            library().burnish_frame_free(self._frame)
+            self._frame = None
+
+    def __repr__(self):
+        return f"<burnish.Picture {self.width}x{self.height}, hash {self.hash}>"
+
+    def _view(self, address, channels):
+        array = _native.Values(self, address, (self.height, self.width, channels))
+        return array
+
+    @property
+    def pixels(self):
+        """The pixels, height x width x 3: linear Rec.709 radiance. See Values."""
+        return self._view(library().burnish_frame_pixels(self._frame), 3)
+
+    @property
+    def variance(self):
+        """Variance of the reference's pixel means, height x width x 3, or None."""
+        address = library().burnish_frame_variance(self._frame)
+        return self._view(address, 3) if address else None
+
+    def layer(self, name):
+        """A layer asked for by render(layers=[...]), height x width x channels. Raises KeyError."""
+        channels = ctypes.c_int()
+        address = library().burnish_frame_layer(self._frame, name.encode(), ctypes.byref(channels))
+        if not address:
+            raise KeyError(name)
+        return self._view(address, channels.value)
+
+    @property
+    def __array_interface__(self):
+        return self.pixels.__array_interface__
+
+    @property
+    def hash(self):
+        """16 hexadecimal digits over the pixels' bits, as `burnish render` prints them."""
+        return f"{library().burnish_frame_hash(self._frame):016x}"
+
+    def png(self, exposure=0.0):
+        """The picture as bytes of a PNG file. exposure: stops."""
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
+        _native.call("burnish_frame_png", self._frame, exposure, ctypes.byref(data), ctypes.byref(size))
+        return ctypes.string_at(data.value, size.value)
+
+    def save(self, path, exposure=0.0):
+        """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped)."""
+        _native.call("burnish_write", self._frame, _native.path(path), exposure)
+
+    def _repr_png_(self):
+        return self.png()
+
+
+class Scene:
+    """A scene under an environment. One thread at a time may use it. Make it by load() or meshes()."""
+
+    def __init__(self, session):
+        self._session = session
+        self._lock = threading.Lock()
+
+    def __del__(self):
+        if getattr(self, "_session", None):
+            library().burnish_close(self._session)
+            self._session = None
+
+    def render(self, **keywords):
+        """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ..."""
+        frame = ctypes.c_void_p()
+        with _native.Options(keywords) as given, self._lock:
+            _native.call("burnish_render", self._session, given, ctypes.byref(frame))
+        return Picture(frame, self)
+
+    def reference(self, samples=1024, progress=None, **keywords):
+        """Draws a Picture by the Monte Carlo reference. progress: called without arguments about ten times a second; a true result
+        stops the work, as Ctrl-C does. Raises KeyboardInterrupt then."""
+        frame, raised = ctypes.c_void_p(), []
+
+        def poll(_):
+            try:
+                return 1 if progress and progress() else 0
+            except BaseException as error:  # goes on in the caller
+                raised.append(error)
+                return 1
+
+        with _native.Options({**keywords, "samples": samples}) as given, self._lock:
+            code = library().burnish_reference(self._session, given, _native.POLL(poll), None, ctypes.byref(frame))
+        if raised:
+            raise raised[0]
+        if code == _native.STOPPED:
+            raise KeyboardInterrupt
+        _native.check(code)
+        return Picture(frame, self)
+
+
+class Mesh:
+    """A mesh of triangles for meshes().
+
+    positions, normals: 3 floats a vertex, flat or nested, or arrays; coordinates: 2 floats a vertex, (0, 0) is a picture's upper left.
+    triangles: 3 vertex numbers each, counter-clockwise from the front; None: vertices in order. transform: 16 floats, column by column.
+    Further keywords are factors of its material: base_color=(r, g, b, a), metallic=1, roughness=0.4, anisotropy_strength=0.8, ...
+    """
+
+    def __init__(self, positions, triangles=None, normals=None, coordinates=None, transform=None, **material):
+        self.positions = _native.floats(positions, 3, "positions")
+        self.vertices = len(self.positions) // 3
+        self.normals = self._of_vertices(normals, 3, "normals")
+        self.coordinates = self._of_vertices(coordinates, 2, "coordinates")
+        self.triangles = None if triangles is None else _native.numbers(triangles, 3, "triangles")
+        self.transform = None if transform is None else _native.floats(transform, 16, "transform")
+        self.material = material
+
+    def _of_vertices(self, values, each, name):
+        if values is None:
+            return None
+        array = _native.floats(values, each, name)
+        if len(array) // each != self.vertices:
+            raise ValueError(f"{name}: {len(array) // each} for {self.vertices} vertices")
+        return array
+
+
+def load(path, environment=None, **keywords):
+    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME", under a picture, or "builtin:NAME". Keywords: see options()."""
+    session = ctypes.c_void_p()
+    with _native.Options(keywords) as given:
+        _native.call("burnish_open", _native.path(path), None if environment is None else _native.path(environment), given,
+                     ctypes.byref(session))
+    return Scene(session)
+
+
+def meshes(*parts, environment=None, **keywords):
+    """Makes a scene of Mesh objects. Keywords: see options()."""
+    session = ctypes.c_void_p()
+    materials = [_native.Options(part.material) for part in parts]
+    try:
+        structs = (_native.MeshStruct * len(parts))(*(
+            _native.MeshStruct(ctypes.sizeof(_native.MeshStruct), part.positions, part.normals, part.coordinates, part.triangles, part.vertices,
+                               0 if part.triangles is None else len(part.triangles) // 3, part.transform, material.__enter__())
+            for part, material in zip(parts, materials)))
+        with _native.Options(keywords) as given:
+            _native.call("burnish_open_meshes", structs, len(parts), None if environment is None else _native.path(environment), given,
+                         ctypes.byref(session))
+    finally:
+        for material in materials:
+            material.__exit__()
+    return Scene(session)
+
+
+class Comparison:
+    """Figures of two pictures: flip_mean, flip_p99, flip_max (HDR-FLIP, 0 to 1), mse, rel_mse, max_abs, differing_fraction."""
+
+    def __init__(self, figures):
+        for name, _ in _native.ComparisonStruct._fields_[1:]:
+            setattr(self, name, getattr(figures, name))
+
+    def __repr__(self):
+        return f"<burnish.Comparison mean FLIP {self.flip_mean:.4f}, {100 * self.differing_fraction:.1f} % of the pixels differ>"
+
+
+def compare(reference, test):
+    """Compares two Pictures, or buffers of height x width x 3 floats. Returns a Comparison."""
+    a, b = _native.picture_of(reference), _native.picture_of(test)
+    if a[1:] != b[1:]:
+        raise ValueError(f"{a[1]}x{a[2]} and {b[1]}x{b[2]} pixels cannot be compared")
+    figures = _native.ComparisonStruct(ctypes.sizeof(_native.ComparisonStruct))
+    _native.call("burnish_compare", a[0], b[0], a[1], a[2], ctypes.byref(figures))
+    return Comparison(figures)

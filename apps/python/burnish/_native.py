@@ -1,0 +1,205 @@
+"""The C interface (burnish.h) by ctypes. ctypes releases the interpreter's lock during calls."""
+
+import array
+import ctypes
+import ctypes.util
+import os
+import pathlib
+
+API_VERSION = 1
+STOPPED = 130
+POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
+
+_loaded = None
+
+
+class Error(Exception):
+    """A failure. `code`: exit code of the program burnish for it."""
+
+    def __init__(self, code, text):
+        super().__init__(text)
+        self.code = code
+
+
+class MeshStruct(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), ("positions", ctypes.POINTER(ctypes.c_float)), ("normals", ctypes.POINTER(ctypes.c_float)),
+                ("coordinates", ctypes.POINTER(ctypes.c_float)), ("triangles", ctypes.POINTER(ctypes.c_uint32)),
+                ("vertex_count", ctypes.c_size_t), ("triangle_count", ctypes.c_size_t), ("transform", ctypes.POINTER(ctypes.c_float)),
+                ("material", ctypes.c_void_p)]
+
+
+class ComparisonStruct(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), *((name, ctypes.c_double) for name in
+                ("flip_mean", "flip_p99", "flip_max", "mse", "rel_mse", "max_abs", "differing_fraction"))]
+
+
+def _candidates():
+    """Where the library may be: BURNISH_LIBRARY, beside this package, else where the system finds it."""
+    if "BURNISH_LIBRARY" in os.environ:
+        return [os.environ["BURNISH_LIBRARY"]]
+    beside = sorted(str(p) for p in pathlib.Path(__file__).resolve().parent.glob("libburnish.so*"))
+    found = ctypes.util.find_library("burnish")
+    return beside + ([found] if found else [])
+
+
+def library():
+    """The loaded library. Raises ImportError where it is not found or has another interface."""
+    global _loaded
+    if _loaded:
+        return _loaded
+    reasons = []
+    for name in _candidates():
+        try:
+            lib = ctypes.CDLL(name)
+            break
+        except OSError as error:
+            reasons.append(str(error))
+    else:
+        raise ImportError("libburnish.so is not found; BURNISH_LIBRARY may name it" + "".join("; " + r for r in reasons))
+    if lib.burnish_api_version() < API_VERSION:
+        raise ImportError(f"libburnish.so has version {lib.burnish_api_version()} of its interface, {API_VERSION} is needed")
+    text, pointer, whole, size = ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t
+    for name, result, arguments in (
+            ("burnish_version", text, []), ("burnish_error", text, []), ("burnish_option_name", text, [whole]),
+            ("burnish_option_help", text, [whole]), ("burnish_material_name", text, [whole]), ("burnish_technique_name", text, [whole]),
+            ("burnish_technique_help", text, [whole]), ("burnish_options_make", whole, [pointer]),
+            ("burnish_options_set", whole, [pointer, text, text]), ("burnish_options_free", None, [pointer]),
+            ("burnish_open", whole, [text, text, pointer, pointer]),
+            ("burnish_open_meshes", whole, [ctypes.POINTER(MeshStruct), size, text, pointer, pointer]), ("burnish_close", None, [pointer]),
+            ("burnish_render", whole, [pointer, pointer, pointer]), ("burnish_reference", whole, [pointer, pointer, POLL, pointer, pointer]),
+            ("burnish_frame_width", whole, [pointer]), ("burnish_frame_height", whole, [pointer]), ("burnish_frame_pixels", pointer, [pointer]),
+            ("burnish_frame_variance", pointer, [pointer]), ("burnish_frame_layer", pointer, [pointer, text, pointer]),
+            ("burnish_frame_hash", ctypes.c_uint64, [pointer]), ("burnish_frame_png", whole, [pointer, ctypes.c_float, pointer, pointer]),
+            ("burnish_write", whole, [pointer, text, ctypes.c_float]), ("burnish_frame_free", None, [pointer]),
+            ("burnish_compare", whole, [pointer, pointer, whole, whole, ctypes.POINTER(ComparisonStruct)])):
+        function = getattr(lib, name)
+        function.restype, function.argtypes = result, arguments
+    _loaded = lib
+    return lib
+
+
+def check(code):
+    if code != 0:
+        raise Error(code, library().burnish_error().decode("utf-8", "replace"))
+
+
+def call(name, *arguments):
+    check(getattr(library(), name)(*arguments))
+
+
+def listed(names, helps):
+    """{name: help} of two list functions."""
+    found, index = {}, 0
+    while (name := getattr(library(), names)(index)) is not None:
+        found[name.decode()] = getattr(library(), helps)(index).decode()
+        index += 1
+    return found
+
+
+def path(of):
+    return os.fsencode(of)
+
+
+def text_of(value):
+    """An option's value as the library reads it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        items = value.tolist() if hasattr(value, "tolist") else value
+        return ",".join(map(text_of, items)) if isinstance(items, (list, tuple)) else text_of(items)
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+class Options:
+    """The library's options of keywords, within a `with` block."""
+
+    def __init__(self, keywords):
+        self.handle = ctypes.c_void_p()
+        call("burnish_options_make", ctypes.byref(self.handle))
+        try:
+            for name, value in keywords.items():
+                call("burnish_options_set", self.handle, name.encode(), text_of(value).encode())
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def __enter__(self):
+        return self.handle
+
+    def __exit__(self, *_):
+        if self.handle:
+            library().burnish_options_free(self.handle)
+            self.handle = ctypes.c_void_p()
+
+    def __del__(self):
+        self.__exit__()
+
+
+class Values:
+    """Floats of a picture, by rows, columns and channels. numpy.asarray() and memoryview(values.bytes()) copy nothing; the picture lives as
+    long as they do. values[y, x] is a tuple."""
+
+    def __init__(self, owner, address, shape):
+        self.owner, self.address, self.shape = owner, address, shape
+
+    @property
+    def __array_interface__(self):
+        return {"version": 3, "shape": self.shape, "typestr": "<f4", "data": (self.address, True)}
+
+    def bytes(self):
+        """A read-only memoryview of the floats, flat."""
+        count = self.shape[0] * self.shape[1] * self.shape[2]
+        held = (ctypes.c_float * count).from_address(self.address)
+        held.owner = self.owner  # lives with the view
+        return memoryview(held).cast("B").cast("f").toreadonly()
+
+    def __getitem__(self, at):
+        y, x = at
+        if not (0 <= y < self.shape[0] and 0 <= x < self.shape[1]):
+            raise IndexError(f"({y}, {x}) lies outside of {self.shape[0]} rows and {self.shape[1]} columns")
+        first = (y * self.shape[1] + x) * self.shape[2]
+        floats = ctypes.cast(self.address, ctypes.POINTER(ctypes.c_float))
+        return tuple(floats[first + c] for c in range(self.shape[2]))
+
+
+def flat(values):
+    for value in values:
+        if hasattr(value, "__iter__"):
+            yield from flat(value)
+        else:
+            yield value
+
+
+def _gathered(values, code, each, name):
+    if hasattr(values, "tolist"):  # numpy's arrays, whatever their type and strides
+        values = values.tolist()
+    try:
+        held = array.array(code, flat(values))
+    except (TypeError, OverflowError) as error:
+        raise TypeError(f"{name}: {error}") from None
+    if len(held) == 0 or len(held) % each:
+        raise ValueError(f"{name}: {len(held)} numbers are no multiple of {each}")
+    return held
+
+
+def floats(values, each, name):
+    held = _gathered(values, "f", each, name)
+    return (ctypes.c_float * len(held)).from_buffer(held)
+
+
+def numbers(values, each, name):
+    held = _gathered(values, "I", each, name)
+    return (ctypes.c_uint32 * len(held)).from_buffer(held)
+
+
+def picture_of(of):
+    """(address or array, width, height) of a Picture, or of an object with height x width x 3 floats."""
+    if hasattr(of, "_frame"):
+        return library().burnish_frame_pixels(of._frame), of.width, of.height
+    shape = getattr(of, "shape", None)
+    if shape is None or len(shape) != 3 or shape[2] != 3:
+        raise ValueError("a picture has height x width x 3 floats")
+    held = floats(of, 3, "picture")
+    return ctypes.cast(held, ctypes.c_void_p), shape[1], shape[0]

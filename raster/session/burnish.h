@@ -1,0 +1,92 @@
+/* The C interface of libburnish: scenes, pictures, comparisons.
+ *
+ *   burnish_session* session;
+ *   burnish_frame* frame;
+ *   if (burnish_open("lamp.glb", NULL, NULL, &session) == 0 && burnish_render(session, NULL, &frame) == 0)
+ *       burnish_write(frame, "lamp.png", 0.0f);
+ *
+ * Functions that return int return 0 for success, else an exit code of the program burnish: 1 differ, 2 wrong option, 3 sizes do not match,
+ * 4 bad input, 6 not finite, 7 output failed, 70 a fault of burnish, 77 unavailable, 130 stopped. burnish_error() then says why. No
+ * function ends the process or throws. Out-parameters are set on success alone, and freed by the caller.
+ *
+ * One thread at a time may use a session. Different sessions may be used by different threads at once. Freeing NULL does nothing. */
+#ifndef BURNISH_H
+#define BURNISH_H
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define BURNISH_API_VERSION 1 /* grows when functions or members are added; what is there keeps its meaning */
+
+typedef struct burnish_session burnish_session; /* a scene under an environment, prepared for drawing */
+typedef struct burnish_frame burnish_frame;     /* a picture and its layers */
+typedef struct burnish_options burnish_options; /* names and values */
+
+int burnish_api_version(void);
+const char* burnish_version(void); /* "0.1.0" */
+const char* burnish_error(void);   /* the last failure in this thread, one line; "" before the first */
+
+/* Lists: an index from 0; NULL past the end. The texts live as long as the library. */
+const char* burnish_option_name(int index); /* options of burnish_open, burnish_render and burnish_reference */
+const char* burnish_option_help(int index);
+const char* burnish_material_name(int index); /* options of materials */
+const char* burnish_technique_name(int index);
+const char* burnish_technique_help(int index);
+
+/* Options. NULL in place of options means that none is set. Values are texts: "0.5", "1280", "1,0,0", "lobe_line", "true". A name that is
+ * unknown is refused here, a value out of range where the options are used. Options that a function does not read are ignored there. */
+int burnish_options_make(burnish_options** out);
+int burnish_options_set(burnish_options* options, const char* name, const char* value);
+void burnish_options_free(burnish_options* options);
+
+/* Sessions. scene: path of a .gltf, .glb or .obj file, or "builtin:NAME". environment: path, or "builtin:NAME"; NULL: the scene's own
+ * light, else builtin:studio. */
+int burnish_open(const char* scene, const char* environment, const burnish_options* options, burnish_session** out);
+
+typedef struct burnish_mesh {
+    size_t size;               /* sizeof(burnish_mesh) */
+    const float* positions;    /* 3 a vertex, metres */
+    const float* normals;      /* 3 a vertex; NULL: smooth ones are made */
+    const float* coordinates;  /* 2 a vertex, (0,0) is the picture's upper left; NULL: none */
+    const uint32_t* triangles; /* 3 vertices each, counter-clockwise seen from the front; NULL: vertices in order */
+    size_t vertex_count, triangle_count;
+    const float* transform;          /* 16, column by column, to world space; NULL: identity */
+    const burnish_options* material; /* by names of burnish_material_name; NULL: white, rough, not metallic */
+} burnish_mesh;
+int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* environment, const burnish_options* options,
+                        burnish_session** out);
+void burnish_close(burnish_session* session);
+
+/* Pictures. */
+int burnish_render(burnish_session* session, const burnish_options* options, burnish_frame** out);
+/* Called about ten times a second by the calling thread. Another value than 0 stops the work with 130. */
+typedef int (*burnish_poll)(void* user);
+/* The Monte Carlo reference of the same frame; "samples" are those of a pixel. poll may be NULL. */
+int burnish_reference(burnish_session* session, const burnish_options* options, burnish_poll poll, void* user, burnish_frame** out);
+int burnish_frame_width(const burnish_frame* frame);
+int burnish_frame_height(const burnish_frame* frame);
+const float* burnish_frame_pixels(const burnish_frame* frame);   /* 3 a pixel by rows from the top, linear Rec.709 radiance */
+const float* burnish_frame_variance(const burnish_frame* frame); /* of the reference's means, 3 a pixel; NULL: none */
+/* A layer asked for with the option "layers" ("depth", "normal", ...), `channels` values a pixel; NULL: not there. */
+const float* burnish_frame_layer(const burnish_frame* frame, const char* name, int* channels);
+uint64_t burnish_frame_hash(const burnish_frame* frame); /* over the pixels' bits: equal on every machine */
+/* The picture as PNG with pbr-neutral tones; the bytes live as long as the frame, until the next call. */
+int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size);
+int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev); /* by extension: .exr .hdr .pfm .png .jpg .tif */
+void burnish_frame_free(burnish_frame* frame);
+
+/* Compares two pictures of floats with 3 channels, linear Rec.709. */
+typedef struct burnish_comparison {
+    size_t size;                          /* sizeof(burnish_comparison), set by the caller */
+    double flip_mean, flip_p99, flip_max; /* HDR-FLIP, [0,1] */
+    double mse, rel_mse, max_abs, differing_fraction;
+} burnish_comparison;
+int burnish_compare(const float* reference, const float* test, int width, int height, burnish_comparison* out);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

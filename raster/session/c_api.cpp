@@ -1,0 +1,462 @@
+// The C interface: each function catches everything and keeps the error of its thread.
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <new>
+#include <thread>
+
+#include "core/base/exception.h"
+#include "core/base/version.h"
+#include "core/image/io/image_io.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+#include "core/scene/tangents.h"
+#include "raster/frame/layers.h"
+#include "raster/session/burnish.h"
+#include "raster/session/c_options.h"
+
+struct burnish_session {
+    burnish::Session session;
+};
+
+struct burnish_frame {
+    burnish::Frame frame;
+    burnish::NamedChannels layered;        // colours, then the layers asked for
+    std::vector<std::vector<float>> taken; // layers that were read
+    std::vector<std::pair<std::string, int>> names;
+    std::string png;
+};
+
+namespace burnish {
+namespace {
+
+constexpr int kStopped = 130;
+
+std::string& last_error()
+{
+    thread_local std::string text;
+    return text;
+}
+
+int fails(const Error& error)
+{
+    last_error() = error.line();
+    return static_cast<int>(error.code);
+}
+
+// Calls a function that returns a Status. An exception becomes an error.
+template <class Call> int guarded_call(const Call& call)
+{
+    try {
+        const Status status = call();
+        return status ? 0 : fails(status.error());
+    } catch (...) {
+        try {
+            return fails(error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}));
+        } catch (...) { // no memory for the text
+            return static_cast<int>(ExitCode::bad_input);
+        }
+    }
+}
+
+Error usage(const std::string& place, const std::string& reason)
+{
+    return Error{ExitCode::usage, "", place, reason};
+}
+
+// Appends a mesh as triangles that share no vertex.
+Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene)
+{
+    if (mesh.size < sizeof(burnish_mesh))
+        return usage(place + "/size", "is smaller than burnish_mesh");
+    if (!mesh.positions || mesh.vertex_count == 0)
+        return usage(place + "/positions", "are missing");
+    const std::size_t count = mesh.triangles ? mesh.triangle_count : mesh.vertex_count / 3;
+    if (count == 0)
+        return usage(place + "/triangles", "are missing");
+    if (count > 0x7fffffffu / 3)
+        return usage(place + "/triangle_count", "is too large");
+    // Gather the corners
+    std::vector<std::uint32_t> corner(3 * count);
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+        corner[i] = mesh.triangles ? mesh.triangles[i] : static_cast<std::uint32_t>(i);
+        if (corner[i] >= mesh.vertex_count)
+            return Error{ExitCode::bad_input, "", place + "/triangles/" + std::to_string(i), "is beyond the vertices"};
+    }
+    const auto vec3_at = [](const float* from, std::size_t i) { return glm::vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]); };
+    std::vector<glm::vec3> normals(mesh.vertex_count, glm::vec3(0.0f));
+    for (std::size_t v = 0; mesh.normals && v < mesh.vertex_count; ++v)
+        normals[v] = vec3_at(mesh.normals, v);
+    for (std::size_t t = 0; !mesh.normals && t < count; ++t) { // weighted by area
+        const glm::vec3 a = vec3_at(mesh.positions, corner[3 * t]), b = vec3_at(mesh.positions, corner[3 * t + 1]),
+                        c = vec3_at(mesh.positions, corner[3 * t + 2]);
+        for (std::size_t k = 0; k < 3; ++k)
+            normals[corner[3 * t + k]] += glm::cross(b - a, c - a);
+    }
+    std::vector<glm::vec3> p(corner.size()), n(corner.size());
+    std::vector<glm::vec2> uv(corner.size(), glm::vec2(0.0f));
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+        p[i] = vec3_at(mesh.positions, corner[i]), n[i] = normals[corner[i]];
+        const float length = glm::length(n[i]);
+        n[i] = length > 0.0f ? n[i] / length : glm::vec3(0, 0, 1);
+        if (mesh.coordinates)
+            uv[i] = {mesh.coordinates[2 * corner[i]], mesh.coordinates[2 * corner[i] + 1]};
+    }
+    // Fill the columns
+    VertexTable& to = scene.vertices;
+    Primitive primitive;
+    primitive.first_index = static_cast<std::uint32_t>(scene.indices.size()), primitive.index_count = static_cast<std::uint32_t>(p.size());
+    primitive.first_vertex = static_cast<std::uint32_t>(to.size()), primitive.vertex_count = primitive.index_count;
+    primitive.material = static_cast<std::int32_t>(scene.materials.size()), primitive.has_uv0 = mesh.coordinates != nullptr;
+    const std::vector<glm::vec4> tangents =
+        mesh.coordinates ? mikk_tangents(p, n, uv) : std::vector<glm::vec4>(p.size(), glm::vec4(0, 0, 0, 1));
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        to.px.push_back(p[i].x), to.py.push_back(p[i].y), to.pz.push_back(p[i].z);
+        to.nx.push_back(n[i].x), to.ny.push_back(n[i].y), to.nz.push_back(n[i].z);
+        to.tx.push_back(tangents[i].x), to.ty.push_back(tangents[i].y), to.tz.push_back(tangents[i].z), to.tw.push_back(tangents[i].w);
+        to.u0.push_back(uv[i].x), to.v0.push_back(uv[i].y), to.u1.push_back(0.0f), to.v1.push_back(0.0f);
+        to.cr.push_back(1.0f), to.cg.push_back(1.0f), to.cb.push_back(1.0f), to.ca.push_back(1.0f);
+        scene.indices.push_back(primitive.first_vertex + static_cast<std::uint32_t>(i));
+    }
+    Material material;
+    material.metallic = 0.0f;
+    if (const Status set = set_material(material, mesh.material); !set)
+        return Error{set.error().code, "", place + "/material/" + set.error().place, set.error().reason};
+    Node node;
+    node.mesh = static_cast<std::int32_t>(scene.meshes.size());
+    for (int i = 0; mesh.transform && i < 16; ++i)
+        node.local[i / 4][i % 4] = mesh.transform[i];
+    scene.meshes.push_back({"", static_cast<std::uint32_t>(scene.primitives.size()), 1});
+    scene.primitives.push_back(primitive), scene.materials.push_back(material), scene.nodes.push_back(node);
+    return {};
+}
+
+// Makes the session of a loaded scene.
+Status finish_open(const CSettings& settings, std::shared_ptr<const SceneData> scene, const char* environment, burnish_session** out)
+{
+    SessionParts parts;
+    parts.jobs = std::make_shared<const Jobs>(settings.open.threads);
+    parts.scene = std::move(scene);
+    const std::string light = environment ? environment : usual_environment(*parts.scene);
+    const auto loaded = load_shared_environment(light, settings.open.environment, settings.open.limits, *parts.jobs);
+    BN_TRY(loaded);
+    parts.environment = *loaded;
+    Result<Session> session = Session::make(std::move(parts));
+    BN_TRY(session);
+    *out = new burnish_session{std::move(*session)};
+    return {};
+}
+
+// Returns a frame with its layers split off.
+burnish_frame* make_frame(Frame frame, const std::vector<std::string>& layers, const DrawTables& tables)
+{
+    auto out = std::make_unique<burnish_frame>();
+    if (!layers.empty())
+        out->layered = with_layers(frame.color, frame, tables, layers);
+    std::size_t first = static_cast<std::size_t>(frame.color.channels);
+    const std::size_t channels = static_cast<std::size_t>(out->layered.image.channels);
+    for (const std::string& name : layers)
+        for (const LayerInfo& layer : burnish::layers())
+            if (layer.name == name) {
+                std::vector<float> values;
+                const std::size_t pixels = static_cast<std::size_t>(frame.color.width) * static_cast<std::size_t>(frame.color.height);
+                for (std::size_t p = 0; p < pixels; ++p)
+                    for (std::size_t c = 0; c < layer.channels.size(); ++c)
+                        values.push_back(out->layered.image.f32()[p * channels + first + c]);
+                first += layer.channels.size();
+                out->names.emplace_back(name, static_cast<int>(layer.channels.size()));
+                out->taken.push_back(std::move(values));
+            }
+    out->frame = std::move(frame);
+    return out.release();
+}
+
+Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
+{
+    FrameDesc desc = settings.desc;
+    const Result<View> view = view_of(settings, session);
+    BN_TRY(view);
+    desc.view = *view;
+    ask_for_layers(settings.layers, desc);
+    return desc;
+}
+
+// Renders by the reference in a thread of its own, and polls.
+Result<Frame> render_polled(Session& reference, const FrameDesc& desc, std::atomic<bool>& stop, burnish_poll poll, void* user)
+{
+    if (!poll)
+        return reference.render_any(desc);
+    std::optional<Result<Frame>> done;
+    std::atomic<bool> ended = false;
+    std::thread worker([&] {
+        done = reference.render_any(desc); // throws nothing
+        ended = true;
+    });
+    while (!ended) {
+        if (!stop && poll(user) != 0)
+            stop = true;
+        for (int i = 0; i < 20 && !ended; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    worker.join();
+    return std::move(*done);
+}
+
+const char* text_at(const std::vector<std::string>& list, int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? list[static_cast<std::size_t>(index)].c_str() : nullptr;
+}
+
+} // namespace
+} // namespace burnish
+
+using namespace burnish;
+
+int burnish_api_version(void)
+{
+    return BURNISH_API_VERSION;
+}
+
+const char* burnish_version(void)
+{
+    return version();
+}
+
+const char* burnish_error(void)
+{
+    return last_error().c_str();
+}
+
+const char* burnish_option_name(int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < c_options().size() ? c_options()[static_cast<std::size_t>(index)].name.c_str()
+                                                                              : nullptr;
+}
+
+const char* burnish_option_help(int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < c_options().size() ? c_options()[static_cast<std::size_t>(index)].help.c_str()
+                                                                              : nullptr;
+}
+
+const char* burnish_material_name(int index)
+{
+    return text_at(c_material_options(), index);
+}
+
+const char* burnish_technique_name(int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < techniques().size() ? techniques()[static_cast<std::size_t>(index)].name
+                                                                               : nullptr;
+}
+
+const char* burnish_technique_help(int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < techniques().size() ? techniques()[static_cast<std::size_t>(index)].summary
+                                                                               : nullptr;
+}
+
+int burnish_options_make(burnish_options** out)
+{
+    return guarded_call([&]() -> Status {
+        if (!out)
+            return usage("out", "is NULL");
+        *out = new burnish_options;
+        return {};
+    });
+}
+
+int burnish_options_set(burnish_options* options, const char* name, const char* value)
+{
+    return guarded_call([&]() -> Status {
+        if (!options || !name || !value)
+            return usage(!options ? "options" : !name ? "name" : "value", "is NULL");
+        const std::string known = c_name(name);
+        bool found = false;
+        for (const COption& option : c_options())
+            found = found || option.name == known;
+        for (const std::string& option : c_material_options())
+            found = found || option == known;
+        if (!found)
+            return usage(name, "is no option");
+        options->values[known] = value;
+        return {};
+    });
+}
+
+void burnish_options_free(burnish_options* options)
+{
+    delete options;
+}
+
+int burnish_open(const char* scene, const char* environment, const burnish_options* options, burnish_session** out)
+{
+    return guarded_call([&]() -> Status {
+        if (!scene || !out)
+            return usage(scene ? "out" : "scene", "is NULL");
+        const Result<CSettings> settings = settings_of(options);
+        BN_TRY(settings);
+        const auto loaded = load_scene_data(scene, settings->open.limits, {}, {}, {}, {}, settings->floor);
+        BN_TRY(loaded);
+        return finish_open(*settings, *loaded, environment, out);
+    });
+}
+
+int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* environment, const burnish_options* options,
+                        burnish_session** out)
+{
+    return guarded_call([&]() -> Status {
+        if (!meshes || count == 0 || !out)
+            return usage(out ? "meshes" : "out", "is NULL");
+        const Result<CSettings> settings = settings_of(options);
+        BN_TRY(settings);
+        Scene scene;
+        for (size_t i = 0; i < count; ++i)
+            BN_TRY(add_mesh(meshes[i], "/meshes/" + std::to_string(i), scene));
+        const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
+        BN_TRY(made);
+        return finish_open(*settings, *made, environment ? environment : "builtin:studio", out);
+    });
+}
+
+void burnish_close(burnish_session* session)
+{
+    delete session;
+}
+
+int burnish_render(burnish_session* session, const burnish_options* options, burnish_frame** out)
+{
+    return guarded_call([&]() -> Status {
+        if (!session || !out)
+            return usage(session ? "out" : "session", "is NULL");
+        const Result<CSettings> settings = settings_of(options);
+        BN_TRY(settings);
+        const Result<FrameDesc> desc = desc_of(*settings, session->session);
+        BN_TRY(desc);
+        Result<Frame> frame = session->session.render(*desc);
+        BN_TRY(frame);
+        *out = make_frame(std::move(*frame), settings->layers, session->session.tables());
+        return {};
+    });
+}
+
+int burnish_reference(burnish_session* session, const burnish_options* options, burnish_poll poll, void* user, burnish_frame** out)
+{
+    bool stopped = false;
+    const int code = guarded_call([&]() -> Status {
+        if (!session || !out)
+            return usage(session ? "out" : "session", "is NULL");
+        Result<CSettings> settings = settings_of(options);
+        BN_TRY(settings);
+        if (!settings->layers.empty())
+            return usage("layers", "the reference has none");
+        if (settings->samples_given)
+            settings->reference.samples = static_cast<std::uint64_t>(std::max(1, settings->desc.samples));
+        std::atomic<bool> stop = false;
+        settings->reference.stop = &stop;
+        settings->desc.technique = "mc", settings->desc.samples = 1;
+        const Result<FrameDesc> desc = desc_of(*settings, session->session);
+        BN_TRY(desc);
+        SessionOptions as;
+        as.backend = Backend::reference, as.reference = settings->reference;
+        Result<Session> reference = Session::make(session->session.parts(), as);
+        BN_TRY(reference);
+        Result<Frame> frame = render_polled(*reference, *desc, stop, poll, user);
+        BN_TRY(frame);
+        stopped = frame->stats.sampling.stopped;
+        if (stopped)
+            return usage("", "stopped by the caller");
+        *out = make_frame(std::move(*frame), {}, session->session.tables());
+        return {};
+    });
+    return stopped ? kStopped : code;
+}
+
+int burnish_frame_width(const burnish_frame* frame)
+{
+    return frame ? frame->frame.color.width : 0;
+}
+
+int burnish_frame_height(const burnish_frame* frame)
+{
+    return frame ? frame->frame.color.height : 0;
+}
+
+const float* burnish_frame_pixels(const burnish_frame* frame)
+{
+    return frame ? frame->frame.color.f32() : nullptr;
+}
+
+const float* burnish_frame_variance(const burnish_frame* frame)
+{
+    return frame && !frame->frame.variance.empty() ? frame->frame.variance.f32() : nullptr;
+}
+
+const float* burnish_frame_layer(const burnish_frame* frame, const char* name, int* channels)
+{
+    for (std::size_t i = 0; frame && name && i < frame->names.size(); ++i)
+        if (frame->names[i].first == name) {
+            if (channels)
+                *channels = frame->names[i].second;
+            return frame->taken[i].data();
+        }
+    return nullptr;
+}
+
+uint64_t burnish_frame_hash(const burnish_frame* frame)
+{
+    return frame ? pixel_hash(frame->frame.color) : 0;
+}
+
+int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size)
+{
+    return guarded_call([&]() -> Status {
+        if (!frame || !bytes || !size)
+            return usage(!frame ? "frame" : !bytes ? "bytes" : "size", "is NULL");
+        Result<std::string> png = encode_png(tonemap_to_srgb8(frame->frame.color, Tonemap::pbr_neutral, exposure_ev));
+        BN_TRY(png);
+        frame->png = std::move(*png);
+        *bytes = reinterpret_cast<const unsigned char*>(frame->png.data()), *size = frame->png.size();
+        return {};
+    });
+}
+
+int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev)
+{
+    return guarded_call([&]() -> Status {
+        if (!frame || !path)
+            return usage(frame ? "path" : "frame", "is NULL");
+        if (!frame->names.empty() && stores_channels(path))
+            return write_channels(path, frame->layered.image, frame->layered.names);
+        if (stores_floats(path))
+            return write_image(path, frame->frame.color);
+        return write_image(path, tonemap_to_srgb8(frame->frame.color, Tonemap::pbr_neutral, exposure_ev));
+    });
+}
+
+void burnish_frame_free(burnish_frame* frame)
+{
+    delete frame;
+}
+
+int burnish_compare(const float* reference, const float* test, int width, int height, burnish_comparison* out)
+{
+    return guarded_call([&]() -> Status {
+        if (!reference || !test || !out)
+            return usage(!reference ? "reference" : !test ? "test" : "out", "is NULL");
+        if (out->size < sizeof(burnish_comparison))
+            return usage("out", "its size is smaller than burnish_comparison");
+        if (width < 1 || height < 1 || width > kMaxPictureSide || height > kMaxPictureSide)
+            return usage(width < 1 || width > kMaxPictureSide ? "width" : "height", "must lie in 1..16384");
+        Image a = make_image(width, height, 3, PixelType::f32), b = a;
+        std::memcpy(a.bytes.data(), reference, a.bytes.size());
+        std::memcpy(b.bytes.data(), test, b.bytes.size());
+        if (not_finite_pixels(a, b))
+            return Error{ExitCode::not_finite, "", "", "a pixel is NaN or Inf"};
+        const Jobs jobs;
+        const ErrorSummary flip = summarise_errors(flip_hdr(a, b, {}, jobs).error);
+        const PixelFigures pixels = pixel_figures(a, b, jobs);
+        *out = {out->size, flip.mean, flip.p99, flip.max, pixels.mse, pixels.rel_mse, pixels.max_abs, pixels.differing_fraction};
+        return {};
+    });
+}
