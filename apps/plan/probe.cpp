@@ -22,6 +22,8 @@ constexpr int kRandomSamples = 64;              // of mc, for each of two seeds
 constexpr std::uint32_t kSeeds[] = {0x51ed270b, 0x2545f491};
 constexpr double kPriorShare = 0.25; // error of the best prefiltered setting over its distance to a single fetch; see the notebook
 constexpr double kLeastShare = 0.05; // the same at least
+constexpr double kMostShare = 0.5;   // the same at most: where noise is skewed, two noisy pictures deceive
+constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;
 constexpr int kBlock = 8; // pixels a side of a block, whose errors count as independent
@@ -134,8 +136,9 @@ double own_error(const Moments& m, double fetch)
     const double guess = kPriorShare * fetch, least = kLeastShare * fetch, risen = std::max(0.0, m.square - m.noise_square);
     const double square = squared(std::sqrt(m.square)) - squared(std::sqrt(m.noise_square));
     const double measured = flip_of(square) * m.mean / std::max(1e-30, std::sqrt(m.square));
-    const double weight = risen * risen / std::max(1e-30, risen * risen + m.deviation * m.deviation);
-    return std::max(least, guess + weight * (measured - guess));
+    const double off = kNoiseOff * m.noise_square, variance = m.deviation * m.deviation + off * off;
+    const double weight = risen * risen / std::max(1e-30, risen * risen + variance);
+    return std::clamp(guess + weight * (measured - guess), least, kMostShare * fetch);
 }
 
 double sum_of(const Image& error)

@@ -10,8 +10,7 @@
  * function ends the process or throws. Out-parameters are set on success alone, and freed by the caller.
  *
  * One thread at a time may use a session. Different sessions may be used by different threads at once. Freeing NULL does nothing. */
-#ifndef BURNISH_H
-#define BURNISH_H
+#pragma once
 #include <stddef.h>
 #include <stdint.h>
 
@@ -88,5 +87,4 @@ int burnish_compare(const float* reference, const float* test, int width, int he
 
 #ifdef __cplusplus
 }
-#endif
 #endif

@@ -1,9 +1,10 @@
 // The C interface: each function catches everything and keeps the error of its thread.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
-#include <new>
 #include <thread>
+#include <tuple>
 
 #include "core/base/exception.h"
 #include "core/base/version.h"
@@ -76,6 +77,13 @@ Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene
         return usage(place + "/triangles", "are missing");
     if (count > 0x7fffffffu / 3)
         return usage(place + "/triangle_count", "is too large");
+    for (const auto& [name, values, count_of] : {std::tuple{"positions", mesh.positions, 3 * mesh.vertex_count},
+                                                 {"normals", mesh.normals, 3 * mesh.vertex_count},
+                                                 {"coordinates", mesh.coordinates, 2 * mesh.vertex_count},
+                                                 {"transform", mesh.transform, std::size_t{16}}})
+        for (std::size_t i = 0; values && i < count_of; ++i)
+            if (!std::isfinite(values[i]))
+                return Error{ExitCode::bad_input, "", place + "/" + name + "/" + std::to_string(i), "is NaN or infinite"};
     // Gather the corners
     std::vector<std::uint32_t> corner(3 * count);
     for (std::size_t i = 0; i < corner.size(); ++i) {

@@ -53,6 +53,7 @@ import parity_cases
 import phong_cases
 import pixel_cases
 import processor_cases
+import python_cases
 import reading_cases
 import plot_cases
 import profile_cases

@@ -166,6 +166,8 @@ class Values:
 
 def flat(values):
     for value in values:
+        if isinstance(value, str):
+            raise TypeError("a text is no number")
         if hasattr(value, "__iter__"):
             yield from flat(value)
         else:

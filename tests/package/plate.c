@@ -1,0 +1,75 @@
+/* Draws a brushed plate made of arrays, through the C interface. Prints the hashes of two pictures, then the words of three errors. */
+#include <burnish.h>
+#include <stdio.h>
+
+static int polls(void* count)
+{
+    return ++*(int*)count > 1; /* stops at the second call */
+}
+
+static int fail(const char* what, int code)
+{
+    fprintf(stderr, "%s: %d: %s\n", what, code, burnish_error());
+    return 1;
+}
+
+int main(void)
+{
+    const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const float coordinates[] = {0, 1, 1, 1, 1, 0, 0, 0};
+    const uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+    burnish_options *material, *options;
+    burnish_session *session, *again;
+    burnish_frame *frame, *other;
+    burnish_mesh mesh = {sizeof(burnish_mesh), positions, NULL, coordinates, triangles, 4, 2, NULL, NULL};
+    burnish_comparison figures = {sizeof(burnish_comparison), 0, 0, 0, 0, 0, 0, 0};
+    const unsigned char* png;
+    size_t size;
+    int code, count = 0, channels = 0;
+    if (burnish_api_version() != BURNISH_API_VERSION || burnish_options_make(&material) || burnish_options_make(&options))
+        return 1;
+    if (burnish_options_set(material, "roughness", "0.4") || burnish_options_set(material, "anisotropy_strength", "0.8") ||
+        burnish_options_set(material, "metallic", "1"))
+        return fail("material", 0);
+    if (burnish_options_set(options, "width", "96") || burnish_options_set(options, "height", "64") ||
+        burnish_options_set(options, "env-size", "32") || burnish_options_set(options, "env_samples", "16") ||
+        burnish_options_set(options, "layers", "depth,normal") || burnish_options_set(options, "fov", "40"))
+        return fail("options", 0);
+    mesh.material = material;
+    if ((code = burnish_open_meshes(&mesh, 1, NULL, options, &session)) || (code = burnish_open("builtin:spheres", NULL, options, &again)))
+        return fail("open", code);
+    if ((code = burnish_render(session, options, &frame)) || (code = burnish_render(again, options, &other)))
+        return fail("render", code);
+    if (burnish_frame_width(frame) != 96 || burnish_frame_height(frame) != 64 || !burnish_frame_layer(frame, "normal", &channels) || channels != 3)
+        return fail("layers", channels);
+    printf("%016llx\n%016llx\n", (unsigned long long)burnish_frame_hash(frame), (unsigned long long)burnish_frame_hash(other));
+    if ((code = burnish_compare(burnish_frame_pixels(frame), burnish_frame_pixels(other), 96, 64, &figures)) || !(figures.flip_mean > 0.0))
+        return fail("compare", code);
+    if ((code = burnish_frame_png(frame, 0.0f, &png, &size)) || size < 8 || png[1] != 'P')
+        return fail("png", code);
+    if ((code = burnish_write(frame, "plate.png", 0.0f)))
+        return fail("write", code);
+    /* Failures say why, and end nothing */
+    if (burnish_options_set(options, "widht", "1") != 2)
+        return fail("an unknown option", 0);
+    printf("%s\n", burnish_error());
+    mesh.vertex_count = 3;
+    if (burnish_open_meshes(&mesh, 1, NULL, options, &session) != 4)
+        return fail("an index beyond", 0);
+    printf("%s\n", burnish_error());
+    if (burnish_open("absent.glb", NULL, NULL, &again) != 4)
+        return fail("a missing file", 0);
+    printf("%s\n", burnish_error());
+    if (burnish_render(NULL, NULL, &frame) != 2 || burnish_compare(NULL, NULL, 1, 1, &figures) != 2 || burnish_open(NULL, NULL, NULL, NULL) != 2)
+        return fail("NULL", 0);
+    burnish_options_free(options);
+    if (burnish_options_make(&options) || burnish_options_set(options, "samples", "1000000") || burnish_options_set(options, "width", "200") ||
+        burnish_options_set(options, "height", "200"))
+        return 1;
+    code = burnish_reference(session, options, polls, &count, &frame);
+    if (code != 130 && code != 77) /* 77: built without Embree */
+        return fail("a stopped reference", code);
+    burnish_options_free(options), burnish_options_free(material), burnish_options_free(NULL);
+    burnish_frame_free(frame), burnish_frame_free(other), burnish_close(session), burnish_close(again);
+    return 0;
+}
