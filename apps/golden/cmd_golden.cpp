@@ -100,10 +100,17 @@ Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
     return read_manifest(arguments.paths[0]);
 }
 
-// Makes the results' folders, empty of earlier results.
+constexpr const char* kMarker = ".burnish-golden"; // a file in folders of results, which alone are emptied
+
+// Makes the results' folders, empty of earlier results. Refuses a folder with files of other programs.
 Status make_folders(const std::string& results)
 {
+    std::error_code none;
+    const bool ours = file_exists(results + "/" + kMarker);
+    if (is_folder(results) && !ours && !fs::is_empty(results, none))
+        return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results));
     BN_TRY(make_output_folder(results));
+    BN_TRY(write_text(results + "/" + kMarker, "made by burnish golden, which empties this folder\n"));
     for (const char* name : {"results.jsonl", "junit.xml", "summary.md", "index.html"}) {
         std::error_code ignored;
         fs::remove(results + "/" + name, ignored);

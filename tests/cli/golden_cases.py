@@ -186,7 +186,13 @@ def mistakes(bench):
         (bench.folder / "m.json").write_text(text)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
     bench.run("golden", "check", "absent.json").expect(4).expect_one_line("absent.json")
+    # A folder with other files is never emptied
+    (bench.folder / "mine/pictures").mkdir(parents=True)
+    (bench.folder / "mine/pictures/a.png").write_text("mine")
     write(bench, [pot])
+    bench.run("golden", "check", "m.json", "-o", "mine").expect(2).expect_one_line("-o", "mine")
+    bench.run("golden", "check", "m.json", "-o", ".").expect(2).expect_one_line("-o")
+    check((bench.folder / "mine/pictures/a.png").read_text() == "mine", "a file is gone")
     bench.run("golden", "bless", "m.json").expect(4).expect_one_line("results.jsonl", "golden check")
     bench.run("golden", "check", "m.json", "--from", "x").expect(2).expect_one_line("--from")
     bench.run("golden", "check", "m.json", "--flip", "0.1").expect(2).expect_one_line("--flip")
