@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <sys/stat.h>
 #include <system_error>
 
 #include "apps/golden/child.h"
@@ -37,6 +38,22 @@ Error bad(std::string reason)
     return Error{ExitCode::bad_input, "", "", std::move(reason)};
 }
 
+// A file's identity and the time of its last change, which no program can set.
+struct FileState {
+    bool there = false;
+    std::uint64_t inode = 0;
+    std::int64_t seconds = 0, nanoseconds = 0;
+    bool operator==(const FileState&) const = default;
+};
+
+FileState state_of(const std::string& path)
+{
+    struct stat found = {};
+    if (stat(path.c_str(), &found) != 0)
+        return {};
+    return {true, found.st_ino, found.st_ctim.tv_sec, found.st_ctim.tv_nsec};
+}
+
 // Runs the row's program, so that its picture lies at `to`.
 Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const std::string& to,
                     const std::string& log)
@@ -53,12 +70,11 @@ Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const 
     }
     // A picture from before the run must not pass for a new one
     const std::string from = in_folder(manifest.folder, row.picture);
-    std::error_code missing, failed;
-    const fs::file_time_type before = fs::last_write_time(from, missing);
     if (row.kind == GoldenKind::command) {
+        const FileState before = state_of(from);
         BN_TRY(run_child(run));
-        const fs::file_time_type after = fs::last_write_time(from, failed);
-        if (failed || (!missing && after == before))
+        const FileState after = state_of(from);
+        if (!after.there || after == before)
             return bad(fmt::format("{} wrote no {}", row.command[0], row.picture));
     }
     const Result<std::vector<std::uint8_t>> bytes = read_file(from, kMostPictureBytes);

@@ -51,6 +51,8 @@ bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, int& s
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     for (auto pause = std::chrono::milliseconds(1);; pause = std::min(2 * pause, std::chrono::milliseconds(20))) {
         const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended < 0 && errno != EINTR)
+            status = -1; // its end is not known
         if (ended == child || (ended < 0 && errno != EINTR))
             return true;
         if (Clock::now() >= end || (stop && *stop))
@@ -90,6 +92,9 @@ Status run_child(const ChildRun& run)
     if (!wait_for(child, run.seconds, run.stop, status))
         return failed(run.stop && *run.stop ? run.words[0] + " was stopped"
                                             : fmt::format("{} was stopped after {:g} seconds", run.words[0], run.seconds));
+    kill(-child, SIGKILL); // whatever it left running
+    if (status == -1)
+        return failed(fmt::format("{} ended, and nobody knows how", run.words[0]));
     if (WIFSIGNALED(status))
         return failed(fmt::format("{} was ended by signal {}", run.words[0], WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0)

@@ -1,5 +1,6 @@
 // `burnish golden`: makes pictures, compares them with golden ones, and lets people bless changes.
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
@@ -19,6 +20,7 @@
 #include "apps/golden/golden_report.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
+#include "core/base/text.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/cores.h"
 
@@ -102,15 +104,27 @@ Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
 
 constexpr const char* kMarker = ".burnish-golden"; // a file in folders of results, which alone are emptied
 
-// Makes the results' folders, empty of earlier results. Refuses a folder with files of other programs.
-Status make_folders(const std::string& results)
+// Returns true if a path lies in a folder, or is it.
+bool lies_in(const std::string& path, const std::string& folder)
 {
+    std::error_code failed;
+    const fs::path inner = fs::weakly_canonical(path, failed), outer = fs::weakly_canonical(folder, failed);
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// Makes the results' folders, empty of earlier results. Refuses a folder with files of other programs, and one that holds an input.
+Status make_folders(const std::string& results, const std::vector<std::string>& inputs, const Shard& shard)
+{
+    for (const std::string& input : inputs)
+        if (!input.empty() && lies_in(input, results))
+            return usage_error("-o", fmt::format("'{}' is to be emptied, and holds {}", results, input));
     std::error_code none;
     const bool ours = file_exists(results + "/" + kMarker);
     if (is_folder(results) && !ours && !fs::is_empty(results, none))
         return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results));
     BN_TRY(make_output_folder(results));
-    BN_TRY(write_text(results + "/" + kMarker, "made by burnish golden, which empties this folder\n"));
+    BN_TRY(write_text(results + "/" + kMarker,
+                      fmt::format("{}/{}\nmade by burnish golden, which empties this folder\n", shard.index + 1, shard.count)));
     for (const char* name : {"results.jsonl", "junit.xml", "summary.md", "index.html"}) {
         std::error_code ignored;
         fs::remove(results + "/" + name, ignored);
@@ -126,6 +140,16 @@ Status make_folders(const std::string& results)
     return {};
 }
 
+// Returns the shard that a folder of results holds.
+Result<Shard> shard_of_results(const std::string& folder)
+{
+    constexpr std::uint64_t kMostMarkerBytes = 4096;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(folder + "/" + kMarker, kMostMarkerBytes);
+    BN_TRY(bytes);
+    const std::string text(bytes->begin(), bytes->end());
+    return read_shard(text.substr(0, text.find('\n')));
+}
+
 void sort_by_name(std::vector<GoldenResult>& results)
 {
     std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
@@ -138,12 +162,12 @@ int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments
     if (const Status written = write_reports(results, arguments.results); !written)
         return fail(written.error());
     if (const char* actions = std::getenv("GITHUB_ACTIONS"); actions && std::string_view(actions) == "true")
-        report.figures(golden_annotations(results));
+        report.asked_for(golden_annotations(results));
     if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
         std::ofstream(summary, std::ios::app) << golden_summary(results);
     for (const GoldenResult& r : results)
         if (r.verdict != GoldenVerdict::passed)
-            report.figure(verdict_name(r.verdict), r.name + ": " + r.reason);
+            report.figure(verdict_name(r.verdict), printable(r.name + ": " + r.reason));
     const GoldenCounts counts = count_of(results);
     report.figure("golden", fmt::format("{} passed, {} differ, {} have no golden, {} could not be made; {}/index.html", counts.passed,
                                         counts.differs, counts.missing, counts.failed, arguments.results));
@@ -162,9 +186,15 @@ int check(const GoldenArguments& arguments, Report& report)
     for (std::size_t i = 0; i < manifest->rows.size(); ++i)
         if (i % shard->count == shard->index)
             rows.push_back(manifest->rows[i]);
-    if (const Status folders = make_folders(arguments.results); !folders)
+    std::vector<std::string> inputs = arguments.paths;
+    for (const GoldenRow& row : manifest->rows)
+        for (const std::string& path : {row.golden, row.mask, row.kind == GoldenKind::picture ? row.picture : std::string()})
+            if (!path.empty())
+                inputs.push_back((fs::path(manifest->folder) / path).string());
+    if (const Status folders = make_folders(arguments.results, inputs, *shard); !folders)
         return fail(folders.error());
     report.release();
+    std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
     // Make and judge the rows
     GoldenSetting setting;
     setting.results = arguments.results, setting.limits = arguments.input, setting.stop = &watch_stop_signals();
@@ -221,24 +251,24 @@ Status replace(const std::string& path, const std::vector<std::uint8_t>& bytes, 
     return write_file_atomic(path, bytes.data(), bytes.size());
 }
 
-// Makes a row's new picture golden.
-Status bless_row(const GoldenResult& result, const GoldenArguments& arguments, bool& changed)
+// Makes a row's new picture golden. All paths are the manifest's: results may come from somebody else.
+Status bless_row(const GoldenRow& row, const std::string& golden, const GoldenArguments& arguments, bool& changed)
 {
     constexpr std::uint64_t kMostBytes = 1ull << 30;
-    const std::string picture = arguments.results + "/" + result.picture;
-    if (result.hash_alone) {
+    const std::string picture = arguments.results + "/pictures/" + file_stem(row.name) + row.extension;
+    if (row.hash_alone) {
         PictureNotes notes;
         const Result<Image> image = read_colours(picture, arguments.input, notes);
         BN_TRY(image);
         const std::string text = golden_hash(*image) + "\n";
-        return replace(result.golden, {text.begin(), text.end()}, changed);
+        return replace(golden, {text.begin(), text.end()}, changed);
     }
     for (const char* end : {"", ".variance.exr"}) {
         const Result<std::vector<std::uint8_t>> bytes = read_file(picture + end, kMostBytes);
         if (!bytes && *end)
             continue; // there is no variance
         BN_TRY(bytes);
-        BN_TRY(replace(result.golden + end, *bytes, changed));
+        BN_TRY(replace(golden + end, *bytes, changed));
     }
     return {};
 }
@@ -254,9 +284,10 @@ int bless(const GoldenArguments& arguments, Report& report)
     std::map<std::string, const GoldenResult*> by_name;
     for (const GoldenResult& r : *results)
         by_name[r.name] = &r;
-    std::set<std::string> chosen, rows;
+    std::set<std::string> chosen;
+    std::map<std::string, const GoldenRow*> rows;
     for (const GoldenRow& row : manifest->rows)
-        rows.insert(row.name);
+        rows[row.name] = &row;
     if (!arguments.from.empty()) {
         const Result<std::set<std::string>> list = read_list(arguments.from);
         if (!list)
@@ -278,10 +309,11 @@ int bless(const GoldenArguments& arguments, Report& report)
     for (const std::string& name : chosen) {
         bool changed = false;
         const GoldenResult& r = *by_name[name];
-        if (const Status done = bless_row(r, arguments, changed); !done)
+        const std::string golden = (fs::path(manifest->folder) / rows[name]->golden).string();
+        if (const Status done = bless_row(*rows[name], golden, arguments, changed); !done)
             return fail(done.error());
         if (changed)
-            report.figure("blessed", fmt::format("{}: {}", r.golden, r.verdict == GoldenVerdict::missing ? "new" : r.reason));
+            report.figure("blessed", printable(fmt::format("{}: {}", golden, r.verdict == GoldenVerdict::missing ? "new" : r.reason)));
         count += changed;
     }
     report.figure("golden", count == 0 ? "nothing to bless" : counted(count, "picture") + " blessed");
@@ -292,22 +324,32 @@ int merge(const GoldenArguments& arguments, Report& report)
 {
     std::vector<GoldenResult> all;
     std::set<std::string> names;
+    std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
     for (const std::string& folder : arguments.paths) {
         if (same_file(folder, arguments.results))
             return fail(usage_error("-o", "is one of the folders to merge"));
         const Result<std::vector<GoldenResult>> results = read_results(folder);
         if (!results)
             return fail(results.error());
+        const Result<Shard> shard = shard_of_results(folder);
+        if (!shard)
+            return fail(shard.error());
+        ++shards[shard->count];
         for (const GoldenResult& r : *results) {
             if (!names.insert(r.name).second)
                 return fail(Error{ExitCode::bad_input, folder, "", "'" + r.name + "' is in an earlier folder too"});
             all.push_back(r);
         }
     }
-    if (const Status folders = make_folders(arguments.results); !folders)
+    if (shards.size() != 1 || shards.begin()->first != shards.begin()->second)
+        return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
+                          fmt::format("{} of {} shards are given", arguments.paths.size(), shards.rbegin()->first)});
+    if (const Status folders = make_folders(arguments.results, arguments.paths, Shard{}); !folders)
         return fail(folders.error());
     for (const std::string& folder : arguments.paths)
         for (const char* name : {"/pictures", "/shown", "/logs"}) {
+            if (!is_folder(folder + name)) // uploads drop empty folders
+                continue;
             std::error_code failed;
             fs::copy(folder + name, arguments.results + name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
             if (failed)

@@ -36,7 +36,7 @@ void apply_mask(const Image& mask, const Image& golden, Image& picture)
 {
     const std::size_t of_mask = value_bytes(mask.type) * static_cast<std::size_t>(mask.channels),
                       of_pixel = value_bytes(picture.type) * static_cast<std::size_t>(picture.channels),
-                      colours = value_bytes(mask.type) * static_cast<std::size_t>(std::min(mask.channels, 3));
+                      colours = value_bytes(mask.type) * static_cast<std::size_t>(mask.channels < 3 ? 1 : 3);
     const std::size_t pixels = picture.bytes.size() / of_pixel;
     for (std::size_t p = 0; p < pixels; ++p) {
         const std::byte* at = mask.bytes.data() + p * of_mask;
@@ -181,8 +181,8 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
         result.verdict = GoldenVerdict::differs, result.reason = over + result.reason;
     // Write the page's pictures
     const float exposure = golden.type == PixelType::f32 ? 0.5f * (flip.exposures.start_ev + flip.exposures.stop_ev) : 0.0f;
-    for (const Status& written : {show(picture, exposure, shown + ".png"), show(golden, exposure, shown + ".golden.png"),
-                                  write_image(shown + ".error.png", magma_map(flip.error))})
+    for (const Status& written : {show(picture, exposure, shown + ".png"), show(golden, exposure, shown + "%golden.png"),
+                                  write_image(shown + "%error.png", magma_map(flip.error))})
         if (!written)
             return fails(GoldenVerdict::failed, written.error().line());
 }

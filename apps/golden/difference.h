@@ -14,7 +14,7 @@ struct DifferenceInput {
     std::optional<Image> golden_variance, variance;
 };
 
-// Fills the verdict, the reason and the figures. `shown`: beginning of file names; writes SHOWN.png, SHOWN.golden.png and SHOWN.error.png
+// Fills the verdict, the reason and the figures. `shown`: beginning of file names; writes SHOWN.png, SHOWN%golden.png and SHOWN%error.png
 // for the page where values differ, the error by colours.
 void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, const std::string& shown, GoldenResult& result);
 

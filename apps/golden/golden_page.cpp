@@ -114,7 +114,7 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
     for (const GoldenResult* r : ordered) {
         const std::string shown = "shown/" + file_stem(r->name);
         const bool compared =
-            r->verdict != GoldenVerdict::passed && file_exists(folder + "/" + shown + ".error.png") && places.size() < kMostWalls;
+            r->verdict != GoldenVerdict::passed && file_exists(folder + "/" + shown + "%error.png") && places.size() < kMostWalls;
         const int wall = compared ? static_cast<int>(places.size()) : -1;
         rows += row_html(*r, folder, wall);
         if (!compared)
@@ -125,8 +125,8 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
                              wall, escaped(r->name), escaped(r->reason), wall);
         data_rows[key] = {{"technique", "New picture"},         {"setting", ""},
                           {"text", r->name + ", " + figures},   {"figures", figures},
-                          {"picture", address(shown + ".png")}, {"error", address(shown + ".error.png")}};
-        places.push_back({{"reference", address(shown + ".golden.png")},
+                          {"picture", address(shown + ".png")}, {"error", address(shown + "%error.png")}};
+        places.push_back({{"reference", address(shown + "%golden.png")},
                           {"width", r->width},
                           {"height", r->height},
                           {"rows", Json::array({key})},

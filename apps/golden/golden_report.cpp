@@ -1,13 +1,15 @@
 #include "apps/golden/golden_report.h"
 
+#include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <system_error>
 
 #include "apps/cli/outputs.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
@@ -38,7 +40,7 @@ std::string annotation_text(const std::string& text, bool in_property)
 std::string markdown_text(const std::string& text)
 {
     std::string out;
-    for (const char c : without_controls(text))
+    for (const char c : printable(without_controls(text)))
         if (std::string_view("\\`*_{}[]()#+-!|~@").find(c) != std::string_view::npos)
             out += std::string("\\") + c;
         else
@@ -68,9 +70,12 @@ GoldenResult result_of(const Json& json)
     GoldenResult r;
     r.name = json.at("name").get<std::string>(), r.reason = json.at("reason").get<std::string>();
     const std::string verdict = json.at("verdict").get<std::string>();
+    bool known = false;
     for (const GoldenVerdict v : {GoldenVerdict::passed, GoldenVerdict::differs, GoldenVerdict::missing, GoldenVerdict::failed})
         if (verdict == verdict_name(v))
-            r.verdict = v;
+            r.verdict = v, known = true;
+    if (!known)
+        throw Json::other_error::create(501, "unknown verdict", &json);
     r.width = json.at("width").get<int>(), r.height = json.at("height").get<int>();
     r.flip = json.at("flip_mean").get<double>(), r.flip_p99 = json.at("flip_p99").get<double>();
     r.differing = json.at("differing_fraction").get<double>(), r.largest = json.at("max_abs").get<double>();
@@ -122,6 +127,9 @@ std::string results_text(const std::vector<GoldenResult>& results)
 Result<std::vector<GoldenResult>> read_results(const std::string& folder)
 {
     const std::string path = folder + "/results.jsonl";
+    std::error_code ignored;
+    if (std::filesystem::file_size(path, ignored) == 0 && !ignored) // a shard without rows
+        return std::vector<GoldenResult>();
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostResultBytes);
     if (!bytes)
         return Error{ExitCode::bad_input, path, "", bytes.error().reason + "; `burnish golden check` writes it"};

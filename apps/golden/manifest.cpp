@@ -10,6 +10,8 @@
 
 #include "apps/cli/report.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
@@ -128,8 +130,8 @@ void check_name(const std::string& name, const std::string& place, std::set<std:
 {
     if (name.empty() || name.size() > kMostName)
         throw Mistake{place + "/name", fmt::format("has {} bytes; 1 to {} are allowed", name.size(), kMostName)};
-    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }))
-        throw Mistake{place + "/name", "holds a control character"};
+    if (printable(name) != name)
+        throw Mistake{place + "/name", "holds characters that do not print"};
     if (!taken.insert(name).second)
         throw Mistake{place + "/name", "'" + name + "' is the name of an earlier row"};
 }
@@ -161,15 +163,19 @@ GoldenRow read_row(const Value& of, const std::string& place, const Defaults& de
         if (row.picture.empty())
             throw Mistake{place, row.command.empty() ? "needs a scene, a command with its picture, or a picture"
                                                      : "needs the picture that its command writes"};
+        if (of.contains("command") && row.command.empty())
+            throw Mistake{place + "/command", "has no word"};
         row.kind = row.command.empty() ? GoldenKind::picture : GoldenKind::command;
         row.extension = fs::path(row.picture).extension().string();
     }
     if (row.hash_alone && !row.limits.exact())
         throw Mistake{place + "/hold", "needs the golden picture, and this row keeps its hash alone"};
-    if (row.limits.z && row.hash_alone)
-        throw Mistake{place + "/hold/z", "needs the golden picture"};
+    if (row.hash_alone && !row.mask.empty())
+        throw Mistake{place + "/mask", "needs the golden picture, and this row keeps its hash alone"};
     const fs::path usual = fs::path(defaults.goldens) / (file_stem(row.name) + (row.hash_alone ? ".hash" : row.extension));
     row.golden = text_of(of, "golden", place, usual.string());
+    if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal())
+        throw Mistake{place + "/golden", "is the picture itself"};
     return row;
 }
 
@@ -188,9 +194,15 @@ GoldenManifest manifest_of(const Value& json, const std::string& folder)
         throw Mistake{"/rows", "is no list of rows"};
     GoldenManifest manifest;
     manifest.folder = folder;
-    std::set<std::string> taken;
-    for (std::size_t i = 0; i < rows->size(); ++i)
-        manifest.rows.push_back(read_row((*rows)[i], fmt::format("/rows/{}", i), defaults, taken));
+    std::set<std::string> taken, goldens, written;
+    for (std::size_t i = 0; i < rows->size(); ++i) {
+        const std::string place = fmt::format("/rows/{}", i);
+        const GoldenRow& row = manifest.rows.emplace_back(read_row((*rows)[i], place, defaults, taken));
+        if (!goldens.insert(fs::path(row.golden).lexically_normal().string()).second)
+            throw Mistake{place + "/golden", "is an earlier row's golden too"};
+        if (row.kind == GoldenKind::command && !written.insert(fs::path(row.picture).lexically_normal().string()).second)
+            throw Mistake{place + "/picture", "is written by an earlier row too"};
+    }
     return manifest;
 }
 
@@ -216,6 +228,9 @@ std::string file_stem(const std::string& name)
                            (c == '.' && !stem.empty());
         stem += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
+    constexpr std::size_t kMostStem = 150, kKept = 120; // bytes; a name of a file has 255 at most
+    if (stem.size() > kMostStem)
+        stem = fmt::format("{}%~{:016x}", stem.substr(0, kKept), hash_bytes(name.data(), name.size()));
     return stem;
 }
 
@@ -247,18 +262,19 @@ Result<GoldenManifest> manifest_of_folders(const std::string& expected, const st
         fs::recursive_directory_iterator at(folder, failed);
         if (failed)
             return Error{ExitCode::bad_input, folder, "", failed.message()};
-        for (; at != fs::recursive_directory_iterator(); at.increment(failed)) {
-            if (kPictureExtensions.contains(at->path().extension().string()) && at->is_regular_file(failed))
+        for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
+            std::error_code ignored; // of a link to nowhere, whose row then fails
+            if (kPictureExtensions.contains(at->path().extension().string()) && !at->is_directory(ignored))
                 names.insert(at->path().lexically_relative(folder).string());
-            if (failed)
-                return Error{ExitCode::bad_input, folder, "", failed.message()};
         }
     }
+    if (failed)
+        return Error{ExitCode::bad_input, expected, "", failed.message()};
     if (names.empty())
         return Error{ExitCode::bad_input, expected, "", "holds no picture"};
     for (const std::string& name : names) {
         GoldenRow row;
-        row.name = name, row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
+        row.name = printable(name), row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
         row.extension = fs::path(name).extension().string(), row.limits = limits;
         manifest.rows.push_back(std::move(row));
     }

@@ -113,8 +113,7 @@ std::vector<Option> picture_rows(RenderArguments& to)
 std::vector<Option> budget_rows(RenderOptions& to)
 {
     return {
-        {"--budget", "E",
-         "Largest mean HDR-FLIP of the picture: chooses technique and samples of each material, as cheap as possible. Between {}",
+        {"--budget", "E", "Largest mean HDR-FLIP of the picture: chooses technique and samples of each material, as cheap as possible; {}",
          number(to.budget, 0.0, 1.0), ""},
         {"--budget-ms", "T",
          "Largest processor time of the frame in milliseconds, on this machine: chooses the least error within it. --budget goes first",

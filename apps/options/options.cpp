@@ -91,6 +91,11 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
     std::int64_t samples = technique.default_samples;
     if (in.samples && out.backend != "reference") // whose samples are of a pixel
         samples = *in.samples;
+    const bool planned = (out.budget || out.budget_ms) && &technique == &automatic_technique(); // then the plan judges the samples
+    if (planned && in.samples) {
+        out.fixed_samples = static_cast<int>(std::min(samples, std::int64_t{65536}));
+        return {};
+    }
     if (samples > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes 1 to {}, got {}", frame.technique, technique.most_samples, samples));
     BN_TRY(check_lobe(frame, *find_technique(out.backend == "reference" ? "mc" : frame.technique)));
@@ -105,6 +110,8 @@ Status check_budget(const OptionTable& given, RenderOptions& out)
     if (out.budget && !(*out.budget > 0.0))
         return usage_error("--budget", "0: no technique is exact; mc comes near with many samples");
     const bool planned = out.budget || out.budget_ms;
+    if (planned && out.frame.brdf != FrameDesc().brdf)
+        return usage_error("--brdf", "budgets are for the default model");
     if (planned && !out.plan_file.empty())
         return usage_error("--plan", "cannot be combined with a budget");
     if (out.budget_ms && out.backend == "vulkan")
@@ -123,8 +130,10 @@ Status check_budget(const OptionTable& given, RenderOptions& out)
         return usage_error("--verify", "the reference has neither --shadows nor --floor mirror");
     if (!out.risks.empty() && (planned || !out.plan_file.empty()))
         return usage_error("--risks", "marks the limits of one technique, and a plan has several");
-    out.fixes_technique = given.given("--technique"), out.fixes_samples = given.given("--samples");
-    if (planned && out.fixes_technique && out.fixes_samples)
+    out.fixes_technique = given.given("--technique") && out.frame.technique != automatic_technique().name;
+    if (out.fixes_technique && given.given("--samples"))
+        out.fixed_samples = out.frame.samples;
+    if (planned && out.fixes_technique && out.fixed_samples)
         return usage_error(out.budget ? "--budget" : "--budget-ms", "leaves nothing to choose beside --technique and --samples");
     return {};
 }

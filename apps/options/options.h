@@ -36,19 +36,20 @@ struct RenderOptions {
     MipSettings mips;
     FloorChoice floor = FloorChoice::usual;
     std::vector<std::string> outputs;
-    std::vector<std::string> aov;                        // layers of .exr outputs
-    Shown show = Shown::light;                           // false colour of 8-bit outputs
-    std::string risks;                                   // picture of the atlas's risks for the technique; "-": text only; empty: none
-    Shadows shadows = Shadows::off;                      // of lights, by ray-traced samples
-    int shadow_samples = 16;                             // a pixel
-    Resolve resolve = Resolve::display;                  // for 8-bit outputs; linear by default where samples are not kept
-    std::string stats_file;                              // empty: none; "-": standard output
-    std::string trace_file;                              // empty: none
-    std::optional<double> budget;                        // largest mean HDR-FLIP: the plan chooses technique and samples of each material
-    std::optional<double> budget_ms;                     // largest processor time of the frame, milliseconds
-    bool fixes_technique = false, fixes_samples = false; // given beside `budget`
-    std::string plan_file, plan_out;                     // plan to draw by, and plan to write; empty: none
-    bool verify = false;                                 // compares the planned picture with the reference
+    std::vector<std::string> aov;       // layers of .exr outputs
+    Shown show = Shown::light;          // false colour of 8-bit outputs
+    std::string risks;                  // picture of the atlas's risks for the technique; "-": text only; empty: none
+    Shadows shadows = Shadows::off;     // of lights, by ray-traced samples
+    int shadow_samples = 16;            // a pixel
+    Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
+    std::string stats_file;             // empty: none; "-": standard output
+    std::string trace_file;             // empty: none
+    std::optional<double> budget;       // largest mean HDR-FLIP: the plan chooses technique and samples of each material
+    std::optional<double> budget_ms;    // largest processor time of the frame, milliseconds
+    bool fixes_technique = false;       // given beside a budget
+    int fixed_samples = 0;              // given beside a budget; 0: none
+    std::string plan_file, plan_out;    // plan to draw by, and plan to write; empty: none
+    bool verify = false;                // compares the planned picture with the reference
 
     std::string env = "builtin:studio";
     bool env_given = false; // otherwise the scene's own light, if any

@@ -35,7 +35,7 @@ std::vector<std::size_t> climb(const std::vector<std::vector<PlanPoint>>& hulls,
     for (const Step& step : steps_of(hulls)) {
         if (!wanted(cost, error, cost + step.cost))
             break;
-        at[step.hull] = step.to, cost += step.cost, error += step.error;
+        at[step.hull] = std::max(at[step.hull], step.to), cost += step.cost, error += step.error;
     }
     return at;
 }

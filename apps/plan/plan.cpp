@@ -31,7 +31,8 @@ std::vector<MaterialTechnique> allowed(const std::string& technique, int samples
     for (const MaterialTechnique& s : plannable_settings())
         if ((technique.empty() || s.technique == technique) && (samples == 0 || s.samples == samples || s.samples == 1))
             list.push_back(s);
-    return list;
+    const bool none = std::none_of(list.begin(), list.end(), [&](const MaterialTechnique& s) { return s.samples == samples; });
+    return samples != 0 && none ? std::vector<MaterialTechnique>() : list;
 }
 
 // Returns a material's settings as parts of the picture's error and cost.
@@ -145,9 +146,9 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget
     }
     if (clock)
         plan.cpu_ms = clock->ms_of(plan.cost);
-    if (budget.error && plan.error * kPlanSafety > *budget.error)
+    if (budget.error && !(plan.error * kPlanSafety <= *budget.error))
         return Error{ExitCode::usage, "", "",
-                     fmt::format("no setting reaches {:.4g} here: the best one is predicted at {:.4g}", *budget.error, plan.error)};
+                     fmt::format("no setting reaches {:.4g} here: the least budget is {:.4g}", *budget.error, plan.error * kPlanSafety)};
     return plan;
 }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
+#include <utility>
 
 #include "apps/plan/cost.h"
 #include "core/base/clock.h"
 #include "core/image/metrics/flip.h"
+#include "core/math/scalar_math.h"
 #include "core/scene/draw_tables.h"
 #include "shading/lang/records.h"
 
@@ -26,7 +26,8 @@ constexpr double kMostShare = 0.5;   // the same at most: where noise is skewed,
 constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;
-constexpr int kBlock = 8; // pixels a side of a block, whose errors count as independent
+constexpr int kBlock = 8;           // pixels a side of a block, whose errors count as independent
+constexpr double kNoiseDecay = 0.4; // FLIP of mc falls at least with this power of its samples, also where few of them meet the light
 constexpr int kUnseen = -1;
 
 // Materials of the probe's pixels; kUnseen for pixels without a solid surface, or with blended surfaces before it.
@@ -53,11 +54,11 @@ PixelMaterials materials_of(const Frame& frame, const DrawTables& tables, std::s
 // Squared distance between colours that a FLIP error stands for, and back. Squares of independent errors add.
 double squared(double flip)
 {
-    return std::pow(std::max(0.0, flip), 2.0 / kFlipExponent);
+    return det_pow(std::max(0.0, flip), 2.0 / kFlipExponent);
 }
 double flip_of(double square)
 {
-    return std::pow(std::max(0.0, square), 0.5 * kFlipExponent);
+    return det_pow(std::max(0.0, square), 0.5 * kFlipExponent);
 }
 
 // Returns the squared error of one noisy picture to the truth, relative to two noisy ones'.
@@ -88,38 +89,47 @@ struct Moments {
 // deviation.
 std::vector<Moments> moments_of(const Image& of_a, const Image& of_b, const Image& of_noise, const PixelMaterials& materials)
 {
+    // Sums over a block's pixels of one material, and over blocks
     struct Block {
         double mean = 0.0, square = 0.0, noise_square = 0.0, pixels = 0.0;
     };
-    const int across = (materials.width + kBlock - 1) / kBlock, down = (materials.height + kBlock - 1) / kBlock;
-    const std::size_t blocks = static_cast<std::size_t>(across) * static_cast<std::size_t>(down), count = materials.pixels.size();
+    struct Blocks {
+        double risen2 = 0.0, risen_pixels = 0.0, pixels2 = 0.0; // risen: square - noise_square
+    };
     const double of_one = squared_error_of_one();
-    std::vector<Block> sums(blocks * count);
-    for (std::size_t p = 0; p < materials.of.size(); ++p) {
-        if (materials.of[p] == kUnseen)
-            continue;
-        const std::size_t x = p % static_cast<std::size_t>(materials.width), y = p / static_cast<std::size_t>(materials.width);
-        const std::size_t block = y / kBlock * static_cast<std::size_t>(across) + x / kBlock;
-        Block& to = sums[block * count + static_cast<std::size_t>(materials.of[p])];
-        const double a = static_cast<double>(of_a.f32()[p]), b = static_cast<double>(of_b.f32()[p]),
-                     noise = static_cast<double>(of_noise.f32()[p]);
-        to.mean += 0.5 * (a + b), to.square += 0.5 * (a * a + b * b), to.noise_square += of_one * noise * noise, to.pixels += 1.0;
-    }
-    std::vector<Moments> out(count);
-    for (std::size_t m = 0; m < count; ++m) {
-        Moments& to = out[m];
-        const double pixels = std::max(1.0, materials.pixels[m]);
-        for (std::size_t block = 0; block < blocks; ++block) {
-            const Block& s = sums[block * count + m];
-            to.mean += s.mean / pixels, to.square += s.square / pixels, to.noise_square += s.noise_square / pixels;
+    std::vector<Moments> out(materials.pixels.size());
+    std::vector<Block> block(out.size());
+    std::vector<Blocks> blocks(out.size());
+    std::vector<std::size_t> touched;
+    for (int y0 = 0; y0 < materials.height; y0 += kBlock)
+        for (int x0 = 0; x0 < materials.width; x0 += kBlock) {
+            for (int y = y0; y < std::min(y0 + kBlock, materials.height); ++y)
+                for (int x = x0; x < std::min(x0 + kBlock, materials.width); ++x) {
+                    const std::size_t p =
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(materials.width) + static_cast<std::size_t>(x);
+                    if (materials.of[p] == kUnseen)
+                        continue;
+                    const std::size_t m = static_cast<std::size_t>(materials.of[p]);
+                    const double a = static_cast<double>(of_a.f32()[p]), b = static_cast<double>(of_b.f32()[p]),
+                                 noise = static_cast<double>(of_noise.f32()[p]);
+                    Block& to = block[m];
+                    if (to.pixels == 0.0)
+                        touched.push_back(m);
+                    to.mean += 0.5 * (a + b), to.square += 0.5 * (a * a + b * b), to.noise_square += of_one * noise * noise;
+                    to.pixels += 1.0;
+                }
+            for (const std::size_t m : touched) {
+                const Block s = std::exchange(block[m], Block{});
+                const double pixels = materials.pixels[m], risen = s.square - s.noise_square;
+                out[m].mean += s.mean / pixels, out[m].square += s.square / pixels, out[m].noise_square += s.noise_square / pixels;
+                blocks[m].risen2 += risen * risen, blocks[m].risen_pixels += risen * s.pixels, blocks[m].pixels2 += s.pixels * s.pixels;
+            }
+            touched.clear();
         }
-        double squares = 0.0;
-        for (std::size_t block = 0; block < blocks; ++block) {
-            const Block& s = sums[block * count + m];
-            const double away = (s.square - s.noise_square - s.pixels * (to.square - to.noise_square)) / pixels;
-            squares += away * away;
-        }
-        to.deviation = std::sqrt(squares);
+    for (std::size_t m = 0; m < out.size(); ++m) {
+        const double mean = out[m].square - out[m].noise_square;
+        const double squares = blocks[m].risen2 - 2.0 * mean * blocks[m].risen_pixels + mean * mean * blocks[m].pixels2;
+        out[m].deviation = std::sqrt(std::max(0.0, squares)) / std::max(1.0, materials.pixels[m]);
     }
     return out;
 }
@@ -233,11 +243,6 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     std::vector<double> own(count, 0.0);
     for (std::size_t m = 0; m < count; ++m)
         own[m] = own_error(moments[m], fetch[m]);
-    for (std::size_t m = 0; m < count; ++m)
-        if (getenv("DBG")) {
-            fprintf(stderr, "%zu px %g fetch %.4f guess %.4f own %.4f sq %.5f noise %.5f dev %.5f\n", m, materials.pixels[m], fetch[m],
-                    kPriorShare * fetch[m], own[m], moments[m].square, moments[m].noise_square, moments[m].deviation);
-        }
     // Put the settings' errors together
     Probe probe;
     probe.width = small.width, probe.height = small.height;
@@ -260,7 +265,7 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         for (std::size_t m = 0; m < count; ++m) {
             if (materials.pixels[m] == 0.0)
                 continue;
-            const double random = noise[m] * std::sqrt(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
+            const double random = noise[m] * det_pow(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples), kNoiseDecay);
             const double error = prefiltered(s) ? flip_of(squared(distances[at][m]) + squared(own[m])) : random;
             probe.materials[m].settings.push_back({s, error, costs[m]});
         }

@@ -136,14 +136,17 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
     return view->view;
 }
 
+// Plans the first step. Notes the plan's figures.
 Result<std::vector<MaterialTechnique>> plan_first_step(const Step& step, Session& session, const std::vector<View>& turntable,
-                                                       Report& report)
+                                                       RenderFigures& figures, Report& report)
 {
     const Result<View> view = view_of_step(step, 0, session, turntable);
     BN_TRY(view);
     FrameDesc desc = step.options.frame;
     desc.view = *view;
-    BN_TRY(plan_frame(step.options, desc, session, report));
+    const Result<std::optional<Plan>> plan = plan_frame(step.options, desc, session, report);
+    BN_TRY(plan);
+    note_plan(step.options, desc, *plan, figures);
     return desc.by_material;
 }
 
@@ -192,7 +195,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kDefaultOrbitDeg),
                                     first.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree, row->count());
     // Plan the first step for all, so that no step changes how a material is drawn
-    const Result<std::vector<MaterialTechnique>> planned = plan_first_step(*row->step(0), *session, turntable, report);
+    const Result<std::vector<MaterialTechnique>> planned = plan_first_step(*row->step(0), *session, turntable, figures, report);
     if (!planned)
         return fail(planned.error());
     report.release();

@@ -133,7 +133,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         Trace::start();
 
     Report report(options.quiet, options.verbosity);
-    report.promise_stdout({options.stats_file});
+    report.promise_stdout({options.stats_file, options.plan_out});
     for (const std::string& warning : options.warnings)
         report.warning(warning);
     // Load the scene, bake the environment and make the renderer
@@ -163,9 +163,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     if (!plan)
         return fail(plan.error());
     report.release();
-    figures.planned = !desc.by_material.empty();
-    if (*plan && (*plan)->aside.empty())
-        figures.plan = PlanFigures{options.budget, options.budget_ms, (*plan)->error, (*plan)->cost, (*plan)->usual_cost, (*plan)->cpu_ms};
+    note_plan(options, desc, *plan, figures);
     Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
     if (!rendered)
         return fail(rendered.error());
@@ -175,10 +173,12 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
         return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
-    const int code = finish(options, *rendered, report);
+    Status verified;
     if (options.verify)
-        if (const Status verified = verify_plan(options, desc, *session, rendered->color, *plan, report); !verified)
-            return fail(verified.error());
+        verified = verify_plan(options, desc, *session, rendered->color, *plan, report);
+    int code = finish(options, *rendered, report);
+    if (!verified)
+        code = std::max(fail(verified.error()), code);
     return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first
 }
 

@@ -73,9 +73,15 @@ Status check_paths(const RenderOptions& options, const std::vector<std::string>&
         pictures.push_back(options.variance_file);
     if (!options.risks.empty() && options.risks != "-")
         pictures.push_back(options.risks);
+    std::vector<std::string> read = inputs;
+    if (!options.plan_file.empty())
+        read.push_back(options.plan_file);
     return check_outputs(pictures,
-                         {{"--stats", options.stats_file}, {"--trace", options.trace_file}, {"--checkpoint", options.reference.checkpoint}},
-                         inputs);
+                         {{"--stats", options.stats_file},
+                          {"--trace", options.trace_file},
+                          {"--checkpoint", options.reference.checkpoint},
+                          {"--plan-out", options.plan_out}},
+                         read);
 }
 
 SessionOptions session_options(const RenderOptions& options, std::optional<Error>& lost_checkpoint)

@@ -7,6 +7,7 @@
 #include "apps/options/scene_view.h"
 #include "apps/render/cached_reference.h"
 #include "apps/render/stats.h"
+#include "core/base/hash.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
 #include "raster/reference/scene_key.h"
@@ -18,12 +19,19 @@ PlanSubject subject_of(const RenderOptions& options, const FrameDesc& desc, cons
 {
     FrameDesc unplanned = desc;
     unplanned.by_material.clear();
+    std::string others =
+        fmt::format("{} {} {} {}", desc.msaa, desc.texture_anisotropy, options.environment.cube_size, options.environment.samples);
+    for (const ParameterInfo& p : parameters()) { // the reference's key leaves some out
+        const glm::dvec2 value = parameter_of(desc, p);
+        others += fmt::format(" {} {}", value.x, value.y);
+    }
+    const std::uint64_t key = reference_key(session.parts().input(), session.drawn(unplanned), options.reference);
     return {session.parts().scene->name,
             session.parts().environment->name,
             camera_options(desc.view, session.scene(), session.tables()),
             desc.width,
             desc.height,
-            hash_text(reference_key(session.parts().input(), session.drawn(unplanned), options.reference))};
+            hash_text(hash_bytes(others.data(), others.size(), key))};
 }
 
 // Plans with the tile renderer, whatever the frame is drawn with.
@@ -31,7 +39,7 @@ Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, 
 {
     const PlanBudget budget = {options.budget, options.budget_ms};
     const std::string technique = options.fixes_technique ? desc.technique : "";
-    const int samples = options.fixes_samples ? desc.samples : 0;
+    const int samples = options.fixed_samples;
     if (options.backend == "tile")
         return make_plan(session, desc, budget, technique, samples);
     SessionOptions by_tiles;
@@ -63,9 +71,9 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
         return plan.error().code == ExitCode::usage ? usage_error(options.budget ? "--budget" : "--budget-ms", plan.error().line())
                                                     : plan.error();
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    if (options.fixes_technique || options.fixes_samples)
+    if (options.fixes_technique || options.fixed_samples)
         report.event("budget", options.fixes_technique ? fmt::format("chooses samples of {} alone", desc.technique)
-                                                       : fmt::format("chooses techniques with {} samples alone", desc.samples));
+                                                       : fmt::format("chooses techniques with {} samples alone", options.fixed_samples));
     for (const std::string& line : plan_lines(*plan, {options.budget, options.budget_ms}))
         report.event("budget", line);
     if (plan->cpu_ms && *plan->cpu_ms > *options.budget_ms) {
@@ -78,11 +86,20 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
         report.detail("probe", fmt::format("{}x{}, {:.1f} ms", plan->probe_width, plan->probe_height, ms));
     if (plan->aside.empty())
         desc.by_material = plan->settings();
-    if (!options.plan_out.empty()) {
+    if (!options.plan_out.empty() && !plan->aside.empty())
+        report.warning("--plan-out: there is no plan to write");
+    else if (!options.plan_out.empty()) {
         BN_TRY(write_text(options.plan_out, plan_json(*plan, subject_of(options, desc, session))));
         report.wrote(options.plan_out);
     }
     return std::optional<Plan>(std::move(*plan));
+}
+
+void note_plan(const RenderOptions& options, const FrameDesc& desc, const std::optional<Plan>& plan, RenderFigures& figures)
+{
+    figures.planned = !desc.by_material.empty();
+    if (plan && plan->aside.empty())
+        figures.plan = PlanFigures{options.budget, options.budget_ms, plan->error, plan->cost, plan->usual_cost, plan->cpu_ms};
 }
 
 Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Session& session, const Image& color,

@@ -33,8 +33,9 @@ std::string escaped(const std::string& text)
 std::string script_json(const Json& json)
 {
     std::string text = json_text(json, -1);
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-        text.replace(at, 2, "<\\/");
+    for (std::size_t at = text.find('<'); at != std::string::npos;
+         at = text.find('<', at + 1)) // "</" and "<!--" would end or hide the script
+        text.replace(at, 1, "\\u003c");
     return text;
 }
 

@@ -72,7 +72,8 @@ const float* burnish_frame_variance(const burnish_frame* frame); /* of the refer
 /* A layer asked for with the option "layers" ("depth", "normal", ...), `channels` values a pixel; NULL: not there. */
 const float* burnish_frame_layer(const burnish_frame* frame, const char* name, int* channels);
 uint64_t burnish_frame_hash(const burnish_frame* frame); /* over the pixels' bits: equal on every machine */
-/* The picture as PNG with pbr-neutral tones; the bytes live as long as the frame, until the next call. */
+/* The picture as PNG with pbr-neutral tones; the bytes live as long as the frame, until the next call.
+ * One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size);
 int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev); /* by extension: .exr .hdr .pfm .png .jpg .tif */
 void burnish_frame_free(burnish_frame* frame);

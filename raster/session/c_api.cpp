@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <exception>
 #include <thread>
 #include <tuple>
 
@@ -75,7 +76,7 @@ Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene
     const std::size_t count = mesh.triangles ? mesh.triangle_count : mesh.vertex_count / 3;
     if (count == 0)
         return usage(place + "/triangles", "are missing");
-    if (count > 0x7fffffffu / 3)
+    if (count > 0x7fffffffu / 3 || mesh.vertex_count > 0x7fffffffu)
         return usage(place + "/triangle_count", "is too large");
     for (const auto& [name, values, count_of] : {std::tuple{"positions", mesh.positions, 3 * mesh.vertex_count},
                                                  {"normals", mesh.normals, 3 * mesh.vertex_count},
@@ -200,14 +201,27 @@ Result<Frame> render_polled(Session& reference, const FrameDesc& desc, std::atom
         done = reference.render_any(desc); // throws nothing
         ended = true;
     });
+    std::exception_ptr thrown; // by a caller in C++
     while (!ended) {
-        if (!stop && poll(user) != 0)
-            stop = true;
+        try {
+            if (!stop && poll(user) != 0)
+                stop = true;
+        } catch (...) {
+            thrown = std::current_exception(), stop = true;
+        }
         for (int i = 0; i < 20 && !ended; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     worker.join();
+    if (thrown)
+        std::rethrow_exception(thrown);
     return std::move(*done);
+}
+
+Status check_exposure(float exposure_ev)
+{
+    constexpr float kMostExposure = 64.0f; // stops in both directions
+    return std::fabs(exposure_ev) <= kMostExposure ? Status() : Status(usage("exposure", "must lie in -64..64"));
 }
 
 const char* text_at(const std::vector<std::string>& list, int index)
@@ -318,6 +332,8 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
             return usage(out ? "meshes" : "out", "is NULL");
         const Result<CSettings> settings = settings_of(options);
         BN_TRY(settings);
+        if (settings->floor.kind != FloorKind::off)
+            return usage("floor", "belongs to scenes from files");
         Scene scene;
         for (size_t i = 0; i < count; ++i)
             BN_TRY(add_mesh(meshes[i], "/meshes/" + std::to_string(i), scene));
@@ -421,6 +437,7 @@ int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned ch
     return guarded_call([&]() -> Status {
         if (!frame || !bytes || !size)
             return usage(!frame ? "frame" : !bytes ? "bytes" : "size", "is NULL");
+        BN_TRY(check_exposure(exposure_ev));
         Result<std::string> png = encode_png(tonemap_to_srgb8(frame->frame.color, Tonemap::pbr_neutral, exposure_ev));
         BN_TRY(png);
         frame->png = std::move(*png);
@@ -434,6 +451,7 @@ int burnish_write(const burnish_frame* frame, const char* path, float exposure_e
     return guarded_call([&]() -> Status {
         if (!frame || !path)
             return usage(frame ? "path" : "frame", "is NULL");
+        BN_TRY(check_exposure(exposure_ev));
         if (!frame->names.empty() && stores_channels(path))
             return write_channels(path, frame->layered.image, frame->layered.names);
         if (stores_floats(path))

@@ -51,6 +51,17 @@ Status put(const std::string& text, int& to)
     return failed == std::errc() && next == text.data() + text.size() ? Status() : Status(wrong("'" + text + "' is no whole number"));
 }
 
+// Reads a whole number from `least` to `most`.
+Status put_within(const std::string& text, int& to, int least, int most)
+{
+    int value = 0;
+    BN_TRY(put(text, value));
+    if (value < least || value > most)
+        return wrong("'" + text + "' does not lie in " + std::to_string(least) + ".." + std::to_string(most));
+    to = value;
+    return {};
+}
+
 Status put(const std::string& text, bool& to)
 {
     if (text != "true" && text != "false" && text != "1" && text != "0")
@@ -178,7 +189,7 @@ const std::vector<COption>& c_options()
             {"samples", "Samples of the technique, or samples a pixel of the reference",
              [](CSettings& to, const std::string& v) {
                  to.samples_given = true;
-                 return put(v, to.desc.samples);
+                 return put_within(v, to.desc.samples, 1, 0x7fffffff);
              }},
             {"roughness", "Overrides the roughness of every material, 0 to 1",
              [](CSettings& to, const std::string& v) { return put(v, to.desc.roughness); }},
@@ -196,17 +207,19 @@ const std::vector<COption>& c_options()
             {"orbit", "View of the whole scene from AZIMUTH,ELEVATION degrees",
              [](CSettings& to, const std::string& v) { return put(v, to.orbit_deg); }},
             {"fov", "Vertical field of view in degrees", [](CSettings& to, const std::string& v) { return put(v, to.fov_deg); }},
-            {"camera", "Camera of the scene, by index", [](CSettings& to, const std::string& v) { return put(v, to.camera); }},
+            {"camera", "Camera of the scene, by index",
+             [](CSettings& to, const std::string& v) { return put_within(v, to.camera, 0, 0x7fffffff); }},
             {"layers", "Layers of the picture, with commas between: depth, normal, albedo, ...", set_layers},
             {"reference_mode", "Paths of the reference: direct, shadowed or path", set_mode},
             {"bounces", "Bounces of the reference in mode path",
-             [](CSettings& to, const std::string& v) { return put(v, to.reference.bounces); }},
-            {"threads", "Worker threads; 0: all cores", [](CSettings& to, const std::string& v) { return put(v, to.open.threads); }},
+             [](CSettings& to, const std::string& v) { return put_within(v, to.reference.bounces, 0, 1000); }},
+            {"threads", "Worker threads; 0: all cores",
+             [](CSettings& to, const std::string& v) { return put_within(v, to.open.threads, 0, 1024); }},
             {"floor", "Floor below the scene: off, shadow or stage", set_floor},
             {"env_size", "Texels along an edge of the environment's cube map",
-             [](CSettings& to, const std::string& v) { return put(v, to.open.environment.cube_size); }},
+             [](CSettings& to, const std::string& v) { return put_within(v, to.open.environment.cube_size, 16, 2048); }},
             {"env_samples", "Samples a texel of the prefiltered environment",
-             [](CSettings& to, const std::string& v) { return put(v, to.open.environment.samples); }},
+             [](CSettings& to, const std::string& v) { return put_within(v, to.open.environment.samples, 1, 1 << 20); }},
             {"env_rotation", "Rotation of the environment in degrees",
              [](CSettings& to, const std::string& v) { return put(v, to.open.environment.rotation_deg); }},
             {"env_exposure", "Exposure of the environment in stops",
@@ -261,8 +274,6 @@ Result<CSettings> settings_of(const burnish_options* options)
     }
     if (const TechniqueInfo* technique = find_technique(settings.desc.technique); technique && !settings.samples_given)
         settings.desc.samples = technique->default_samples;
-    else if (technique)
-        settings.desc.samples = std::max(1, settings.desc.samples);
     settings.floor.threads = settings.open.threads, settings.floor.use_cache = settings.open.environment.use_cache;
     return settings;
 }

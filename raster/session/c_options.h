@@ -17,7 +17,6 @@ namespace burnish {
 struct CSettings {
     OpenOptions open;
     FloorSettings floor;
-    MaterialOverrides overrides;
     FrameDesc desc;
     bool samples_given = false;
     ReferenceOptions reference;

@@ -66,7 +66,8 @@ def on_device(bench):
 def other(bench):
     bench.run(*POT, "--budget", "0.1", "--plan-out", "plan.json").expect(0)
     for words, place in ((("--size", "320x200"), "/size"), (("--env", "builtin:sky"), "/environment"), (("--zoom", "2"), "/view"),
-                         (("--roughness", "0.3"), "/content"), (("--env-exposure", "1"), "/content")):
+                         (("--roughness", "0.3"), "/content"), (("--env-exposure", "1"), "/content"), (("--msaa", "4"), "/content"),
+                         (("--axis-k", "2"), "/content")):
         bench.run(*POT, "--plan", "plan.json", *words).expect(4).expect_one_line("plan.json", place)
     bench.run("render", "builtin:spheres", *POT[2:], "--plan", "plan.json").expect(4).expect_one_line("plan.json", "/scene")
     plan = stats_of(bench, "plan.json")
@@ -88,10 +89,15 @@ def wrong(bench):
             (("--budget", "0.1", "--backend", "reference"), "reference"), (("--budget", "0.1", "--plan", "p.json"), "--plan"),
             (("--budget", "0.1", "--technique", "mc", "--samples", "64"), "nothing to choose"),
             (("--budget", "0.01", "--technique", "split_isotropic"), "no setting reaches"),
-            (("--budget", "0.1", "--technique", "filtered_is"), "--budget"), (("--plan", "p.json", "--samples", "4"), "--samples"),
+            (("--budget", "0.1", "--technique", "filtered_is"), "--budget"), (("--budget", "0.1", "--brdf", "ward", "--technique", "mc"), "--brdf"), (("--plan", "p.json", "--samples", "4"), "--samples"),
             (("--plan-out", "p.json"), "--plan-out"), (("--verify",), "--verify"), (("--budget", "0.1", "--risks", "-"), "--risks"),
             (("--budget", "0.1", "--verify", "--shadows", "on"), "--verify")):
         bench.run(*POT, *words).expect(2).expect_one_line(needle)
+    # No input is overwritten, and no file is named twice
+    (bench.folder / "own.json").write_text("{}")
+    bench.run(*POT, "--plan", "own.json", "--stats", "own.json").expect(2).expect_one_line("own.json")
+    bench.run(*POT, "--budget", "0.1", "--plan-out", "x.json", "--stats", "x.json").expect(2).expect_one_line("x.json")
+    bench.run(*POT, "--budget", "0.1", "--plan-out", "none/x.json").expect(7).expect_one_line("none")
 
 
 @case("budget.of_time_takes_the_least_error_within_it")
@@ -105,22 +111,30 @@ def time(bench):
     # A budget of errors goes first
     bench.run(*POT, "--budget-ms", "100000", "--budget", "0.1", "--stats", "b.json").expect(0)
     check(stats_of(bench, "b.json")["plan"]["predicted_flip"] > plan["predicted_flip"], "the error does not go first")
-    for words in (("--backend", "reference"), ("--backend", "vulkan"), ("--plan", "p.json")):
-        bench.run(*POT, "--budget-ms", "10", *words).expect(2).expect_one_line("-")
+    for words, needle in ((("--backend", "reference"), "--budget-ms"), (("--backend", "vulkan"), "--budget-ms"), (("--plan", "p.json"), "--plan")):
+        bench.run(*POT, "--budget-ms", "10", *words).expect(2).expect_one_line(needle)
 
 
 @case("budget.keeps_what_is_fixed")
 def fixed(bench):
     done = bench.run(*POT, "--budget", "0.1", "--technique", "lobe_line", "--plan-out", "plan.json").expect(0)
     check({t for t, _ in settings_of(bench, "plan.json")} <= {"lobe_line", "auto"} and "samples of lobe_line alone" in done.err, done.err)
+    bench.run(*POT, "--budget", "0.2", "--samples", "512", "--plan-out", "plan.json").expect(0)
+    check({n for _, n in settings_of(bench, "plan.json")} <= {1, 512, 36}, settings_of(bench, "plan.json"))
+    for samples in ("20", "65536"):
+        bench.run(*POT, "--budget", "0.2", "--samples", samples).expect(2).expect_one_line("costs are not known")
+    # The default, written out, fixes nothing; parameters have readers among the plan's techniques
+    done = bench.run(*POT, "--budget", "0.1", "--technique", "auto", "--seed", "7").expect(0)
+    check("alone" not in done.err and "no effect" not in done.err, done.err)
 
 
 @case("budget.stands_aside_where_a_plan_costs_more_than_it_saves")
 def aside(bench):
     empty = ("--eye", "0,5,0", "--target", "0,9,0.1", "--floor", "off", "--size", "320x180")
     for words in (("--size", "96x64"), empty):
-        done = bench.run("render", "builtin:teapot", *SMALL, *words, "--budget", "0.05", "--stats", "a.json").expect(0)
-        check("stands aside" in done.err and "plan" not in stats_of(bench, "a.json"), done.err)
+        done = bench.run("render", "builtin:teapot", *SMALL, *words, "--budget", "0.05", "--stats", "a.json", "--plan-out", "none.json").expect(0)
+        check("stands aside" in done.err and "no plan to write" in done.err and "plan" not in stats_of(bench, "a.json"), done.err)
+        check(not (bench.folder / "none.json").exists(), "a plan was written")
         bench.run("render", "builtin:teapot", *SMALL, *words, "--stats", "b.json").expect(0)
         check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the picture changed")
 
@@ -134,6 +148,6 @@ def verify(bench):
 
 @case("budget.one_plan_draws_an_animation")
 def animated(bench):
-    done = bench.run(*POT, "--budget", "0.06", "--turntable", "3", "--plan-out", "plan.json", "-o", "t_%d.pfm").expect(0)
-    check(done.err.count("mean HDR-FLIP") == 1, done.err)
+    done = bench.run(*POT, "--budget", "0.06", "--turntable", "3", "--plan-out", "plan.json", "-o", "t_%d.pfm", "--stats", "t.json").expect(0)
+    check(done.err.count("mean HDR-FLIP") == 1 and stats_of(bench, "t.json")["plan"]["budget"] == 0.06, done.err)
     bench.run(*POT, "--plan", "plan.json", "--turntable", "3").expect(2).expect_one_line("--plan")

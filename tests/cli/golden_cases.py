@@ -58,6 +58,26 @@ def whole_way(bench):
     check(verdicts(bench) == {"pot": "passed", "plate": "passed", "ball": "differs"}, verdicts(bench))
 
 
+@case("golden.bless_writes_where_the_manifest_says")
+def tampered(bench):
+    """Results may come from somebody else's machine."""
+    (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
+    write(bench, [{"name": "a", "picture": "a.ppm"}])
+    bench.run("golden", "check", "m.json").expect(5)
+    path = bench.folder / "golden-results/results.jsonl"
+    path.write_text(path.read_text().replace("goldens/a.ppm", "outside.ppm"))
+    bench.run("golden", "bless", "m.json").expect(0)
+    check(not (bench.folder / "outside.ppm").exists() and (bench.folder / "goldens/a.ppm").exists(), "written elsewhere")
+    path.write_text(path.read_text().replace('"missing"', '"bogus"'))
+    bench.run("golden", "bless", "m.json").expect(4).expect_one_line("line 1")
+    # From another folder the same files are meant
+    (bench.folder / "goldens/a.ppm").unlink()
+    (bench.folder / "sub").mkdir()
+    bench.run("golden", "check", "sub/../m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    check((bench.folder / "goldens/a.ppm").exists(), "no golden")
+
+
 @case("golden.draws_with_any_program")
 def commands(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))
@@ -79,7 +99,8 @@ def failing(bench):
     (bench.folder / "old.png").write_bytes(b"")
     bad = {"ends": ["sh", "-c", "echo no >&2; exit 3"], "hangs": ["sh", "-c", "sleep 60 & sleep 60"], "dies": ["sh", "-c", "kill -9 $$"],
            "writes nothing": ["true"], "absent": ["./no-such-program"]}
-    rows = [{"name": name, "command": words, "picture": "old.png", "seconds": 0.5} for name, words in bad.items()]
+    rows = [{"name": name, "command": words, "picture": "old.png" if name == "writes nothing" else f"{i}.png", "seconds": 0.5}
+            for i, (name, words) in enumerate(bad.items())]
     rows.append({"name": "no picture", "picture": "absent.png"})
     rows.append({"name": "no scene", "scene": "absent.glb"})
     write(bench, rows)
@@ -105,6 +126,7 @@ def shards(bench):
     files = lambda folder: {str(p.relative_to(bench.folder / folder)): p.read_bytes() for p in (bench.folder / folder).rglob("*") if p.is_file()}
     check(files("merged") == files("whole"), "other files")
     bench.run("golden", "merge", "s1", "s1", "-o", "twice").expect(4).expect_one_line("s1", "earlier folder")
+    bench.run("golden", "merge", "s1", "s3", "-o", "twice").expect(4).expect_one_line("2 of 3 shards")
     bench.run("golden", "merge", "s1", "-o", "s1").expect(2).expect_one_line("-o")
     for bad in ("0/3", "4/3", "1/", "1/3x", "a"):
         bench.run("golden", "check", "m.json", "--shard", bad).expect(2).expect_one_line("--shard")
@@ -186,13 +208,21 @@ def mistakes(bench):
         (bench.folder / "m.json").write_text(text)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
     bench.run("golden", "check", "absent.json").expect(4).expect_one_line("absent.json")
-    # A folder with other files is never emptied
+    for rows, place in (([{"name": "a", "picture": "x.png", "golden": "./x.png"}], "/rows/0/golden"), ([{"name": "a", "command": [], "picture": "x.png"}], "/rows/0/command"),
+                        ([{"name": n, "picture": "x.png", "golden": "g.png"} for n in "ab"], "/rows/1/golden"), ([{**pot, "keep": "hash", "mask": "m.png"}], "/rows/0/mask"),
+                        ([{"name": n, "command": ["true"], "picture": "x.png"} for n in "ab"], "/rows/1/picture"), ([{"name": "\u202e", "picture": "x.png"}], "/rows/0/name")):
+        write(bench, rows)
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
+    # A folder with other files is never emptied, nor one with an input
     (bench.folder / "mine/pictures").mkdir(parents=True)
     (bench.folder / "mine/pictures/a.png").write_text("mine")
     write(bench, [pot])
     bench.run("golden", "check", "m.json", "-o", "mine").expect(2).expect_one_line("-o", "mine")
     bench.run("golden", "check", "m.json", "-o", ".").expect(2).expect_one_line("-o")
     check((bench.folder / "mine/pictures/a.png").read_text() == "mine", "a file is gone")
+    bench.run("golden", "check", "m.json", "-o", "old").expect(5)
+    bench.run("golden", "check", "old/pictures", "mine", "-o", "old").expect(2).expect_one_line("-o", "old/pictures")
+    check((bench.folder / "old/pictures/pot.png").exists(), "an input is gone")
     bench.run("golden", "bless", "m.json").expect(4).expect_one_line("results.jsonl", "golden check")
     bench.run("golden", "check", "m.json", "--from", "x").expect(2).expect_one_line("--from")
     bench.run("golden", "check", "m.json", "--flip", "0.1").expect(2).expect_one_line("--flip")
@@ -202,7 +232,7 @@ def mistakes(bench):
 @case("golden.hostile_names_stay_text")
 def hostile(bench):
     """Names are text in HTML, Markdown, annotations and file names."""
-    names = ["<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]
+    names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
     write(bench, [{"name": name, "picture": "a.ppm"} for name in names])
     done = bench.run("golden", "check", "m.json", env={"GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(bench.folder / "step.md")}).expect(5)
@@ -220,15 +250,16 @@ def hostile(bench):
 
 @case("golden.the_page_makes_the_list_to_bless", tier="nightly")
 def page(bench):
-    write(bench, ROWS)
+    rows = [*ROWS, {"name": "<!--<script>", "scene": "builtin:plate"}]
+    write(bench, rows)
     bench.run("golden", "check", "m.json").expect(5)
     bench.run("golden", "bless", "m.json").expect(0)
-    write(bench, [{**row, "options": ["--exposure", "0.5"]} for row in ROWS])
+    write(bench, [{**row, "options": ["--exposure", "0.5"]} for row in rows])
     bench.run("golden", "check", "m.json").expect(1)
     with Browser(bench.folder) as browser:
         browser.open(bench.folder / "golden-results/index.html")
-        check(browser.value("document.querySelectorAll('.view').length") == 2, "no picture under a slider")
-        check(browser.value("[...document.querySelectorAll('.view img')].every(i => !i.src || i.complete)"), "a picture is missing")
+        check(browser.value("document.querySelectorAll('.view').length") == 3, "no picture under a slider")
+        check(browser.value("[...document.querySelectorAll('.view img')].every(i => i.complete && i.naturalWidth > 0)"), "a picture is missing")
         browser.value("document.querySelectorAll('input.bless')[0].click()")
         names = browser.value("document.getElementById('list').value")
         check(not browser.faults, browser.faults)

@@ -116,10 +116,32 @@ for code, words, call in ((4, 'absent.glb', lambda: burnish.load('absent.glb')),
                           (2, 'technique', lambda: scene.render(technique='none')), (2, 'width', lambda: scene.render(width='wide')),
                           (2, 'sides', lambda: scene.render(width=65536)), (2, 'msaa', lambda: scene.render(msaa=-1)),
                           (2, 'eye', lambda: scene.render(eye=(1, 2))), (2, 'layer', lambda: scene.render(layers=['none'])),
+                          (2, 'samples', lambda: scene.render(samples=-5)), (2, 'threads', lambda: burnish.load('builtin:plate', threads=-1)),
+                          (2, 'exposure', lambda: scene.render({FRAME}).png(130)), (2, 'exposure', lambda: scene.render({FRAME}).save('x.png', float('nan'))),
                           (7, 'none/a.png', lambda: scene.render({FRAME}).save('none/a.png')), (4, 'absent.hdr', lambda: burnish.load('builtin:plate', 'absent.hdr'))):
     try: call()
     except burnish.Error as error: assert error.code == code and words in str(error), (error.code, str(error))
     else: raise SystemExit(words + ' was taken')
+import copy, pickle
+for thing in (scene, scene.render({FRAME})):
+    for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+        try: copied(thing)
+        except TypeError: pass
+        else: raise SystemExit('a copy frees twice')
+again = pickle.loads(pickle.dumps(burnish.Error(4, 'words')))
+assert again.code == 4 and str(again) == 'words'
+try: burnish.load('builtin:plate' + chr(0) + 'x')
+except ValueError: pass
+else: raise SystemExit('a zero byte was taken')
+class Short: shape = (64, 96, 3); tolist = lambda self: [0.0] * 9
+picture = scene.render({FRAME})
+assert burnish.compare(picture.pixels, picture).flip_mean == 0
+try: burnish.compare(Short(), picture)
+except ValueError: pass
+else: raise SystemExit('too few floats were taken')
+try: scene.reference(samples=10**9, {FRAME}, progress=lambda: scene.render({FRAME}))
+except (RuntimeError, burnish.Error): pass
+else: raise SystemExit('a scene drew while it drew')
 """)
     env = environment(bench, BURNISH_LIBRARY="absent.so")
     done = python(bench, "burnish.version()", code=1, env=env)

@@ -9,6 +9,7 @@ Colours are linear Rec.709 radiance as 32-bit floats; lengths are metres, angles
 Errors are exceptions of class Error with the program's words. numpy is not needed; where it is there, `numpy.asarray(picture)` copies nothing.
 """
 
+import contextlib
 import ctypes
 import threading
 
@@ -36,14 +37,17 @@ def options():
 class Picture:
     """A picture of `height` rows and `width` columns, 3 floats a pixel. Offers the buffer of its pixels and numpy's array interface."""
 
-    def __init__(self, frame, scene=None):
-        self._frame, self._scene = frame, scene
+    def __init__(self, frame):
+        self._frame, self._lock, self._free = frame, threading.Lock(), library().burnish_frame_free
         self.width, self.height = library().burnish_frame_width(frame), library().burnish_frame_height(frame)
 
     def __del__(self):
         if getattr(self, "_frame", None):
-            library().burnish_frame_free(self._frame)
+            self._free(self._frame)
             self._frame = None
+
+    def __reduce__(self):
+        raise TypeError("a Picture cannot be copied or pickled; numpy.array(picture) copies its pixels")
 
     def __repr__(self):
         return f"<burnish.Picture {self.width}x{self.height}, hash {self.hash}>"
@@ -83,8 +87,9 @@ class Picture:
     def png(self, exposure=0.0):
         """The picture as bytes of a PNG file. exposure: stops."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
-        _native.call("burnish_frame_png", self._frame, exposure, ctypes.byref(data), ctypes.byref(size))
-        return ctypes.string_at(data.value, size.value)
+        with self._lock:
+            _native.call("burnish_frame_png", self._frame, exposure, ctypes.byref(data), ctypes.byref(size))
+            return ctypes.string_at(data.value, size.value)
 
     def save(self, path, exposure=0.0):
         """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped)."""
@@ -98,20 +103,35 @@ class Scene:
     """A scene under an environment. One thread at a time may use it. Make it by load() or meshes()."""
 
     def __init__(self, session):
-        self._session = session
-        self._lock = threading.Lock()
+        self._session, self._close = session, library().burnish_close
+        self._lock, self._owner = threading.Lock(), None
 
     def __del__(self):
         if getattr(self, "_session", None):
-            library().burnish_close(self._session)
+            self._close(self._session)
             self._session = None
+
+    def __reduce__(self):
+        raise TypeError("a Scene cannot be copied or pickled")
+
+    @contextlib.contextmanager
+    def _alone(self):
+        """Keeps other threads out."""
+        if self._owner == threading.get_ident():
+            raise RuntimeError("this scene is drawing: a progress function cannot use it")
+        with self._lock:
+            self._owner = threading.get_ident()
+            try:
+                yield
+            finally:
+                self._owner = None
 
     def render(self, **keywords):
         """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ..."""
         frame = ctypes.c_void_p()
-        with _native.Options(keywords) as given, self._lock:
+        with _native.Options(keywords) as given, self._alone():
             _native.call("burnish_render", self._session, given, ctypes.byref(frame))
-        return Picture(frame, self)
+        return Picture(frame)
 
     def reference(self, samples=1024, progress=None, **keywords):
         """Draws a Picture by the Monte Carlo reference. progress: called without arguments about ten times a second; a true result
@@ -125,14 +145,14 @@ class Scene:
                 raised.append(error)
                 return 1
 
-        with _native.Options({**keywords, "samples": samples}) as given, self._lock:
+        with _native.Options({**keywords, "samples": samples}) as given, self._alone():
             code = library().burnish_reference(self._session, given, _native.POLL(poll), None, ctypes.byref(frame))
         if raised:
             raise raised[0]
         if code == _native.STOPPED:
             raise KeyboardInterrupt
         _native.check(code)
-        return Picture(frame, self)
+        return Picture(frame)
 
 
 class Mesh:

@@ -20,6 +20,9 @@ class Error(Exception):
         super().__init__(text)
         self.code = code
 
+    def __reduce__(self):
+        return Error, (self.code, str(self))
+
 
 class MeshStruct(ctypes.Structure):
     _fields_ = [("size", ctypes.c_size_t), ("positions", ctypes.POINTER(ctypes.c_float)), ("normals", ctypes.POINTER(ctypes.c_float)),
@@ -97,7 +100,10 @@ def listed(names, helps):
 
 
 def path(of):
-    return os.fsencode(of)
+    name = os.fsencode(of)
+    if b"\0" in name:
+        raise ValueError("a path holds a zero byte")
+    return name
 
 
 def text_of(value):
@@ -120,7 +126,10 @@ class Options:
         call("burnish_options_make", ctypes.byref(self.handle))
         try:
             for name, value in keywords.items():
-                call("burnish_options_set", self.handle, name.encode(), text_of(value).encode())
+                text = text_of(value)
+                if "\0" in name + text:
+                    raise ValueError(f"{name}: holds a zero character")
+                call("burnish_options_set", self.handle, name.encode(), text.encode())
         except BaseException:
             self.__exit__()
             raise
@@ -199,9 +208,13 @@ def numbers(values, each, name):
 def picture_of(of):
     """(address or array, width, height) of a Picture, or of an object with height x width x 3 floats."""
     if hasattr(of, "_frame"):
-        return library().burnish_frame_pixels(of._frame), of.width, of.height
+        of = of.pixels
     shape = getattr(of, "shape", None)
     if shape is None or len(shape) != 3 or shape[2] != 3:
         raise ValueError("a picture has height x width x 3 floats")
+    if isinstance(of, Values):
+        return of.address, shape[1], shape[0]
     held = floats(of, 3, "picture")
+    if len(held) != shape[0] * shape[1] * 3:
+        raise ValueError(f"a picture of shape {tuple(shape)} has {len(held)} floats")
     return ctypes.cast(held, ctypes.c_void_p), shape[1], shape[0]
