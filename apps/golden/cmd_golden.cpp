@@ -93,7 +93,7 @@ bool is_folder(const std::string& path)
 // Reads the manifest, or the two folders.
 Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
 {
-    if (arguments.paths.size() == 2 && is_folder(arguments.paths[0]))
+    if (arguments.paths.size() == 2)
         return manifest_of_folders(arguments.paths[0], arguments.paths[1], arguments.limits);
     if (arguments.paths.size() != 1)
         return usage_error("PATH", "is one manifest, or two folders: the expected pictures and the actual ones");

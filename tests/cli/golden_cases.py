@@ -226,7 +226,8 @@ def mistakes(bench):
     bench.run("golden", "bless", "m.json").expect(4).expect_one_line("results.jsonl", "golden check")
     bench.run("golden", "check", "m.json", "--from", "x").expect(2).expect_one_line("--from")
     bench.run("golden", "check", "m.json", "--flip", "0.1").expect(2).expect_one_line("--flip")
-    bench.run("golden", "check", "m.json", "m.json").expect(2).expect_one_line("PATH")
+    bench.run("golden", "check", "m.json", "m.json").expect(4).expect_one_line("m.json")
+    bench.run("golden", "check", "m.json", "m.json", "m.json").expect(2).expect_one_line("PATH")
 
 
 @case("golden.hostile_names_stay_text")
