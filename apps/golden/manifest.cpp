@@ -215,8 +215,14 @@ std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t b
     return fmt::format("line {}, column {}", line, column);
 }
 
-const std::set<std::string> kPictureExtensions = {".png", ".exr",  ".hdr",  ".pfm", ".tif", ".tiff",
-                                                  ".jpg", ".jpeg", ".webp", ".bmp", ".ppm"};
+bool is_picture(const fs::path& path)
+{
+    const std::string extension = path.extension().string();
+    for (const char* known : {".png", ".exr", ".hdr", ".pfm", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", ".bmp", ".ppm"})
+        if (extension == known)
+            return true;
+    return false;
+}
 
 } // namespace
 
@@ -264,7 +270,7 @@ Result<GoldenManifest> manifest_of_folders(const std::string& expected, const st
             return Error{ExitCode::bad_input, folder, "", failed.message()};
         for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
             std::error_code ignored; // of a link to nowhere, whose row then fails
-            if (kPictureExtensions.contains(at->path().extension().string()) && !at->is_directory(ignored))
+            if (is_picture(at->path()) && !at->is_directory(ignored))
                 names.insert(at->path().lexically_relative(folder).string());
         }
     }

@@ -26,8 +26,7 @@ constexpr double kMostShare = 0.5;   // the same at most: where noise is skewed,
 constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;
-constexpr int kBlock = 8;           // pixels a side of a block, whose errors count as independent
-constexpr double kNoiseDecay = 0.4; // FLIP of mc falls at least with this power of its samples, also where few of them meet the light
+constexpr int kBlock = 8; // pixels a side of a block, whose errors count as independent
 constexpr int kUnseen = -1;
 
 // Materials of the probe's pixels; kUnseen for pixels without a solid surface, or with blended surfaces before it.
@@ -265,7 +264,7 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         for (std::size_t m = 0; m < count; ++m) {
             if (materials.pixels[m] == 0.0)
                 continue;
-            const double random = noise[m] * det_pow(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples), kNoiseDecay);
+            const double random = noise[m] * flip_of(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
             const double error = prefiltered(s) ? flip_of(squared(distances[at][m]) + squared(own[m])) : random;
             probe.materials[m].settings.push_back({s, error, costs[m]});
         }
