@@ -18,11 +18,11 @@ namespace {
 constexpr double kLeastPixels = 14400;          // of a probe, unless the step would be below
 constexpr int kLeastStep = 4, kMostStep = 8;    // pixels of the frame a side of one of the probe's
 constexpr float kProbePpd = 0.5f * kDefaultPpd; // between the frame's filter and one as fine as the probe
-constexpr int kRandomSamples = 64;              // of mc, for each of two seeds
+constexpr int kRandomSamples = 32;              // of mc, for each of two seeds
 constexpr std::uint32_t kSeeds[] = {0x51ed270b, 0x2545f491};
 constexpr double kPriorShare = 0.25; // error of the best prefiltered setting over its distance to a single fetch; see the notebook
 constexpr double kLeastShare = 0.05; // the same at least
-constexpr double kMostShare = 0.5;   // the same at most: where noise is skewed, two noisy pictures deceive
+constexpr double kMostShare = 0.8;   // the same at most: where noise is skewed, two noisy pictures deceive
 constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;

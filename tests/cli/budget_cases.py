@@ -27,7 +27,7 @@ def holds(bench):
     """The error stays below the budget, at the cost of fewer instructions; materials get settings of their own."""
     bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "truth.pfm").expect(0)
     before = 0.0
-    for budget in (0.1, 0.05):
+    for budget in (0.2, 0.08):
         name = f"b{budget}"
         done = bench.run(*POT, "--budget", budget, "-o", f"{name}.pfm", "--stats", f"{name}.json", "--plan-out", "plan.json").expect(0)
         plan, error = stats_of(bench, f"{name}.json")["plan"], flip(bench, "truth.pfm", f"{name}.pfm")
