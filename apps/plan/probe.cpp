@@ -11,6 +11,7 @@
 #include "core/math/scalar_math.h"
 #include "core/scene/draw_tables.h"
 #include "shading/lang/records.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 namespace {
