@@ -27,7 +27,8 @@ constexpr double kMostShare = 0.8;   // the same at most: where noise is skewed,
 constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;
-constexpr int kBlock = 8; // pixels a side of a block, whose errors count as independent
+constexpr int kBlock = 8;         // pixels a side of a block, whose errors count as independent
+constexpr int kMostExposures = 6; // of HDR-FLIP, over the range of the frame
 constexpr int kUnseen = -1;
 
 // Materials of the probe's pixels; kUnseen for pixels without a solid surface, or with blended surfaces before it.
@@ -211,7 +212,7 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     const double noisy_ms = 0.5 * (process_cpu_ms() - begin);
     FlipOptions flip;
     const FlipExposures range = find_exposures(first->color, flip, jobs);
-    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
+    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = std::min(range.count, kMostExposures);
     flip.ppd = kProbePpd;
     const auto error_of = [&](const Image& a, const Image& b) { return flip_hdr(a, b, flip, jobs).error; };
     const Image of_noise = error_of(one->color, other->color);

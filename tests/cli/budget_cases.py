@@ -39,7 +39,7 @@ def holds(bench):
     check(len(set(settings_of(bench, "plan.json"))) > 1, "all materials have one setting")
 
 
-@case("budget.plans_are_drawn_again_with_the_same_pixels")
+@case("budget.plans_are_drawn_again_with_the_same_pixels", budget=10)
 def replayed(bench):
     bench.run(*POT, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)
     for i, words in enumerate((("--threads", "1"), ("--isa", "scalar"), ("--tile-size", "32"))):
@@ -62,7 +62,7 @@ def on_device(bench):
         check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the device draws other pixels")
 
 
-@case("budget.plan_of_something_else_is_refused_by_name")
+@case("budget.plan_of_something_else_is_refused_by_name", budget=10)
 def other(bench):
     bench.run(*POT, "--budget", "0.1", "--plan-out", "plan.json").expect(0)
     for words, place in ((("--size", "320x200"), "/size"), (("--env", "builtin:sky"), "/environment"), (("--zoom", "2"), "/view"),
@@ -81,7 +81,7 @@ def other(bench):
     bench.run(*POT, "--plan", "absent.json").expect(4).expect_one_line("absent.json")
 
 
-@case("budget.wrong_options_say_one_line_and_exit_2")
+@case("budget.wrong_options_say_one_line_and_exit_2", budget=10)
 def wrong(bench):
     for words, needle in (
             (("--budget", "0"), "no technique is exact"), (("--budget", "-1"), "--budget"), (("--budget", "nan"), "--budget"),
@@ -100,7 +100,7 @@ def wrong(bench):
     bench.run(*POT, "--budget", "0.1", "--plan-out", "none/x.json").expect(7).expect_one_line("none")
 
 
-@case("budget.of_time_takes_the_least_error_within_it")
+@case("budget.of_time_takes_the_least_error_within_it", budget=10)
 def time(bench):
     done = bench.run(*POT, "--budget-ms", "100000", "--stats", "a.json").expect(0)
     plan = stats_of(bench, "a.json")["plan"]
@@ -115,7 +115,7 @@ def time(bench):
         bench.run(*POT, "--budget-ms", "10", *words).expect(2).expect_one_line(needle)
 
 
-@case("budget.keeps_what_is_fixed")
+@case("budget.keeps_what_is_fixed", budget=10)
 def fixed(bench):
     done = bench.run(*POT, "--budget", "0.1", "--technique", "lobe_line", "--plan-out", "plan.json").expect(0)
     check({t for t, _ in settings_of(bench, "plan.json")} <= {"lobe_line", "auto"} and "samples of lobe_line alone" in done.err, done.err)
@@ -128,7 +128,7 @@ def fixed(bench):
     check("alone" not in done.err and "no effect" not in done.err, done.err)
 
 
-@case("budget.stands_aside_where_a_plan_costs_more_than_it_saves")
+@case("budget.stands_aside_where_a_plan_costs_more_than_it_saves", budget=10)
 def aside(bench):
     empty = ("--eye", "0,5,0", "--target", "0,9,0.1", "--floor", "off", "--size", "320x180")
     for words in (("--size", "96x64"), empty):
@@ -146,7 +146,7 @@ def verify(bench):
     check(found and 0 < float(found[1]) < 0.1, done.describe())
 
 
-@case("budget.one_plan_draws_an_animation")
+@case("budget.one_plan_draws_an_animation", budget=10)
 def animated(bench):
     done = bench.run(*POT, "--budget", "0.06", "--turntable", "3", "--plan-out", "plan.json", "-o", "t_%d.pfm", "--stats", "t.json").expect(0)
     check(done.err.count("mean HDR-FLIP") == 1 and stats_of(bench, "t.json")["plan"]["budget"] == 0.06, done.err)

@@ -58,7 +58,7 @@ def whole_way(bench):
     check(verdicts(bench) == {"pot": "passed", "plate": "passed", "ball": "differs"}, verdicts(bench))
 
 
-@case("golden.bless_writes_where_the_manifest_says")
+@case("golden.bless_writes_where_the_manifest_says", budget=10)
 def tampered(bench):
     """Results may come from somebody else's machine."""
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
@@ -78,7 +78,7 @@ def tampered(bench):
     check((bench.folder / "goldens/a.ppm").exists(), "no golden")
 
 
-@case("golden.draws_with_any_program")
+@case("golden.draws_with_any_program", budget=10)
 def commands(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))
     copy = program(bench, "copy.sh", 'cp "$FROM" "$1"; echo made "$1"')
@@ -94,7 +94,7 @@ def commands(bench):
     check("50.0 % of the pixels differ, within 1x1 pixels from 1,0" in results(bench)["there"]["reason"], results(bench))
 
 
-@case("golden.programs_that_fail_are_named")
+@case("golden.programs_that_fail_are_named", budget=10)
 def failing(bench):
     (bench.folder / "old.png").write_bytes(b"")
     bad = {"ends": ["sh", "-c", "echo no >&2; exit 3"], "hangs": ["sh", "-c", "sleep 60 & sleep 60"], "dies": ["sh", "-c", "kill -9 $$"],
@@ -132,7 +132,7 @@ def shards(bench):
         bench.run("golden", "check", "m.json", "--shard", bad).expect(2).expect_one_line("--shard")
 
 
-@case("golden.folders_need_no_manifest")
+@case("golden.folders_need_no_manifest", budget=10)
 def folders(bench):
     for folder in ("e/sub", "a/sub"):
         (bench.folder / folder).mkdir(parents=True)
@@ -191,7 +191,7 @@ def noise(bench):
     check("z-test" in results(bench)["noisy"]["reason"], results(bench))
 
 
-@case("golden.mistakes_of_a_manifest_have_their_place")
+@case("golden.mistakes_of_a_manifest_have_their_place", budget=10)
 def mistakes(bench):
     pot = {"name": "pot", "scene": "builtin:teapot"}
     for rows, place in (([], "/rows"), ([1], "/rows/0"), ([{"scene": "builtin:teapot"}], "/rows/0/name"), ([pot, pot], "/rows/1/name"),
@@ -230,7 +230,7 @@ def mistakes(bench):
     bench.run("golden", "check", "m.json", "m.json", "m.json").expect(2).expect_one_line("PATH")
 
 
-@case("golden.hostile_names_stay_text")
+@case("golden.hostile_names_stay_text", budget=10)
 def hostile(bench):
     """Names are text in HTML, Markdown, annotations and file names."""
     names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]

@@ -84,7 +84,7 @@ assert burnish.compare(picture, values.astype('f8')).differing_fraction == 0
 """, program)
 
 
-@case("python.makes_scenes_of_meshes")
+@case("python.makes_scenes_of_meshes", budget=10)
 def meshes(bench):
     done = python(bench, f"""
 square = dict(positions=[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], triangles=[(0, 1, 2), (0, 2, 3)], coordinates=[0, 1, 1, 1, 1, 0, 0, 0])
@@ -108,7 +108,7 @@ refused(burnish.Error, '/meshes/0/transform/3', transform=[1, 0, 0, float('inf')
     check(len(set(done.stdout.split())) == 2, done.stdout)
 
 
-@case("python.errors_are_exceptions")
+@case("python.errors_are_exceptions", budget=10)
 def errors(bench):
     python(bench, f"""
 scene = burnish.load('builtin:plate', {KEYWORDS})
