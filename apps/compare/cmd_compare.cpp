@@ -8,6 +8,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/compare/alpha.h"
+#include "apps/compare/displayed.h"
 #include "apps/compare/figures.h"
 #include "apps/compare/options.h"
 #include "core/image/io/image_io.h"
@@ -68,12 +69,6 @@ Status check_paths(const CompareOptions& options)
             if (same_file(outputs[i].second, outputs[j].second))
                 return Error{ExitCode::usage, outputs[i].second, "", "is given twice as an output"};
     return {};
-}
-
-std::string describe(const Image& image)
-{
-    const char* type = image.type == PixelType::u8 ? "8 bits" : image.type == PixelType::u16 ? "16 bits" : "floats";
-    return fmt::format("{}x{}, {} channel{}, {}", image.width, image.height, image.channels, image.channels == 1 ? "" : "s", type);
 }
 
 // Refuses pictures of different size or format. 8 and 16 bits match: both are display values.

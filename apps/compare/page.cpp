@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/compare/displayed.h"
 #include "apps/compare/figures.h"
 #include "apps/compare/histogram.h"
 #include "apps/report/assets.h"
@@ -25,20 +26,6 @@ figcaption { overflow-wrap: anywhere; }
 table { margin: 1.5rem 0; }
 th, td, td:first-child { text-align: left; vertical-align: top; white-space: normal; }
 )";
-
-// Converts to display values: floats are exposed and tonemapped, 16 bits are reduced to 8.
-Image displayed(const Image& image, float exposure_ev)
-{
-    if (image.type == PixelType::f32)
-        return tonemap_to_srgb8(image, Tonemap::pbr_neutral, exposure_ev);
-    if (image.type == PixelType::u8)
-        return image;
-    Image out = make_image(image.width, image.height, image.channels, PixelType::u8);
-    const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(image.bytes.data());
-    for (std::size_t i = 0; i < out.bytes.size(); ++i)
-        out.bytes[i] = static_cast<std::byte>((from[i] + 128u) / 257u);
-    return out;
-}
 
 Result<std::string> figure(const std::string& id, const std::string& title, const std::string& caption, const Image& image)
 {

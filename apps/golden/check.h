@@ -33,8 +33,8 @@ struct GoldenSetting {
     const std::atomic<bool>* stop = nullptr;
 };
 
-// Makes and judges one row. Writes below the results' folder: pictures/STEM.EXT, the new picture; logs/STEM.txt; for the page
-// shown/STEM.png, and STEM.golden.png, STEM.error.png where there is a golden with other values.
+// Makes and judges one row. Writes pictures/STEM.EXT, the new picture, and logs/STEM.txt below the results' folder. For the page it writes
+// shown/STEM.png, and shown/STEM%golden.png and shown/STEM%error.png where values differ.
 GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs);
 
 bool file_exists(const std::string& path);

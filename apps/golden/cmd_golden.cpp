@@ -38,11 +38,12 @@ A manifest is a JSON object. "rows" lists pictures:
   {"name": "pot", "scene": "builtin:teapot", "options": ["--size", "320x180"]}      drawn by burnish render
   {"name": "page", "command": ["node", "draw.js"], "picture": "out/page.png"}       drawn by any program
   {"name": "old", "picture": "out/old.exr"}                                         there already
-Rows may have "hold": {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE} in place of equal values, "mask" (black pixels do not count),
-"seconds" (300), "environment" (variables), "format" of scenes (png), "golden" (goldens/NAME.png), and "keep": "hash" for a golden that is
-a hash. "defaults" holds the same members, and "options" of scenes. Paths are relative to the manifest, and programs run beside it.
+Rows may have "hold", limits in place of equal values: {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE}. "mask" is a picture whose
+black pixels do not count. "keep": "hash" makes the golden a hash. Further members: "seconds" (300), "environment" (variables), "format" of
+scenes (png), "golden" (goldens/NAME.png). "defaults" holds the same members, and "options" of scenes. Paths are relative to the manifest, and
+programs run beside it.
 
-The results' folder gets index.html with what differs, results.jsonl, junit.xml, summary.md, all new pictures and the programs' output. On
+The results' folder gets index.html with the differences, results.jsonl, junit.xml, summary.md, all new pictures and the programs' output. On
 GitHub, annotations and the step's summary are written too.
 
 Exit codes: 0 all passed, 1 a picture differs, 4 a picture could not be made or the manifest is wrong, 5 a golden is missing.

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <fmt/core.h>
 
-#include "core/image/colour.h"
+#include "apps/compare/displayed.h"
 #include "core/image/io/image_io.h"
 #include "core/image/magma.h"
 #include "core/image/metrics/flip.h"
@@ -23,12 +23,6 @@ constexpr double kMoved = 1.0;         // pixels; a highlight that moved less is
 std::size_t value_bytes(PixelType type)
 {
     return type == PixelType::u8 ? 1 : type == PixelType::u16 ? 2 : 4;
-}
-
-std::string shape_of(const Image& image)
-{
-    const char* type = image.type == PixelType::u8 ? "8 bits" : image.type == PixelType::u16 ? "16 bits" : "floats";
-    return fmt::format("{}x{} with {} channels of {}", image.width, image.height, image.channels, type);
 }
 
 // Copies the golden's values where the mask is black.
@@ -125,15 +119,7 @@ std::string excess(const char* name, double value, const std::optional<double>& 
 
 Status show(const Image& image, float exposure_ev, const std::string& path)
 {
-    if (image.type == PixelType::u8)
-        return write_image(path, image);
-    if (image.type == PixelType::f32)
-        return write_image(path, tonemap_to_srgb8(image, Tonemap::pbr_neutral, exposure_ev));
-    Image out = make_image(image.width, image.height, image.channels, PixelType::u8);
-    const std::uint16_t* from = reinterpret_cast<const std::uint16_t*>(image.bytes.data());
-    for (std::size_t i = 0; i < out.bytes.size(); ++i)
-        out.bytes[i] = static_cast<std::byte>((from[i] + 128u) / 257u);
-    return write_image(path, out);
+    return write_image(path, displayed(image, exposure_ev));
 }
 
 void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, const std::string& shown, GoldenResult& result)
@@ -144,10 +130,10 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
     // Compare shapes, then values
     if (golden.width != picture.width || golden.height != picture.height || golden.channels != picture.channels ||
         golden.type != picture.type)
-        return fails(GoldenVerdict::differs, fmt::format("it is {}, the golden {}", shape_of(picture), shape_of(golden)));
+        return fails(GoldenVerdict::differs, fmt::format("it is {}; the golden is {}", describe(picture), describe(golden)));
     if (input.mask) {
         if (input.mask->width != picture.width || input.mask->height != picture.height)
-            return fails(GoldenVerdict::failed, fmt::format("its mask is {}, the picture {}", shape_of(*input.mask), shape_of(picture)));
+            return fails(GoldenVerdict::failed, fmt::format("its mask is {}; the picture is {}", describe(*input.mask), describe(picture)));
         apply_mask(*input.mask, golden, picture);
     }
     if (golden.bytes == picture.bytes)

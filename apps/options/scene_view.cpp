@@ -135,6 +135,15 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
     return chosen;
 }
 
+glm::vec3 to_eye(const View& view, int width, int height, int x, int y)
+{
+    if (view.orthographic)
+        return -view.forward;
+    const float sx = (static_cast<float>(x) + 0.5f) / static_cast<float>(width) * 2.0f - 1.0f,
+                sy = 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(height) * 2.0f;
+    return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
+}
+
 std::string world_place(const glm::vec3& place, const Scene& scene, int digits)
 {
     const glm::dvec3 p = glm::dvec3(place) + scene.origin;

@@ -26,6 +26,9 @@ Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene,
 // Returns "--eye X,Y,Z --target X,Y,Z --fov DEG" for the same view, up to rounding and camera roll.
 std::string camera_options(const View& view, const Scene& scene, const DrawTables& tables);
 
+// Returns the unit direction from the surface at pixel (x, y) of a picture to the eye.
+glm::vec3 to_eye(const View& view, int width, int height, int x, int y);
+
 // Formats a point of the draw tables as "X,Y,Z" in world space, metres.
 std::string world_place(const glm::vec3& place, const Scene& scene, int digits);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/options/scene_view.h"
 #include "core/base/check.h"
 #include "raster/frame/frame_record.h"
 #include "shading/techniques/lobe_line.k.h"
@@ -49,15 +50,11 @@ PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc)
 {
     PixelLobes lobes;
     lobes.of.resize(frame.layers.size());
-    const View& view = desc.view;
     for (std::size_t p = 0; p < lobes.of.size(); ++p) {
         const PixelLayers& at = frame.layers[p];
-        const std::size_t width = static_cast<std::size_t>(desc.width);
-        const float sx = (static_cast<float>(p % width) + 0.5f) / static_cast<float>(desc.width) * 2.0f - 1.0f,
-                    sy = 1.0f - (static_cast<float>(p / width) + 0.5f) / static_cast<float>(desc.height) * 2.0f;
-        const glm::vec3 ray =
-            view.orthographic ? view.forward : view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y);
-        const glm::vec3 v = -glm::normalize(ray), n(at.normal[0], at.normal[1], at.normal[2]),
+        const int x = static_cast<int>(p % static_cast<std::size_t>(desc.width)),
+                  y = static_cast<int>(p / static_cast<std::size_t>(desc.width));
+        const glm::vec3 v = to_eye(desc.view, desc.width, desc.height, x, y), n(at.normal[0], at.normal[1], at.normal[2]),
                         t(at.tangent[0], at.tangent[1], at.tangent[2]);
         const float alpha = at.roughness[0] * at.roughness[0], root2 = 1.41421356f;
         lobes.of[p] = {{glm::dot(v, t), glm::dot(v, glm::cross(n, t)), glm::dot(v, n)},

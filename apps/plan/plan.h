@@ -37,7 +37,7 @@ struct Plan {
     std::vector<MaterialTechnique> settings() const;
 };
 
-// Factor on predictions before they are held to a budget. 98 % of the errors lie below their prediction times this factor.
+// Factor on predictions before they are held to a budget; the notebook has errors over predictions.
 inline constexpr double kPlanSafety = 1.3;
 inline constexpr double kTimeSafety = 1.05; // the same for times
 

@@ -140,8 +140,8 @@ bool prefiltered(const MaterialTechnique& m)
     return !(find_technique(m.technique)->traits & kSamplesLobe);
 }
 
-// Returns the mean error of the best prefiltered setting on a material: the error without the noise, as far as it stands out, else a guess
-// by its distance to a single fetch.
+// Returns the mean error of the best prefiltered setting on a material. The measured error without its noise counts as far as it stands out
+// of its deviation. A guess by the distance to a single fetch counts for the rest.
 double own_error(const Moments& m, double fetch)
 {
     const double guess = kPriorShare * fetch, least = kLeastShare * fetch, risen = std::max(0.0, m.square - m.noise_square);

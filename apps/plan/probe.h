@@ -29,10 +29,10 @@ struct Probe {
 // Returns the settings with a measured cost.
 std::vector<MaterialTechnique> plannable_settings();
 
-// Draws the view at a quarter to an eighth of the frame's sides, with one sample a pixel, by each setting. A prefiltered setting's error is
-// its distance to the best one and the own error of that, which two noisy pictures by mc tell. The error of mc is their noise. The same
-// frame gives the same probe on every machine and number of threads. settings: those of plannable_settings() that the caller allows.
-// Expects a session of the tile renderer.
+// Draws the view at a quarter to an eighth of the frame's sides, with one sample a pixel, by each setting. The error of a prefiltered
+// setting is its distance to the best one, plus the best one's own error. Two noisy pictures by mc tell that error, and the noise of mc.
+// The same frame gives the same probe on every machine and number of threads, apart from times. settings: the allowed ones of
+// plannable_settings(). Expects a session of the tile renderer.
 Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings);
 
 } // namespace burnish

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "apps/cli/parse.h"
+#include "apps/options/scene_view.h"
 #include "apps/risks/assets.h"
 #include "apps/risks/blessed.h"
 #include "apps/risks/sky.h"
@@ -158,7 +159,6 @@ class Looker {
     };
     glm::vec2 extracted_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
     float median() const;
-    glm::vec3 to_eye(int x, int y) const;
     Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const;
     float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirror direction about h, which has any length
     {
@@ -188,16 +188,6 @@ float Looker::median() const
     const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
     std::nth_element(some.begin(), middle, some.end());
     return *middle;
-}
-
-glm::vec3 Looker::to_eye(int x, int y) const
-{
-    const View& view = desc_.view;
-    if (view.orthographic)
-        return -view.forward;
-    const float sx = (static_cast<float>(x) + 0.5f) / static_cast<float>(desc_.width) * 2.0f - 1.0f,
-                sy = 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(desc_.height) * 2.0f;
-    return -glm::normalize(view.forward + view.right * (sx * view.tan_half_x) + view.up * (sy * view.tan_half_y));
 }
 
 // Returns the luminance of the extracted lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
@@ -266,7 +256,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
 {
     const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(desc_.width) + static_cast<std::size_t>(x);
     const PixelLayers& at = frame_.layers[pixel];
-    const glm::vec3 v = to_eye(x, y);
+    const glm::vec3 v = to_eye(desc_.view, desc_.width, desc_.height, x, y);
     RiskInputs i = at_pixel(inputs_, at);
     i.n_dot_v = std::clamp(v.x * at.normal[0] + v.y * at.normal[1] + v.z * at.normal[2], 0.0f, 1.0f);
     // Find the rules beyond their limits
