@@ -171,28 +171,4 @@ std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptio
     return lines;
 }
 
-Status check_limits(const CompareOptions& options, const CompareFigures& figures)
-{
-    const auto differ = [&](const std::string& place, const std::string& reason) {
-        return Error{ExitCode::differ, options.test, place, reason};
-    };
-    if (options.fail_flip && figures.errors && figures.errors->mean > *options.fail_flip)
-        return differ("--fail-flip", fmt::format("FLIP's mean {:.6g} is more than {:.6g}", figures.errors->mean, *options.fail_flip));
-    if (options.fail_max && figures.pixels && figures.pixels->max_abs > *options.fail_max)
-        return differ("--fail-max",
-                      fmt::format("a channel differs by {:.6g}, more than {:.6g}", figures.pixels->max_abs, *options.fail_max));
-    if (options.fail_fraction && figures.pixels && figures.pixels->differing_fraction > *options.fail_fraction)
-        return differ("--fail-fraction", fmt::format("{:.6g} of the pixels differ, more than {:.6g}", figures.pixels->differing_fraction,
-                                                     *options.fail_fraction));
-    if (options.fail_pattern && figures.pattern && figures.pattern->pixels == 0)
-        return differ("--fail-pattern", "no pixel lies inside a surface");
-    if (options.fail_pattern && figures.pattern && figures.pattern->rms > *options.fail_pattern)
-        return differ("--fail-pattern",
-                      fmt::format("pattern's RMS {:.6g} is more than {:.6g}", figures.pattern->rms, *options.fail_pattern));
-    if (figures.z && figures.z->rejected_fraction > options.fail_z)
-        return differ("--variance", fmt::format("the z-test rejects {:.6g} of the pixels, more than {:.6g}", figures.z->rejected_fraction,
-                                                options.fail_z));
-    return {};
-}
-
 } // namespace burnish

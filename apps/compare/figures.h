@@ -1,4 +1,4 @@
-// The metrics of `burnish compare`, and their output as text, JSON, page and verdict.
+// The metrics of `burnish compare`, and their output as text, JSON and page.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -34,6 +34,10 @@ struct CompareFigures {
     std::optional<ZTest> z;
 };
 
+// Reads all pictures of the options, in parallel, and checks that they can be compared.
+Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs);
+std::vector<std::string> compare_inputs(const CompareOptions& options);
+
 CompareFigures compare_pictures(const CompareOptions& options, const Pictures& pictures, const Jobs& jobs);
 
 // Returns {width, height, flip_mean, ...}: the requested metrics. Null for a metric without a value (psnr of equal pictures, all metrics
@@ -43,10 +47,13 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures);
 // Returns name and value for people, one metric a line.
 std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures);
 
-// Returns an Error with ExitCode::differ for the first limit exceeded.
-Status check_limits(const CompareOptions& options, const CompareFigures& figures);
+// A page: verdict and further HTML above the pictures.
+struct ComparePage {
+    std::string title, top;
+};
 
 // Returns a self-contained page: REFERENCE, TEST and the error map side by side, without other files or network.
-Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures);
+Result<std::string> compare_page(const ComparePage& page, const CompareOptions& options, const CompareFigures& figures,
+                                 const Pictures& pictures);
 
 } // namespace burnish

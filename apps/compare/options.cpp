@@ -1,7 +1,9 @@
 #include "apps/compare/options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
+#include <system_error>
 #include <utility>
 
 #include "apps/cli/numbered.h"
@@ -66,7 +68,8 @@ std::vector<Option> output_rows(CompareOptions& to)
 {
     return {
         {"--json", "FILE", "Write the figures as JSON; - for standard output", file(to.json)},
-        {"--csv", "FILE", "Write the figures as one line of names and one line of values", file(to.csv)},
+        {"--csv", "FILE", "Write the figures as a line of names, then a line of values for each picture", file(to.csv)},
+        {"--junit", "FILE", "Write the verdict as JUnit XML; of folders: a case for each picture", file(to.junit)},
         {"--html", "FILE", "Write a page with both pictures, the error map and the figures", file(to.html)},
         {"--error-map", "FILE", "Write FLIP's errors: in the magma colour map, or as floats (exr, hdr, pfm)", file(to.error_map)},
         quiet_option(to.quiet),
@@ -86,14 +89,34 @@ Status check_metrics(const std::vector<std::string>& names, CompareOptions& out)
     return {};
 }
 
+// Sets `folders` where both names are folders.
+Status check_folders(const OptionTable& given, CompareOptions& out)
+{
+    std::error_code ignored;
+    const bool reference = std::filesystem::is_directory(out.reference, ignored), test = std::filesystem::is_directory(out.test, ignored);
+    if (reference != test)
+        return Error{ExitCode::bad_input, reference ? out.reference : out.test, "",
+                     fmt::format("is a folder, and {} is none", reference ? out.test : out.reference)};
+    out.folders = reference;
+    if (!reference)
+        return {};
+    if (given.given("--html"))
+        return usage_error(
+            "--html", fmt::format("is for two pictures: `burnish golden check {} {}` makes a page of folders", out.reference, out.test));
+    for (const char* option : {"--variance", "--second-reference", "--error-map"})
+        if (given.given(option))
+            return usage_error(option, "cannot be combined with folders");
+    return {};
+}
+
 } // namespace
 
 OptionTable compare_option_table(CompareArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.plain.limits));
-    table.add("", {Option("REFERENCE", "", "Picture to compare with", file(to.plain.reference)).must_be_given(),
-                   Option("TEST", "", "Picture to judge", file(to.plain.test)).must_be_given()});
+    table.add("", {Option("REFERENCE", "", "Picture to compare with, or a folder of them", file(to.plain.reference)).must_be_given(),
+                   Option("TEST", "", "Picture to judge, or a folder of them", file(to.plain.test)).must_be_given()});
     table.add("Figures", figure_rows(to));
     table.add("Failing (exit code 1)", failure_rows(to.plain));
     table.add("Output", output_rows(to.plain));
@@ -121,14 +144,15 @@ Result<CompareOptions> check_compare_options(const CompareArguments& in, const O
         for (const auto& [name, pattern] : {std::pair{"REFERENCE", out.reference}, {"TEST", out.test}})
             if (!has_number(pattern))
                 return usage_error(name, fmt::format("'{}' needs a number such as %04d with --sequence", pattern));
-        for (const char* option :
-             {"--variance", "--second-reference", "--html", "--error-map", "--fail-max", "--fail-fraction", "--fail-pattern"})
+        for (const char* option : {"--variance", "--second-reference", "--error-map", "--fail-max", "--fail-fraction", "--fail-pattern"})
             if (given.given(option))
                 return usage_error(option, "cannot be combined with --sequence");
         if (out.metrics && !out.metrics->flip && !out.metrics->flip_hdr)
             return usage_error("--metric", "--sequence takes flip or flip-hdr");
     } else if (out.fail_flicker) {
         return usage_error("--fail-flicker", "needs --sequence");
+    } else {
+        BN_TRY(check_folders(given, out));
     }
     const Result<Isa> isa = choose_isa(given, in.isa);
     BN_TRY(isa);

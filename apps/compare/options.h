@@ -21,12 +21,13 @@ struct CompareOptions {
     std::string reference, test;
     std::optional<Metrics> metrics; // none: all metrics for the pictures' format
     FlipOptions flip;
-    std::string json, csv, html, error_map; // empty: no file; json, csv and html: "-" is standard output
+    std::string json, csv, junit, html, error_map; // empty: no file; "-": standard output, but for error_map
     std::optional<double> fail_flip, fail_max, fail_fraction, fail_pattern;
     std::string second_reference;       // takes the reference's noise out of `pattern`; may be empty
     std::vector<std::string> variances; // the reference's, the test's
     double significance = 0.01, fail_z = 0.0;
     bool sequence = false; // reference and test are patterns of file sequences
+    bool folders = false;  // reference and test are folders
     std::optional<double> fail_flicker;
     int threads = 0;
     Limits limits;
@@ -39,9 +40,6 @@ struct CompareArguments {
     std::vector<std::string> metrics;
     Isa isa = {};
 };
-
-// With --sequence: compares each picture with its reference, and successive pictures with each other. Returns the exit code.
-int compare_sequences(const CompareOptions& options);
 
 OptionTable compare_option_table(CompareArguments& to);
 Result<CompareOptions> check_compare_options(const CompareArguments& arguments, const OptionTable& given);

@@ -24,6 +24,8 @@ figcaption { overflow-wrap: anywhere; }
 .tiles { grid-template-columns: minmax(0, 60rem); }
 .scale { height: .8rem; border: 1px solid var(--line); }
 table { margin: 1.5rem 0; }
+.verdict.bad strong { color: #c22; }
+@media (prefers-color-scheme: dark) { .verdict.bad strong { color: #f77; } }
 th, td, td:first-child { text-align: left; vertical-align: top; white-space: normal; }
 )";
 
@@ -75,7 +77,8 @@ Json wall_data(const CompareFigures& figures)
 
 } // namespace
 
-Result<std::string> compare_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures)
+Result<std::string> compare_page(const ComparePage& page, const CompareOptions& options, const CompareFigures& figures,
+                                 const Pictures& pictures)
 {
     const FlipExposures& range = figures.flip.exposures;
     const float middle = figures.asked.flip_hdr ? 0.5f * (range.start_ev + range.stop_ev) : 0.0f;
@@ -84,26 +87,25 @@ Result<std::string> compare_page(const CompareOptions& options, const CompareFig
         figure("reference", "Reference", options.reference + shown, displayed(pictures.reference, middle)),
         figure("test", "Test", options.test + shown, displayed(pictures.test, middle)),
         figure("error", "Error", figures.asked.flip_hdr ? "HDR-FLIP" : "LDR-FLIP", magma_map(figures.flip.error))};
-    std::string page =
-        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                    "<title>{0} - {1}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{2}{3}{4}</style>\n</head>\n<body>\n"
-                    "<main>\n<h1>{0} and {1}</h1>\n",
-                    escaped(options.reference), escaped(options.test), kChartPageStyle.bytes, chart_style(), kStyle);
-    page += wall_html() + "<div class=\"pictures\">\n";
+    std::string text = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                                   "<title>{0}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}{3}</style>\n</head>\n<body>\n"
+                                   "<main>\n<h1>{0}</h1>\n{4}",
+                                   escaped(page.title), kChartPageStyle.bytes, chart_style(), kStyle, page.top);
+    text += wall_html() + "<div class=\"pictures\">\n";
     for (const Result<std::string>& part : parts) {
         BN_TRY(part);
-        page += *part;
+        text += *part;
     }
-    page += "</div>\n" + scale_of_magma() + "<table>\n";
-    page += fmt::format("<tr><th>size</th><td>{} x {}</td></tr>\n", figures.width, figures.height);
+    text += "</div>\n" + scale_of_magma() + "<table>\n";
+    text += fmt::format("<tr><th>size</th><td>{} x {}</td></tr>\n", figures.width, figures.height);
     for (const auto& [name, value] : figure_lines(options, figures))
-        page += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
-    page += "</table>\n";
+        text += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+    text += "</table>\n";
     if (figures.errors)
-        page += "<figure><figcaption>How the errors are spread over the pixels, on a logarithmic scale.</figcaption>\n" +
+        text += "<figure><figcaption>How the errors are spread over the pixels, on a logarithmic scale.</figcaption>\n" +
                 svg_of(plot_histogram(figures.flip.error, *figures.errors)) + "</figure>\n";
-    return page + fmt::format(
+    return text + fmt::format(
                       "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
                       "<script>\n{}</script>\n</body>\n</html>\n",
                       script_json(wall_data(figures)), kChartPageScript.bytes);

@@ -11,7 +11,9 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/compare/alpha.h"
-#include "apps/compare/options.h"
+#include "apps/compare/folders.h"
+#include "apps/compare/sequence_page.h"
+#include "apps/compare/verdict.h"
 #include "apps/report/json.h"
 #include "core/image/io/image_io.h"
 #include "core/image/metrics/metrics.h"
@@ -96,7 +98,7 @@ int compare_sequences(const CompareOptions& options)
         return fail(numbers.error());
     const Jobs jobs(options.threads);
     Report report(options.quiet, options.verbosity);
-    report.promise_stdout({options.json, options.csv});
+    report.promise_stdout({options.json, options.csv, options.junit, options.html});
     report.release();
     Json rows = Json::array();
     double errors = 0.0, worst = 0.0, test_changes = 0.0, reference_changes = 0.0;
@@ -146,29 +148,36 @@ int compare_sequences(const CompareOptions& options)
     report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", errors / count, worst, worst_number));
     report.figure("changes", fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", test_changes, reference_changes));
     report.figure("flicker", fmt::format("{:.6f}", flicker));
-    // Write JSON and CSV, trying both
-    Status written;
-    Json json;
+    // Check the limits
+    Status verdict;
+    for (const auto& [option, limit, value, what] : {std::tuple{"--fail-flip", options.fail_flip, errors / count, "FLIP's mean"},
+                                                     std::tuple{"--fail-flicker", options.fail_flicker, flicker, "flicker"}})
+        if (verdict && limit && value > *limit)
+            verdict = Error{ExitCode::differ, options.test, option, fmt::format("{} is {:.6f}, more than {:g}", what, value, *limit)};
+    // Write the outputs, trying each
+    Json json = verdict_json(options, verdict);
     json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
     json["change"] = test_changes, json["reference_change"] = reference_changes, json["flicker"] = flicker;
     json["by_frame"] = rows;
-    for (const auto& [path, text] : {std::pair{options.json, json_text(json, 2) + "\n"}, {options.csv, csv_text(rows)}}) {
+    Status written;
+    const auto write = [&](const std::string& path, const auto& text_of) {
         if (path.empty())
-            continue;
-        const Status status = write_text(path, text);
+            return;
+        const Result<std::string> text = text_of();
+        const Status status = text ? write_text(path, *text) : Status(text.error());
         if (status)
             report.wrote(path);
         else if (written)
             written = status;
-    }
-    if (!written)
-        return fail(written.error());
-    // Check the limits
-    for (const auto& [limit, value, what] :
-         {std::tuple{options.fail_flip, errors / count, "FLIP's mean"}, std::tuple{options.fail_flicker, flicker, "flicker"}})
-        if (limit && value > *limit)
-            return fail(Error{ExitCode::differ, options.test, "", fmt::format("{} is {:.6f}, more than {:g}", what, value, *limit)});
-    return 0;
+        else
+            fail(status.error());
+    };
+    write(options.json, [&] { return Result<std::string>(json_text(json, 2) + "\n"); });
+    write(options.csv, [&] { return Result<std::string>(csv_text(rows)); });
+    write(options.junit, [&] { return Result<std::string>(compare_junit({verdict_case(options.test, verdict)})); });
+    write(options.html, [&] { return sequence_page(options, verdict, json, jobs); });
+    const int code = verdict ? 0 : fail(verdict.error());
+    return written ? code : fail(written.error());
 }
 
 } // namespace burnish

@@ -8,6 +8,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
+#include "apps/report/junit.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
 
@@ -15,14 +16,6 @@ namespace burnish {
 namespace {
 
 constexpr std::uint64_t kMostResultBytes = 256ull << 20;
-
-std::string without_controls(std::string text)
-{
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32)
-            c = ' ';
-    return text;
-}
 
 // Escapes characters with a meaning in GitHub's commands.
 std::string annotation_text(const std::string& text, bool in_property)
@@ -149,18 +142,14 @@ Result<std::vector<GoldenResult>> read_results(const std::string& folder)
 
 std::string golden_junit(const std::vector<GoldenResult>& results)
 {
-    const GoldenCounts counts = count_of(results);
-    std::string cases;
-    for (const GoldenResult& r : results) {
-        cases += fmt::format("  <testcase classname=\"golden\" name=\"{}\"", escaped(without_controls(r.name)));
-        const char* element = r.verdict == GoldenVerdict::failed ? "error" : "failure";
-        cases += r.verdict == GoldenVerdict::passed
-                     ? "/>\n"
-                     : fmt::format("><{} message=\"{}\"/></testcase>\n", element, escaped(without_controls(r.reason)));
-    }
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"burnish golden\" tests=\"{}\" failures=\"{}\" "
-                       "errors=\"{}\">\n{}</testsuite>\n",
-                       results.size(), counts.differs + counts.missing, counts.failed, cases);
+    std::vector<JunitCase> cases;
+    for (const GoldenResult& r : results)
+        cases.push_back({r.name,
+                         r.verdict == GoldenVerdict::passed   ? JunitCase::Outcome::passed
+                         : r.verdict == GoldenVerdict::failed ? JunitCase::Outcome::error
+                                                              : JunitCase::Outcome::failure,
+                         r.reason});
+    return junit_text("burnish golden", "golden", cases);
 }
 
 std::string golden_summary(const std::vector<GoldenResult>& results)

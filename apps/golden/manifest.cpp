@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "apps/cli/report.h"
+#include "apps/compare/picture_names.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -215,15 +216,6 @@ std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t b
     return fmt::format("line {}, column {}", line, column);
 }
 
-bool is_picture(const fs::path& path)
-{
-    const std::string extension = path.extension().string();
-    for (const char* known : {".png", ".exr", ".hdr", ".pfm", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", ".bmp", ".ppm"})
-        if (extension == known)
-            return true;
-    return false;
-}
-
 } // namespace
 
 std::string file_stem(const std::string& name)
@@ -260,25 +252,11 @@ Result<GoldenManifest> read_manifest(const std::string& path)
 
 Result<GoldenManifest> manifest_of_folders(const std::string& expected, const std::string& actual, const GoldenLimits& limits)
 {
+    const Result<std::vector<std::string>> names = picture_names(expected, actual);
+    BN_TRY(names);
     GoldenManifest manifest;
     manifest.folder = ".";
-    std::error_code failed;
-    std::set<std::string> names;
-    for (const std::string& folder : {expected, actual}) {
-        fs::recursive_directory_iterator at(folder, failed);
-        if (failed)
-            return Error{ExitCode::bad_input, folder, "", failed.message()};
-        for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
-            std::error_code ignored; // of a link to nowhere, whose row then fails
-            if (is_picture(at->path()) && !at->is_directory(ignored))
-                names.insert(at->path().lexically_relative(folder).string());
-        }
-    }
-    if (failed)
-        return Error{ExitCode::bad_input, expected, "", failed.message()};
-    if (names.empty())
-        return Error{ExitCode::bad_input, expected, "", "holds no picture"};
-    for (const std::string& name : names) {
+    for (const std::string& name : *names) {
         GoldenRow row;
         row.name = printable(name), row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
         row.extension = fs::path(name).extension().string(), row.limits = limits;

@@ -30,6 +30,14 @@ std::string escaped(const std::string& text)
     return out;
 }
 
+std::string without_controls(std::string text)
+{
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32)
+            c = ' ';
+    return text;
+}
+
 std::string script_json(const Json& json)
 {
     std::string text = json_text(json, -1);

@@ -15,6 +15,7 @@ import chart_cases
 import chart_page_cases
 import coat_cases
 import compare_cases
+import compare_many_cases
 import confine_cases
 import cycles_cases
 import detail_cases
