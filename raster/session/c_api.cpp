@@ -1,18 +1,16 @@
 // The C interface: each function catches everything and keeps the error of its thread.
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <exception>
 #include <thread>
-#include <tuple>
 
 #include "core/base/exception.h"
 #include "core/base/version.h"
 #include "core/image/io/image_io.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
-#include "core/scene/tangents.h"
+#include "core/scene/add_mesh.h"
 #include "raster/frame/layers.h"
 #include "raster/session/burnish.h"
 #include "raster/session/c_options.h"
@@ -66,78 +64,31 @@ Error usage(const std::string& place, const std::string& reason)
     return Error{ExitCode::usage, "", place, reason};
 }
 
-// Appends a mesh as triangles that share no vertex.
+// Appends a mesh; `place` is its own.
 Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene)
 {
     if (mesh.size < sizeof(burnish_mesh))
         return usage(place + "/size", "is smaller than burnish_mesh");
-    if (!mesh.positions || mesh.vertex_count == 0)
-        return usage(place + "/positions", "are missing");
-    const std::size_t count = mesh.triangles ? mesh.triangle_count : mesh.vertex_count / 3;
-    if (count == 0)
+    if (mesh.triangles && mesh.triangle_count == 0)
         return usage(place + "/triangles", "are missing");
-    if (count > 0x7fffffffu / 3 || mesh.vertex_count > 0x7fffffffu)
+    if (mesh.triangle_count > 0x7fffffffu / 3 || mesh.vertex_count > 0x7fffffffu)
         return usage(place + "/triangle_count", "is too large");
-    for (const auto& [name, values, count_of] : {std::tuple{"positions", mesh.positions, 3 * mesh.vertex_count},
-                                                 {"normals", mesh.normals, 3 * mesh.vertex_count},
-                                                 {"coordinates", mesh.coordinates, 2 * mesh.vertex_count},
-                                                 {"transform", mesh.transform, std::size_t{16}}})
-        for (std::size_t i = 0; values && i < count_of; ++i)
-            if (!std::isfinite(values[i]))
-                return Error{ExitCode::bad_input, "", place + "/" + name + "/" + std::to_string(i), "is NaN or infinite"};
-    // Gather the corners
-    std::vector<std::uint32_t> corner(3 * count);
-    for (std::size_t i = 0; i < corner.size(); ++i) {
-        corner[i] = mesh.triangles ? mesh.triangles[i] : static_cast<std::uint32_t>(i);
-        if (corner[i] >= mesh.vertex_count)
-            return Error{ExitCode::bad_input, "", place + "/triangles/" + std::to_string(i), "is beyond the vertices"};
-    }
-    const auto vec3_at = [](const float* from, std::size_t i) { return glm::vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]); };
-    std::vector<glm::vec3> normals(mesh.vertex_count, glm::vec3(0.0f));
-    for (std::size_t v = 0; mesh.normals && v < mesh.vertex_count; ++v)
-        normals[v] = vec3_at(mesh.normals, v);
-    for (std::size_t t = 0; !mesh.normals && t < count; ++t) { // weighted by area
-        const glm::vec3 a = vec3_at(mesh.positions, corner[3 * t]), b = vec3_at(mesh.positions, corner[3 * t + 1]),
-                        c = vec3_at(mesh.positions, corner[3 * t + 2]);
-        for (std::size_t k = 0; k < 3; ++k)
-            normals[corner[3 * t + k]] += glm::cross(b - a, c - a);
-    }
-    std::vector<glm::vec3> p(corner.size()), n(corner.size());
-    std::vector<glm::vec2> uv(corner.size(), glm::vec2(0.0f));
-    for (std::size_t i = 0; i < corner.size(); ++i) {
-        p[i] = vec3_at(mesh.positions, corner[i]), n[i] = normals[corner[i]];
-        const float length = glm::length(n[i]);
-        n[i] = length > 0.0f ? n[i] / length : glm::vec3(0, 0, 1);
-        if (mesh.coordinates)
-            uv[i] = {mesh.coordinates[2 * corner[i]], mesh.coordinates[2 * corner[i] + 1]};
-    }
-    // Fill the columns
-    VertexTable& to = scene.vertices;
-    Primitive primitive;
-    primitive.first_index = static_cast<std::uint32_t>(scene.indices.size()), primitive.index_count = static_cast<std::uint32_t>(p.size());
-    primitive.first_vertex = static_cast<std::uint32_t>(to.size()), primitive.vertex_count = primitive.index_count;
-    primitive.material = static_cast<std::int32_t>(scene.materials.size()), primitive.has_uv0 = mesh.coordinates != nullptr;
-    const std::vector<glm::vec4> tangents =
-        mesh.coordinates ? mikk_tangents(p, n, uv) : std::vector<glm::vec4>(p.size(), glm::vec4(0, 0, 0, 1));
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        to.px.push_back(p[i].x), to.py.push_back(p[i].y), to.pz.push_back(p[i].z);
-        to.nx.push_back(n[i].x), to.ny.push_back(n[i].y), to.nz.push_back(n[i].z);
-        to.tx.push_back(tangents[i].x), to.ty.push_back(tangents[i].y), to.tz.push_back(tangents[i].z), to.tw.push_back(tangents[i].w);
-        to.u0.push_back(uv[i].x), to.v0.push_back(uv[i].y), to.u1.push_back(0.0f), to.v1.push_back(0.0f);
-        to.cr.push_back(1.0f), to.cg.push_back(1.0f), to.cb.push_back(1.0f), to.ca.push_back(1.0f);
-        scene.indices.push_back(primitive.first_vertex + static_cast<std::uint32_t>(i));
-    }
-    Material material;
-    material.metallic = 0.0f;
-    if (const Status set = set_material(material, mesh.material); !set)
-        return Error{set.error().code, "", place + "/material/" + set.error().place, set.error().reason};
-    Node node;
-    node.mesh = static_cast<std::int32_t>(scene.meshes.size());
+    const std::size_t whole = mesh.triangles ? mesh.vertex_count : mesh.vertex_count / 3 * 3, vertices = mesh.positions ? whole : 0;
+    MeshInput input;
+    input.positions = {reinterpret_cast<const glm::vec3*>(mesh.positions), vertices};
+    if (mesh.normals)
+        input.normals = {reinterpret_cast<const glm::vec3*>(mesh.normals), vertices};
+    if (mesh.coordinates)
+        input.coordinates = {reinterpret_cast<const glm::vec2*>(mesh.coordinates), vertices};
+    if (mesh.triangles)
+        input.triangles = {mesh.triangles, 3 * mesh.triangle_count};
     for (int i = 0; mesh.transform && i < 16; ++i)
-        node.local[i / 4][i % 4] = mesh.transform[i];
-    scene.meshes.push_back({"", static_cast<std::uint32_t>(scene.primitives.size()), 1});
-    scene.primitives.push_back(primitive), scene.materials.push_back(material), scene.nodes.push_back(node);
-    return {};
+        input.transform[i / 4][i % 4] = mesh.transform[i];
+    input.material.metallic = 0.0f;
+    if (const Status set = set_material(input.material, mesh.material); !set)
+        return Error{set.error().code, "", place + "/material/" + set.error().place, set.error().reason};
+    const Result<std::int32_t> added = add_mesh(scene, input);
+    return added ? Status() : Status(added.error());
 }
 
 // Makes the session of a loaded scene.

@@ -1,5 +1,7 @@
 """Files that an installed program finds. OpenImageIO, with some 250 shared libraries, is loaded only for images that need it."""
 
+import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -8,6 +10,8 @@ import tempfile
 from harness import SMALL, Skipped, case, check
 
 MODULE = "burnish_openimageio.so"
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+INSTALLING = {**os.environ, "BN_TEST_INSTALL": "1"}  # builds for tests refuse to be installed otherwise
 
 
 @case("install.copy_reads_and_writes_pictures", "input")
@@ -18,7 +22,7 @@ def installed(bench):
         raise Skipped("no cmake")
     with tempfile.TemporaryDirectory(prefix="burnish-install-") as prefix:
         subprocess.run([cmake, "--install", str(pathlib.Path(bench.program).parent), "--prefix", prefix, "--component", "program"],
-                       check=True, timeout=120, stdout=subprocess.DEVNULL)
+                       check=True, timeout=120, stdout=subprocess.DEVNULL, env=INSTALLING)
         program = pathlib.Path(prefix, "bin", "burnish")
         module = pathlib.Path(prefix, "lib", "burnish", MODULE)
         check(program.is_file() and module.is_file(), f"{program} or {module} is not installed")
@@ -33,31 +37,70 @@ def installed(bench):
             bench.run("render", *SMALL, "--env", env, "-o", "b.png", program=program).expect(0)
 
 
-@case("install.library_is_found_and_draws_the_same")
-def library(bench):
-    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
+def installed_examples(bench, folder, *targets):
+    """Installs the build below a folder, and compiles examples by find_package alone. Returns prefix and build folder."""
     cmake = shutil.which("cmake")
     if not cmake:
         raise Skipped("no cmake")
-    build = pathlib.Path(bench.program).parent
-    source = pathlib.Path(__file__).resolve().parent.parent / "package"
+    build, prefix, out = pathlib.Path(bench.program).parent, pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
+    quiet = dict(check=True, timeout=300, stdout=subprocess.DEVNULL, env=INSTALLING)
+    subprocess.run([cmake, "--build", str(build), "--target", "burnish_library"], **quiet)
+    subprocess.run([cmake, "--install", str(build), "--prefix", str(prefix)], **quiet)
+    subprocess.run([cmake, "-S", str(ROOT / "apps/examples"), "-B", str(out), f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"], **quiet)
+    subprocess.run([cmake, "--build", str(out), *(("--target", *targets) if targets else ())], **quiet)
+    return prefix, out
+
+
+def hashes_of_turntable(bench, folder, out):
+    run = subprocess.run([str(out / "turntable"), "builtin:spheres"], cwd=folder, capture_output=True, text=True, timeout=300)
+    check(run.returncode == 0, f"turntable ended with {run.returncode}: {run.stderr}")
+    return run.stdout.split()
+
+
+@case("install.library_is_found_and_draws_the_same")
+def library(bench):
+    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
     with tempfile.TemporaryDirectory(prefix="burnish-library-") as folder:
-        prefix, out = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
-        quiet = dict(check=True, timeout=300, stdout=subprocess.DEVNULL)
-        subprocess.run([cmake, "--build", str(build), "--target", "burnish_library"], **quiet)
-        subprocess.run([cmake, "--install", str(build), "--prefix", str(prefix)], **quiet)
-        text = "".join(path.read_text() for path in (prefix / "lib/cmake/burnish").glob("*.cmake"))
-        for word in ("-Wall", "-march", "fmt::", "TBB", "embree", str(build)):
+        prefix, out = installed_examples(bench, folder, "turntable")
+        text = "".join(path.read_text() for path in [*(prefix / "lib/cmake/burnish").glob("*.cmake"), prefix / "lib/pkgconfig/burnish.pc"])
+        for word in ("-Wall", "-march", "fmt::", "TBB", "embree", str(pathlib.Path(bench.program).parent)):
             check(word not in text, f"the installed package names {word}")
-        subprocess.run([cmake, "-S", str(source), "-B", str(out), f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release"], **quiet)
-        subprocess.run([cmake, "--build", str(out)], **quiet)
-        run = subprocess.run([str(out / "turntable"), "builtin:spheres"], cwd=folder, capture_output=True, text=True, timeout=300)
-        check(run.returncode == 0, f"turntable ended with {run.returncode}: {run.stderr}")
-        hashes = run.stdout.split()
-        check(len(set(hashes)) == 4, f"four sides, four pictures: {hashes}")
+        headers = [path for path in (prefix / "include").rglob("*") if path.is_file()]
+        check({path.relative_to(prefix / "include").parts[0] for path in headers} == {"burnish"}, "a header beside include/burnish")
+        wrong = [path.name for path in headers if '#include "' in path.read_text()]
+        check(len(headers) > 30 and not wrong, f"headers that need another include path: {wrong}")
+        if shutil.which("pkg-config"):
+            told = subprocess.run(["pkg-config", "--cflags", "--libs", "burnish"], env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")},
+                                  capture_output=True, text=True, check=True).stdout
+            check("-lburnish" in told and any(pathlib.Path(word[2:]).resolve() == prefix / "include" for word in told.split() if word.startswith("-I")), told)
+        hashes = hashes_of_turntable(bench, folder, out)
+        check(len(set(hashes)) == 5, f"four sides and a turned mesh, five pictures: {hashes}")
         for i in range(4):
             bench.run("render", "builtin:spheres", "--env", str(pathlib.Path(folder, f"side{i}.exr")), "--size", "8x8", "--env-size", "16",
                       "--no-cache").expect(0)  # the library found its image module
+
+
+@case("install.examples_build_and_run", tier="nightly")
+def examples(bench):
+    with tempfile.TemporaryDirectory(prefix="burnish-examples-") as folder:
+        _, out = installed_examples(bench, folder)
+        first = hashes_of_turntable(bench, folder, out)
+        check(hashes_of_turntable(bench, folder, out) == first, "two runs differ")
+        run = lambda name, *words, env=None: subprocess.run([str(out / name), *words], cwd=folder, capture_output=True, text=True, timeout=300,
+                                                            env={**os.environ, **(env or {})})
+        done = run("layers")
+        check(done.returncode == 0 and done.stdout.split()[:4] == ["R", "G", "B", "Z"], done.stdout + done.stderr)
+        check(run("layers", "nothing.glb").returncode == 4, "a missing file")
+        done = run("compare", "lobe_line", "bent_normal")
+        check(done.returncode == 0 and 0.01 < float(done.stdout) < 0.5, done.stdout + done.stderr)
+        check(float(run("compare", "mc", "mc").stdout) == 0.0, "one technique differs from itself")
+        check(run("mesh").returncode == 0, "mesh")
+        bench.run("compare", str(pathlib.Path(folder, "square.exr")), str(pathlib.Path(folder, "square.exr"))).expect(0)
+        words = ("render", "builtin:plate", "--floor", "off", "--size", "64x48", "--stats", "-", "-q")
+        golden = json.loads(bench.run(*words).expect(0).out)["pixel_hash"]
+        if (out / "golden_test").exists():
+            check(run("golden_test", env={"PLATE_HASH": golden}).returncode == 0, "the library's hash is another than the program's")
+            check(run("golden_test", env={"PLATE_HASH": "1"}).returncode == 1, "a golden test that cannot fail")
 
 
 @case("install.without_the_module_png_still_works", "input")

@@ -79,7 +79,7 @@ def links(bench):
 @case("manual.library_page_has_the_tested_program")
 def library_page(bench):
     page = (MANUAL / "library.md").read_text()
-    check((ROOT / "tests/package/turntable.cpp").read_text() in page, "library.md and tests/package/turntable.cpp differ")
+    check((ROOT / "apps/examples/mesh.cpp").read_text() in page, "library.md and apps/examples/mesh.cpp differ")
 
 
 @case("manual.pages_hold_no_dates_and_no_times")

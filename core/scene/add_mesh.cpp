@@ -1,0 +1,113 @@
+#include "core/scene/add_mesh.h"
+
+#include <cmath>
+#include <vector>
+
+#include "core/scene/tangents.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kMost = 0x7fffffffu; // corners and vertices
+
+// Returns the place of the first number that is NaN or infinite, or an empty text.
+template <class Vector> std::string not_finite_place(const char* name, std::span<const Vector> values)
+{
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (glm::length_t k = 0; k < Vector::length(); ++k)
+            if (!std::isfinite(values[i][k]))
+                return std::string("/") + name + "/" +
+                       std::to_string(i * static_cast<std::size_t>(Vector::length()) + static_cast<std::size_t>(k));
+    return "";
+}
+
+Status check_mesh(const MeshInput& mesh, const std::string& place)
+{
+    const auto usage = [&](const char* name, const char* reason) { return Error{ExitCode::usage, "", place + name, reason}; };
+    const std::size_t vertices = mesh.positions.size(), corners = mesh.triangles.empty() ? vertices : mesh.triangles.size();
+    if (mesh.positions.empty())
+        return usage("/positions", "are missing");
+    if (corners < 3 || corners % 3 != 0)
+        return usage("/triangles", corners < 3 ? "are missing" : "are no multiple of 3");
+    if (corners > kMost || vertices > kMost)
+        return usage("/triangles", "are too many");
+    if (!mesh.normals.empty() && mesh.normals.size() != vertices)
+        return usage("/normals", "are not one a vertex");
+    if (!mesh.coordinates.empty() && mesh.coordinates.size() != vertices)
+        return usage("/coordinates", "are not one a vertex");
+    std::vector<glm::vec4> transform;
+    for (int i = 0; i < 4; ++i)
+        transform.push_back(mesh.transform[i]);
+    for (const std::string& found :
+         {not_finite_place("positions", mesh.positions), not_finite_place("normals", mesh.normals),
+          not_finite_place("coordinates", mesh.coordinates), not_finite_place("transform", std::span<const glm::vec4>(transform))})
+        if (!found.empty())
+            return Error{ExitCode::bad_input, "", place + found, "is NaN or infinite"};
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        if (mesh.triangles[i] >= vertices)
+            return Error{ExitCode::bad_input, "", place + "/triangles/" + std::to_string(i), "is beyond the vertices"};
+    return {};
+}
+
+std::size_t corner_at(const MeshInput& mesh, std::size_t i)
+{
+    return mesh.triangles.empty() ? i : mesh.triangles[i];
+}
+
+// Returns a normal a vertex, of any length.
+std::vector<glm::vec3> normals_of(const MeshInput& mesh, std::size_t corners)
+{
+    if (!mesh.normals.empty())
+        return {mesh.normals.begin(), mesh.normals.end()};
+    std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
+    for (std::size_t t = 0; t < corners; t += 3) {
+        const std::size_t a = corner_at(mesh, t), b = corner_at(mesh, t + 1), c = corner_at(mesh, t + 2);
+        const glm::vec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        for (const std::size_t v : {a, b, c})
+            normals[v] += normal;
+    }
+    return normals;
+}
+
+} // namespace
+
+Result<std::int32_t> add_mesh(Scene& scene, const MeshInput& mesh)
+{
+    BN_TRY(check_mesh(mesh, "/meshes/" + std::to_string(scene.meshes.size())));
+    // Gather the corners: triangles share no vertex
+    const std::size_t corners = mesh.triangles.empty() ? mesh.positions.size() : mesh.triangles.size();
+    const std::vector<glm::vec3> normals = normals_of(mesh, corners);
+    const bool mapped = !mesh.coordinates.empty();
+    std::vector<glm::vec3> p(corners), n(corners);
+    std::vector<glm::vec2> uv(corners, glm::vec2(0.0f));
+    for (std::size_t i = 0; i < corners; ++i) {
+        const std::size_t v = corner_at(mesh, i);
+        p[i] = mesh.positions[v];
+        const float length = glm::length(normals[v]);
+        n[i] = length > 0.0f ? normals[v] / length : glm::vec3(0, 0, 1);
+        if (mapped)
+            uv[i] = mesh.coordinates[v];
+    }
+    // Fill the columns
+    VertexTable& to = scene.vertices;
+    Primitive primitive;
+    primitive.first_index = static_cast<std::uint32_t>(scene.indices.size()), primitive.index_count = static_cast<std::uint32_t>(corners);
+    primitive.first_vertex = static_cast<std::uint32_t>(to.size()), primitive.vertex_count = primitive.index_count;
+    primitive.material = static_cast<std::int32_t>(scene.materials.size()), primitive.has_uv0 = mapped;
+    const std::vector<glm::vec4> tangents = mapped ? mikk_tangents(p, n, uv) : std::vector<glm::vec4>(corners, glm::vec4(0, 0, 0, 1));
+    for (std::size_t i = 0; i < corners; ++i) {
+        to.px.push_back(p[i].x), to.py.push_back(p[i].y), to.pz.push_back(p[i].z);
+        to.nx.push_back(n[i].x), to.ny.push_back(n[i].y), to.nz.push_back(n[i].z);
+        to.tx.push_back(tangents[i].x), to.ty.push_back(tangents[i].y), to.tz.push_back(tangents[i].z), to.tw.push_back(tangents[i].w);
+        to.u0.push_back(uv[i].x), to.v0.push_back(uv[i].y), to.u1.push_back(0.0f), to.v1.push_back(0.0f);
+        to.cr.push_back(1.0f), to.cg.push_back(1.0f), to.cb.push_back(1.0f), to.ca.push_back(1.0f);
+        scene.indices.push_back(primitive.first_vertex + static_cast<std::uint32_t>(i));
+    }
+    Node node;
+    node.name = mesh.name, node.mesh = static_cast<std::int32_t>(scene.meshes.size()), node.local = mesh.transform;
+    scene.meshes.push_back({mesh.name, static_cast<std::uint32_t>(scene.primitives.size()), 1});
+    scene.primitives.push_back(primitive), scene.materials.push_back(mesh.material), scene.nodes.push_back(node);
+    return static_cast<std::int32_t>(scene.nodes.size() - 1);
+}
+
+} // namespace burnish

@@ -1,0 +1,12 @@
+# Installs the headers of the library. `headers`: their paths below `source`; `staged`: a folder for their installed texts.
+foreach(header ${headers} raster/session/burnish.hpp)
+  file(READ ${source}/${header} text)
+  string(REGEX REPLACE "#include \"([^\"]+)\"" "#include <burnish/\\1>" text "${text}")
+  set(to ${header})
+  if(header MATCHES "burnish[.]hpp$")
+    set(to burnish.hpp)
+  endif()
+  file(WRITE ${staged}/${to} "${text}")
+  cmake_path(GET to PARENT_PATH folder)
+  file(INSTALL DESTINATION ${CMAKE_INSTALL_PREFIX}/include/burnish/${folder} TYPE FILE FILES ${staged}/${to})
+endforeach()
