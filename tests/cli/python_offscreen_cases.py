@@ -138,6 +138,11 @@ assert display.over(bytes([188] * 3), [0.5], [1.0, 1.0, 1.0, 1.0]) == (bytes([25
 assert display.over(bytes([188] * 3), [0.5], [0.0, 0.0, 0.0, 0.0]) == (bytes([188] * 3), bytes([128]))
 seg, depth = renderer.render(scene, pr.RenderFlags.SEG, {scene.mesh_nodes[0]: (10, 20, 30)})
 assert rgb(seg, 24, 32) == (10, 20, 30) and rgb(seg, 0, 0) == (0, 0, 0) and depth[24, 32] == 4.0
+several = scene_of(CAMERA, FRONT, (square(0.3), turn('x', 0, (-0.9, 0, 0))), (square(), turn('x', 0, (0, 0, 1))), (square(0.3), turn('x', 0, (0.9, 0, 0))))
+left, near, right = several.mesh_nodes
+near.mesh.is_visible = False
+seg, _ = renderer.render(several, pr.RenderFlags.SEG, {left: (1, 0, 0), near: (2, 0, 0), right: (3, 0, 0)})
+assert (seg[24, 21, 0], seg[24, 32, 0], seg[24, 42, 0]) == (1, 0, 3)
 empty, depth = renderer.render(scene_of(CAMERA, FRONT))
 assert rgb(empty, 24, 32) == (255, 255, 255) and depth[24, 32] == 0
 sky = pr.Scene(environment='builtin:sky')
@@ -150,9 +155,13 @@ thing.vertices, thing.faces, thing.visual, visual.kind = SQUARE, FACES, visual, 
 visual.vertex_colors = [(255, 0, 0, 255)] * 4
 red, depth = renderer.render(scene_of(CAMERA, FRONT, (pr.Mesh.from_trimesh(thing), None)), pr.RenderFlags.FLAT)
 assert rgb(red, 24, 32)[0] > 200 and rgb(red, 24, 32)[1] < 40 and depth[24, 32] == 4.0, rgb(red, 24, 32)
-metal = square(roughnessFactor=0.4, anisotropyStrength=0.9)
-metal.primitives[0] = pr.Primitive(SQUARE, indices=FACES, texcoord_0=[(0, 0), (1, 0), (1, 1), (0, 1)], material=metal.primitives[0].material)
-brushed, _ = renderer.render(scene_of(CAMERA, FRONT, (metal, None)))
+# v grows upwards: an eighth of a turn from the first axis, the sun's highlight runs to the upper right
+metal = pr.MetallicRoughnessMaterial(roughnessFactor=0.3, anisotropyStrength=0.9, anisotropyRotation=math.pi / 4)
+metal = pr.Mesh([pr.Primitive(SQUARE, indices=FACES, texcoord_0=[(0, 0), (1, 0), (1, 1), (0, 1)], material=metal)])
+shine = scene_of(CAMERA, FRONT, (metal, None), ambient_light=(0.0, 0.0, 0.0))
+shine.add(pr.DirectionalLight(intensity=0.3))
+brushed, _ = renderer.render(shine)
+assert brushed[14, 41, 0] > 1.5 * brushed[14, 22, 0] and brushed[33, 22, 0] > 1.5 * brushed[33, 41, 0], [brushed[y, x, 0] for y in (14, 33) for x in (22, 41)]
 print(hashlib.sha256(b''.join(bytes(memoryview(picture).cast('B')) for picture in (ambient, sun, lamp, spot, blue, clear, seg, under, red, brushed))).hexdigest())
 """, program)
         words.add(done.stdout)
