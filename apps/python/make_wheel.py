@@ -31,7 +31,8 @@ def main():
     version = re.search(r"project\(burnish.*?VERSION ([\d.]+)", (HERE.parents[1] / "CMakeLists.txt").read_text(), re.S)[1]
     tag = f"py3-none-linux_{platform.machine()}"
     info = f"burnish-{version}.dist-info"
-    files = {f"burnish/{p.name}": p.read_bytes() for p in sorted((HERE / "burnish").iterdir()) if p.suffix in (".py", ".pyi", ".typed")}
+    sources = (path for path in sorted((HERE / "burnish").rglob("*")) if path.suffix in (".py", ".pyi", ".typed"))
+    files = {str(path.relative_to(HERE)): path.read_bytes() for path in sources}
     files["burnish/libburnish.so"] = options.library.resolve().read_bytes()
     if options.module:
         files[f"burnish/burnish/{options.module.name}"] = options.module.read_bytes()

@@ -55,6 +55,8 @@ import phong_cases
 import pixel_cases
 import processor_cases
 import python_cases
+import python_more_cases
+import python_offscreen_cases
 import reading_cases
 import plot_cases
 import profile_cases

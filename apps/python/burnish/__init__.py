@@ -11,9 +11,10 @@ Errors are exceptions of class Error with the program's words. numpy is not need
 
 import contextlib
 import ctypes
+import os
 import threading
 
-from . import _native
+from . import _native, _show
 from ._native import Error, library
 
 __all__ = ["Comparison", "Error", "Mesh", "Picture", "Scene", "compare", "load", "meshes", "options", "techniques", "version"]
@@ -35,9 +36,11 @@ def options():
 
 
 class Picture:
-    """A picture of `height` rows and `width` columns, 3 floats a pixel. Offers the buffer of its pixels and numpy's array interface."""
+    """A picture of `height` rows and `width` columns, 3 floats a pixel. Offers the buffer of its pixels, numpy's array interface and DLPack.
+    `name` is a caption for notebooks, which scripts may set."""
 
-    def __init__(self, frame):
+    def __init__(self, frame, name="picture"):
+        self.name = name
         self._frame, self._lock, self._free = frame, threading.Lock(), library().burnish_frame_free
         self.width, self.height = library().burnish_frame_width(frame), library().burnish_frame_height(frame)
 
@@ -79,6 +82,12 @@ class Picture:
     def __array_interface__(self):
         return self.pixels.__array_interface__
 
+    def __dlpack_device__(self):
+        return self.pixels.__dlpack_device__()
+
+    def __dlpack__(self, **keywords):
+        return self.pixels.__dlpack__(**keywords)
+
     @property
     def hash(self):
         """16 hexadecimal digits over the pixels' bits, as `burnish render` prints them."""
@@ -98,11 +107,17 @@ class Picture:
     def _repr_png_(self):
         return self.png()
 
+    def _repr_html_(self):
+        return _show.figure(self.png(), self.name, self.width)
+
 
 class Scene:
-    """A scene under an environment. One thread at a time may use it. Make it by load() or meshes()."""
+    """A scene under an environment. One thread at a time may use it. Make it by load() or meshes(). `name` is a caption for notebooks."""
 
-    def __init__(self, session):
+    PREVIEW = {"width": 240, "height": 180, "msaa": 4}  # keywords of the picture that notebooks show
+
+    def __init__(self, session, name="scene"):
+        self.name = name
         self._session, self._close = session, library().burnish_close
         self._lock, self._owner = threading.Lock(), None
 
@@ -113,6 +128,19 @@ class Scene:
 
     def __reduce__(self):
         raise TypeError("a Scene cannot be copied or pickled")
+
+    def __repr__(self):
+        return f"<burnish.Scene {self.name}>"
+
+    def _repr_png_(self):
+        return self.render(**self.PREVIEW).png()
+
+    def _repr_html_(self):
+        return _show.figure(self._repr_png_(), self.name, self.PREVIEW["width"])
+
+    def _caption(self, keywords):
+        """Returns the scene's name and the keywords that choose how it is drawn."""
+        return ", ".join([self.name, *(f"{name} {keywords[name]}" for name in ("technique", "samples") if name in keywords)])
 
     @contextlib.contextmanager
     def _alone(self):
@@ -131,7 +159,7 @@ class Scene:
         frame = ctypes.c_void_p()
         with _native.Options(keywords) as given, self._alone():
             _native.call("burnish_render", self._session, given, ctypes.byref(frame))
-        return Picture(frame)
+        return Picture(frame, self._caption(keywords))
 
     def reference(self, samples=1024, progress=None, **keywords):
         """Draws a Picture by the Monte Carlo reference. progress: called without arguments about ten times a second; a true result
@@ -152,7 +180,7 @@ class Scene:
         if code == _native.STOPPED:
             raise KeyboardInterrupt
         _native.check(code)
-        return Picture(frame)
+        return Picture(frame, self._caption({"technique": "reference", "samples": samples}))
 
 
 class Mesh:
@@ -187,7 +215,7 @@ def load(path, environment=None, **keywords):
     with _native.Options(keywords) as given:
         _native.call("burnish_open", _native.path(path), None if environment is None else _native.path(environment), given,
                      ctypes.byref(session))
-    return Scene(session)
+    return Scene(session, os.path.basename(os.fsdecode(path)))
 
 
 def meshes(*parts, environment=None, **keywords):
@@ -205,18 +233,24 @@ def meshes(*parts, environment=None, **keywords):
     finally:
         for material in materials:
             material.__exit__()
-    return Scene(session)
+    return Scene(session, f"{len(parts)} mesh{'' if len(parts) == 1 else 'es'}")
 
 
 class Comparison:
-    """Figures of two pictures: flip_mean, flip_p99, flip_max (HDR-FLIP, 0 to 1), mse, rel_mse, max_abs, differing_fraction."""
+    """Figures of two pictures: flip_mean, flip_p99, flip_max (HDR-FLIP, 0 to 1), mse, rel_mse, max_abs, differing_fraction. Notebooks show
+    the pictures, a map of relative differences, and the figures."""
 
-    def __init__(self, figures):
+    def __init__(self, figures, reference, test):
+        self.pictures = reference, test
         for name, _ in _native.ComparisonStruct._fields_[1:]:
             setattr(self, name, getattr(figures, name))
 
     def __repr__(self):
         return f"<burnish.Comparison mean FLIP {self.flip_mean:.4f}, {100 * self.differing_fraction:.1f} % of the pixels differ>"
+
+    def _repr_html_(self):
+        (a, width, height), (b, _, _) = map(_native.picture_of, self.pictures)
+        return _show.comparison(self, _native.floats_at(a), _native.floats_at(b), width, height)
 
 
 def compare(reference, test):
@@ -226,4 +260,4 @@ def compare(reference, test):
         raise ValueError(f"{a[1]}x{a[2]} and {b[1]}x{b[2]} pixels cannot be compared")
     figures = _native.ComparisonStruct(ctypes.sizeof(_native.ComparisonStruct))
     _native.call("burnish_compare", a[0], b[0], a[1], a[2], ctypes.byref(figures))
-    return Comparison(figures)
+    return Comparison(figures, reference, test)

@@ -3,11 +3,14 @@
 import array
 import ctypes
 import ctypes.util
+import functools
 import os
 import pathlib
 
+from . import _dlpack, _show
+
 API_VERSION = 1
-STOPPED = 130
+USAGE, STOPPED = 2, 130  # exit codes of the program
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
 _loaded = None
@@ -99,6 +102,16 @@ def listed(names, helps):
     return found
 
 
+@functools.lru_cache(None)
+def known():
+    """Returns the names of all options and material factors."""
+    found, index = set(listed("burnish_option_name", "burnish_option_help")), 0
+    while (name := library().burnish_material_name(index)) is not None:
+        found.add(name.decode())
+        index += 1
+    return found
+
+
 def path(of):
     name = os.fsencode(of)
     if b"\0" in name:
@@ -119,13 +132,17 @@ def text_of(value):
 
 
 class Options:
-    """The library's options of keywords, within a `with` block."""
+    """The library's options of keywords, within a `with` block. None and empty lists leave a keyword's default."""
 
     def __init__(self, keywords):
         self.handle = ctypes.c_void_p()
         call("burnish_options_make", ctypes.byref(self.handle))
         try:
             for name, value in keywords.items():
+                if value is None or (isinstance(value, (list, tuple)) and not value):
+                    if name not in known():
+                        raise Error(USAGE, f"{name}: is no option")
+                    continue
                 text = text_of(value)
                 if "\0" in name + text:
                     raise ValueError(f"{name}: holds a zero character")
@@ -147,8 +164,8 @@ class Options:
 
 
 class Values:
-    """Floats of a picture, by rows, columns and channels. numpy.asarray() and memoryview(values.bytes()) copy nothing; the picture lives as
-    long as they do. values[y, x] is a tuple."""
+    """Floats of a picture, by rows, columns and channels. numpy.asarray(), from_dlpack() of any library and memoryview(values.bytes()) copy
+    nothing; the picture lives as long as they do. values[y, x] is a tuple."""
 
     def __init__(self, owner, address, shape):
         self.owner, self.address, self.shape = owner, address, shape
@@ -157,12 +174,25 @@ class Values:
     def __array_interface__(self):
         return {"version": 3, "shape": self.shape, "typestr": "<f4", "data": (self.address, True)}
 
+    def __dlpack_device__(self):
+        """Returns DLPack's device: (1, 0), the CPU."""
+        return _dlpack.CPU, 0
+
+    def __dlpack__(self, *, stream=None, max_version=None, dl_device=None, copy=None):
+        """Returns a DLPack capsule without a copy. The floats are for reading. Raises BufferError for a stream, another device or a copy."""
+        if stream is not None or copy or (dl_device is not None and tuple(dl_device) != self.__dlpack_device__()):
+            raise BufferError("a picture offers its floats on the CPU, without a stream and without a copy")
+        return _dlpack.capsule(self, self.address, self.shape, max_version)
+
     def bytes(self):
         """A read-only memoryview of the floats, flat."""
         count = self.shape[0] * self.shape[1] * self.shape[2]
         held = (ctypes.c_float * count).from_address(self.address)
         held.owner = self.owner  # lives with the view
         return memoryview(held).cast("B").cast("f").toreadonly()
+
+    def _repr_png_(self):
+        return _show.layer(self)
 
     def __getitem__(self, at):
         y, x = at
@@ -175,7 +205,7 @@ class Values:
 
 def flat(values):
     for value in values:
-        if isinstance(value, str):
+        if isinstance(value, (str, bytes)):
             raise TypeError("a text is no number")
         if hasattr(value, "__iter__"):
             yield from flat(value)
@@ -183,13 +213,51 @@ def flat(values):
             yield value
 
 
-def _gathered(values, code, each, name):
-    if hasattr(values, "tolist"):  # numpy's arrays, whatever their type and strides
-        values = values.tolist()
+def _of_buffer(values, code):
+    """Returns an array of a buffer in rows without gaps whose numbers are of the machine's own kinds, else None."""
     try:
-        held = array.array(code, flat(values))
+        view = memoryview(values)
+    except (TypeError, ValueError, BufferError):
+        return None
+    kinds = "fd" if code == "f" else "BHIL"
+    if view.ndim == 0 or view.format not in tuple(kinds) or not view.c_contiguous or view.nbytes == 0:
+        return None
+    held = array.array(view.format)
+    held.frombytes(view.cast("B"))
+    return held if view.format == code else array.array(code, held)
+
+
+def _check_shape(values, each, name):
+    """Refuses arrays whose last side is another than a row's length, such as 3 x n in place of n x 3."""
+    shape = getattr(values, "shape", None)
+    if isinstance(shape, tuple) and len(shape) > 1 and each < 4 and shape[-1] != each:
+        raise ValueError(f"{name}: shape {shape} is not (n, {each})")
+
+
+def _place_of_fault(values, code):
+    """Returns "/INDEX" of the first value that is no number of the code, or ""."""
+    for index, value in enumerate(flat(values)):
+        try:
+            array.array(code, [value])
+        except (TypeError, OverflowError):
+            return f"/{index}"
+    return ""
+
+
+def _gathered(values, code, each, name):
+    """Returns an array of the code: nested sequences, or arrays of any kind, strides and byte order. A fault names its place."""
+    _check_shape(values, each, name)
+    try:
+        held = _of_buffer(values, code)
+        if held is None:
+            values = values.tolist() if hasattr(values, "tolist") else values if hasattr(values, "__len__") else list(values)
+            held = array.array(code, flat(values))
     except (TypeError, OverflowError) as error:
-        raise TypeError(f"{name}: {error}") from None
+        try:
+            place = _place_of_fault(values, code)
+        except TypeError:  # a text among the numbers, or no sequence at all
+            place = ""
+        raise TypeError(f"{name}{place}: {error}") from None
     if len(held) == 0 or len(held) % each:
         raise ValueError(f"{name}: {len(held)} numbers are no multiple of {each}")
     return held
@@ -203,6 +271,11 @@ def floats(values, each, name):
 def numbers(values, each, name):
     held = _gathered(values, "I", each, name)
     return (ctypes.c_uint32 * len(held)).from_buffer(held)
+
+
+def floats_at(address):
+    """Returns a pointer to floats, which slices can read. address: from picture_of()."""
+    return ctypes.cast(address, ctypes.POINTER(ctypes.c_float))
 
 
 def picture_of(of):

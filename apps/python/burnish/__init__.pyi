@@ -1,0 +1,382 @@
+# Made by make_stubs.py from the option tables: edit stub.in and those tables.
+"""Types of the package burnish. The package's own text says more."""
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, Protocol
+
+__all__: list[str]
+
+Vector2 = Sequence[float]
+Vector3 = Sequence[float]
+Vector4 = Sequence[float]
+Technique = Literal["auto", "split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "lobe_line", "filtered_is", "filtered_is_ggx", "mc", "as_mc"]
+Layer = Literal["depth", "normal", "albedo", "roughness", "tangent", "anisotropy", "metalness", "lod", "object-id", "material-id"]
+Path = str | os.PathLike[str]
+
+class Floats(Protocol):
+    """An array: height x width x 3 floats."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    def __iter__(self) -> Any: ...
+
+class Error(Exception):
+    """A failure. `code`: exit code of the program burnish for it."""
+
+    code: int
+    def __init__(self, code: int, text: str) -> None: ...
+
+class Values:
+    """Floats by rows, columns and channels, read-only."""
+
+    shape: tuple[int, int, int]
+    @property
+    def __array_interface__(self) -> dict[str, Any]: ...
+    def __dlpack_device__(self) -> tuple[int, int]: ...
+    def __dlpack__(
+        self,
+        *,
+        stream: None = None,
+        max_version: tuple[int, int] | None = None,
+        dl_device: tuple[int, int] | None = None,
+        copy: bool | None = None,
+    ) -> Any:
+        """Returns a DLPack capsule without a copy."""
+    def bytes(self) -> memoryview:
+        """Returns the floats, flat."""
+    def _repr_png_(self) -> bytes: ...
+    def __getitem__(self, at: tuple[int, int]) -> tuple[float, ...]:
+        """Returns the channels at (row, column)."""
+
+class Picture:
+    """A picture: linear Rec.709 radiance."""
+
+    name: str
+    width: int
+    height: int
+    @property
+    def pixels(self) -> Values: ...
+    @property
+    def variance(self) -> Values | None: ...
+    @property
+    def hash(self) -> str: ...
+    @property
+    def __array_interface__(self) -> dict[str, Any]: ...
+    def __dlpack_device__(self) -> tuple[int, int]: ...
+    def __dlpack__(self, **keywords: Any) -> Any: ...
+    def layer(self, name: Layer) -> Values:
+        """Returns a layer asked for by render(layers=[...]). Raises KeyError."""
+    def png(self, exposure: float = 0.0) -> bytes:
+        """Returns the bytes of a PNG file. exposure: stops, -64 to 64."""
+    def save(self, path: Path, exposure: float = 0.0) -> None:
+        """Writes .exr .hdr .pfm .png .jpg or .tif. exposure: stops, -64 to 64."""
+    def _repr_png_(self) -> bytes: ...
+    def _repr_html_(self) -> str: ...
+
+class Scene:
+    """A scene under an environment."""
+
+    name: str
+    def render(
+        self,
+        *,
+        width: int = 1280,
+        height: int = 720,
+        msaa: Literal[1, 2, 4, 8, 16] = 8,
+        technique: Technique = "auto",
+        samples: int | None = None,
+        roughness: float | None = None,
+        anisotropy: float | None = None,
+        background: bool = True,
+        texture_anisotropy: int = 16,
+        eye: Vector3 | None = None,
+        target: Vector3 | None = None,
+        orbit: Vector2 | None = None,
+        fov: float = 45.0,
+        camera: int | None = None,
+        layers: Sequence[Layer] = (),
+        axis_k: float = 1.0,
+        axis_beta: float = 2.3,
+        brdf: Literal[
+            "ggx_aniso", "ggx", "ellipsoid", "ggx_aniso_separable", "beckmann", "ashikhmin_shirley", "ward", "ward_cheap",
+            "heidrich_seidel", "ellipsoid_correlated",
+        ] = "ggx_aniso",
+        diffuse: Literal["lambert", "ashikhmin-shirley"] = "lambert",
+        tilt: Vector2 = (0.0, 0.0),
+        masking: Literal["correlated", "separable"] = "correlated",
+        dfg: Literal["table", "fit"] = "table",
+        area_lights: Literal["off", "ltc", "ltc-clipless", "mc", "ltc-isotropic"] = "ltc",
+        light_samples: int = 16,
+        fresnel: Literal["schlick", "conductor", "dielectric"] = "schlick",
+        frame_map: Literal["gram-schmidt", "quaternion", "normal-only", "off"] = "gram-schmidt",
+        height_scale: float = 1.0,
+        pom_metric: Literal["uv", "surface"] = "surface",
+        horizon: Literal["off", "on"] = "on",
+        specular_aa: bool = False,
+        energy_compensation: bool = False,
+        as_tables: Literal["on", "off"] = "on",
+        glass: Literal["interface", "body"] = "body",
+        seed: int = 0,
+    ) -> Picture:
+        """Draws a Picture.
+
+        width: Pixels.
+        height: Pixels.
+        msaa: Samples a pixel: 1, 2, 4, 8 or 16.
+        technique: Technique for light from the environment.
+        samples: Samples of the technique, or samples a pixel of the reference.
+        roughness: Overrides the roughness of every material, 0 to 1.
+        anisotropy: Overrides the anisotropy of every material, -1 to 1.
+        background: Draws the environment behind the scene.
+        texture_anisotropy: Texture taps at most, 1 to 16.
+        eye: Camera position X,Y,Z, metres.
+        target: Point that the camera looks at.
+        orbit: View of the whole scene from AZIMUTH,ELEVATION degrees.
+        fov: Vertical field of view in degrees.
+        camera: Camera of the scene, by index.
+        layers: Layers of the picture, with commas between: depth, normal, albedo.
+        axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
+        axis_beta: Overlap of samples on the major axis, 0 to 100.
+        brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
+            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated.
+        diffuse: Diffuse part: lambert (scaled by the light that the lobe lets through) or ashikhmin-shirley (reciprocal, darker at grazing
+            angles).
+        tilt: Tilt of every lobe against its surface, -80 to 80 degrees: towards the bitangent, and away from the tangent.
+        masking: Masking and shadowing of microfacets: correlated (by height) or separable.
+        dfg: Directional albedo: table (baked, exact) or fit (analytic, coarse).
+        area_lights: Method for light from area lights: off, ltc, ltc-clipless, mc, ltc-isotropic.
+        light_samples: Sample points on each area light for area_lights mc. 1 to 65536.
+        fresnel: Fresnel reflectance: schlick, dielectric (exact) or conductor (exact for dielectrics and for metals with an index).
+        frame_map: Tangents under normal maps: gram-schmidt (projected), quaternion (turned with the normal) or normal-only (unchanged); off
+            ignores normal maps.
+        height_scale: Factor on the depth of height maps, 0 to 1000; 0 turns parallax off.
+        pom_metric: Parallax offset of texture coordinates: surface (as they lie on the surface) or uv (as if they were not stretched).
+        horizon: Light from below the surface, towards which a normal map may turn a lobe: blocked (on) or let in (off).
+        specular_aa: Widen lobes by the variation of normals between neighbouring pixels.
+        energy_compensation: Return the light that rough lobes lose between microfacets.
+        as_tables: Half vectors and albedo in as_mc: from tables for the lobe's two widths (on) or computed (off).
+        glass: Transmitted light: body (leaves by a second interface, absorbed on its way, and shows opaque surfaces behind) or interface
+            (refracted once).
+        seed: Seed of random numbers; in as_mc it turns the samples by pixel, except at 0. 0 to 2147483647.
+        """
+    def reference(
+        self,
+        samples: int = 1024,
+        progress: Callable[[], object] | None = None,
+        *,
+        width: int = 1280,
+        height: int = 720,
+        roughness: float | None = None,
+        anisotropy: float | None = None,
+        background: bool = True,
+        texture_anisotropy: int = 16,
+        eye: Vector3 | None = None,
+        target: Vector3 | None = None,
+        orbit: Vector2 | None = None,
+        fov: float = 45.0,
+        camera: int | None = None,
+        reference_mode: Literal["direct", "shadowed", "path"] = "direct",
+        bounces: int = 8,
+        brdf: Literal[
+            "ggx_aniso", "ggx", "ellipsoid", "ggx_aniso_separable", "beckmann", "ashikhmin_shirley", "ward", "ward_cheap",
+            "heidrich_seidel", "ellipsoid_correlated",
+        ] = "ggx_aniso",
+        diffuse: Literal["lambert", "ashikhmin-shirley"] = "lambert",
+        tilt: Vector2 = (0.0, 0.0),
+        masking: Literal["correlated", "separable"] = "correlated",
+        dfg: Literal["table", "fit"] = "table",
+        area_lights: Literal["off", "ltc", "ltc-clipless", "mc", "ltc-isotropic"] = "ltc",
+        light_samples: int = 16,
+        fresnel: Literal["schlick", "conductor", "dielectric"] = "schlick",
+        frame_map: Literal["gram-schmidt", "quaternion", "normal-only", "off"] = "gram-schmidt",
+        height_scale: float = 1.0,
+        pom_metric: Literal["uv", "surface"] = "surface",
+        horizon: Literal["off", "on"] = "on",
+        energy_compensation: bool = False,
+        seed: int = 0,
+    ) -> Picture:
+        """Draws a Picture by the Monte Carlo reference. Raises KeyboardInterrupt where progress() is true or Ctrl-C is pressed.
+
+        samples: Samples a pixel, 1 or more.
+        progress: Called about ten times a second.
+        width: Pixels.
+        height: Pixels.
+        roughness: Overrides the roughness of every material, 0 to 1.
+        anisotropy: Overrides the anisotropy of every material, -1 to 1.
+        background: Draws the environment behind the scene.
+        texture_anisotropy: Texture taps at most, 1 to 16.
+        eye: Camera position X,Y,Z, metres.
+        target: Point that the camera looks at.
+        orbit: View of the whole scene from AZIMUTH,ELEVATION degrees.
+        fov: Vertical field of view in degrees.
+        camera: Camera of the scene, by index.
+        reference_mode: Paths of the reference: direct, shadowed or path.
+        bounces: Bounces of the reference in mode path.
+        brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
+            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated.
+        diffuse: Diffuse part: lambert (scaled by the light that the lobe lets through) or ashikhmin-shirley (reciprocal, darker at grazing
+            angles).
+        tilt: Tilt of every lobe against its surface, -80 to 80 degrees: towards the bitangent, and away from the tangent.
+        masking: Masking and shadowing of microfacets: correlated (by height) or separable.
+        dfg: Directional albedo: table (baked, exact) or fit (analytic, coarse).
+        area_lights: Method for light from area lights: off, ltc, ltc-clipless, mc, ltc-isotropic.
+        light_samples: Sample points on each area light for area_lights mc. 1 to 65536.
+        fresnel: Fresnel reflectance: schlick, dielectric (exact) or conductor (exact for dielectrics and for metals with an index).
+        frame_map: Tangents under normal maps: gram-schmidt (projected), quaternion (turned with the normal) or normal-only (unchanged); off
+            ignores normal maps.
+        height_scale: Factor on the depth of height maps, 0 to 1000; 0 turns parallax off.
+        pom_metric: Parallax offset of texture coordinates: surface (as they lie on the surface) or uv (as if they were not stretched).
+        horizon: Light from below the surface, towards which a normal map may turn a lobe: blocked (on) or let in (off).
+        energy_compensation: Return the light that rough lobes lose between microfacets.
+        seed: Seed of random numbers; in as_mc it turns the samples by pixel, except at 0. 0 to 2147483647.
+        """
+    def _repr_png_(self) -> bytes: ...
+    def _repr_html_(self) -> str: ...
+
+class Mesh:
+    """Triangles with a material, for meshes()."""
+
+    vertices: int
+    def __init__(
+        self,
+        positions: Any,
+        triangles: Any = None,
+        normals: Any = None,
+        coordinates: Any = None,
+        transform: Any = None,
+        *,
+        base_color: Vector4 = (1.0, 1.0, 1.0, 1.0),
+        metallic: float = 0.0,
+        roughness: float = 1.0,
+        normal_scale: float = 1.0,
+        occlusion_strength: float = 1.0,
+        emissive: Vector3 = (0.0, 0.0, 0.0),
+        emissive_strength: float = 1.0,
+        ior: float = 1.5,
+        specular: float = 1.0,
+        specular_color: Vector3 = (1.0, 1.0, 1.0),
+        anisotropy_strength: float = 0.0,
+        anisotropy_rotation: float = 0.0,
+        transmission: float = 0.0,
+        thickness: float = 0.0,
+        attenuation_distance: float = 0.0,
+        attenuation_color: Vector3 = (1.0, 1.0, 1.0),
+        clearcoat: float = 0.0,
+        clearcoat_roughness: float = 0.0,
+        clearcoat_normal_scale: float = 1.0,
+        conductor_eta: Vector3 = (0.0, 0.0, 0.0),
+        conductor_k: Vector3 = (0.0, 0.0, 0.0),
+        tilt: Vector2 = (0.0, 0.0),
+        tilt_scale: float = 1.0,
+        height_scale: float = 0.05,
+        alpha_cutoff: float = 0.5,
+        double_sided: bool = False,
+        unlit: bool = False,
+        lean: bool = False,
+    ) -> None:
+        """Makes a mesh.
+
+        positions, normals: 3 floats a vertex. coordinates: 2 floats a vertex, (0, 0) is the upper left.
+        triangles: 3 vertices each, counter-clockwise from the front. transform: 16 floats, column by column.
+        base_color: 0 to 1. glTF: pbrMetallicRoughness/baseColorFactor.
+        metallic: 0 to 1. glTF: pbrMetallicRoughness/metallicFactor.
+        roughness: 0 to 1. glTF: pbrMetallicRoughness/roughnessFactor. Perceptual, alpha = roughness^2.
+        normal_scale: any number. glTF: normalTexture/scale.
+        occlusion_strength: 0 to 1. glTF: occlusionTexture/strength.
+        emissive: 0 to 1. glTF: emissiveFactor. Cd/m^2 up to exposure, times emissive_strength.
+        emissive_strength: 0 or more. glTF: KHR_materials_emissive_strength/emissiveStrength.
+        ior: 0 or more. glTF: KHR_materials_ior/ior.
+        specular: 0 to 1. glTF: KHR_materials_specular/specularFactor.
+        specular_color: 0 or more. glTF: KHR_materials_specular/specularColorFactor.
+        anisotropy_strength: 0 to 1. glTF: KHR_materials_anisotropy/anisotropyStrength.
+        anisotropy_rotation: any number. glTF: KHR_materials_anisotropy/anisotropyRotation. Radians, counter-clockwise from the tangent.
+        transmission: 0 to 1. glTF: KHR_materials_transmission/transmissionFactor. Transmitted share of the light that is not reflected,
+            times base_color.
+        thickness: 0 or more. glTF: KHR_materials_volume/thicknessFactor. Of the body below the surface, metres in the mesh's own space; 0:
+            the mesh tells. Bodies are closed meshes; open ones are thin.
+        attenuation_distance: 0 or more. glTF: KHR_materials_volume/attenuationDistance.
+        attenuation_color: 0 to 1. glTF: KHR_materials_volume/attenuationColor. The light's share left after attenuation_distance (metres,
+            world space; 0: infinite) inside a body.
+        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
+        clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
+        clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
+        conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
+        conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
+        tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.
+        tilt_scale: any number. glTF: extras/burnish/tiltTexture/scale. Multiplies the slopes in the tilt texture.
+        height_scale: 0 to 1000. glTF: extras/burnish/heightTexture/scale. Depth of height 0 below height 1, in lengths of texture
+            coordinates. One such length is the square root of the area under a unit square of coordinates.
+        alpha_cutoff: 0 or more. glTF: alphaCutoff.
+        double_sided: glTF: doubleSided.
+        unlit: glTF: KHR_materials_unlit.
+        lean: glTF: extras/burnish/lean.
+        """
+
+class Comparison:
+    """Figures of two pictures. FLIP lies in [0, 1]."""
+
+    pictures: tuple[Any, Any]
+    flip_mean: float
+    flip_p99: float
+    flip_max: float
+    mse: float
+    rel_mse: float
+    max_abs: float
+    differing_fraction: float
+    def _repr_html_(self) -> str: ...
+
+def version() -> str:
+    """Returns the library's version."""
+
+def techniques() -> dict[str, str]:
+    """Returns the techniques: {name: summary}."""
+
+def options() -> dict[str, str]:
+    """Returns the keywords: {name: meaning}."""
+
+def load(
+    path: Path,
+    environment: Path | None = None,
+    *,
+    threads: int = 0,
+    floor: Literal["off", "shadow", "stage"] = "off",
+    env_size: int = 512,
+    env_samples: int = 1024,
+    env_rotation: float = 0.0,
+    env_exposure: float = 0.0,
+    cache: bool = True,
+) -> Scene:
+    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME".
+
+    threads: Worker threads; 0: all cores.
+    floor: Floor below the scene: off, shadow or stage.
+    env_size: Texels along an edge of the environment's cube map.
+    env_samples: Samples a texel of the prefiltered environment.
+    env_rotation: Rotation of the environment in degrees.
+    env_exposure: Exposure of the environment in stops.
+    cache: Keeps bakes in the cache.
+    """
+
+def meshes(
+    *parts: Mesh,
+    environment: Path | None = None,
+    threads: int = 0,
+    env_size: int = 512,
+    env_samples: int = 1024,
+    env_rotation: float = 0.0,
+    env_exposure: float = 0.0,
+    cache: bool = True,
+) -> Scene:
+    """Makes a scene of meshes.
+
+    threads: Worker threads; 0: all cores.
+    env_size: Texels along an edge of the environment's cube map.
+    env_samples: Samples a texel of the prefiltered environment.
+    env_rotation: Rotation of the environment in degrees.
+    env_exposure: Exposure of the environment in stops.
+    cache: Keeps bakes in the cache.
+    """
+
+def compare(reference: Picture | Values | Floats, test: Picture | Values | Floats) -> Comparison:
+    """Compares two pictures of height x width x 3 floats."""

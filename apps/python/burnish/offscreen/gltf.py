@@ -1,0 +1,78 @@
+"""Writes meshes, lights and a camera as one binary glTF 2.0 file, which the library reads as a scene."""
+
+import json
+import math
+import struct
+
+from .. import _png
+from .display import encoded
+
+ARRAY, ELEMENTS, FLOAT, WHOLE = 34962, 34963, 5126, 5125
+KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+
+
+class Writer:
+    """Collects a file's parts. Equal parts give equal bytes."""
+
+    def __init__(self):
+        self.binary = bytearray()
+        self.file = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [],
+                     "accessors": [], "bufferViews": [], "cameras": []}
+        self.lights, self.extensions = [], set()
+
+    def accessor(self, values, each, target=ARRAY, bounds=False):
+        """Adds a ctypes array of floats or whole numbers. Returns its index."""
+        floats = values._type_._type_ == "f"
+        entry = {"bufferView": len(self.file["bufferViews"]), "componentType": FLOAT if floats else WHOLE, "count": len(values) // each,
+                 "type": KINDS[each]}
+        if bounds:
+            entry["min"], entry["max"] = ([of(values[i::each]) for i in range(each)] for of in (min, max))
+        self.file["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": 4 * len(values), "target": target})
+        self.binary += bytes(values)
+        self.file["accessors"].append(entry)
+        return len(self.file["accessors"]) - 1
+
+    def material(self, members, extensions):
+        """Adds a material. extensions: {name: object}. Returns its index."""
+        self.extensions.update(extensions)
+        self.file["materials"].append({**members, **({"extensions": extensions} if extensions else {})})
+        return len(self.file["materials"]) - 1
+
+    def node(self, matrix, **what):
+        """Adds a node at the root. matrix: 16 floats, column by column. what: mesh=, camera= or light= with its object."""
+        entry = {"matrix": list(matrix)}
+        for kind, thing in what.items():
+            if kind == "light":
+                self.extensions.add("KHR_lights_punctual")
+                entry["extensions"] = {"KHR_lights_punctual": {"light": len(self.lights)}}
+                self.lights.append(thing)
+            else:
+                entry[kind] = len(self.file[{"mesh": "meshes", "camera": "cameras"}[kind]])
+                self.file[{"mesh": "meshes", "camera": "cameras"}[kind]].append(thing)
+        self.file["scenes"][0]["nodes"].append(len(self.file["nodes"]))
+        self.file["nodes"].append(entry)
+
+    def bytes(self):
+        """Returns the file."""
+        file = {name: part for name, part in self.file.items() if part}
+        if self.lights:
+            file["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
+        if self.extensions:
+            file["extensionsUsed"] = sorted(self.extensions)
+        binary = bytes(self.binary) + bytes(-len(self.binary) % 4)
+        if binary:
+            file["buffers"] = [{"byteLength": len(binary)}]
+        text = json.dumps(file).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text
+        chunks += struct.pack("<I4s", len(binary), b"BIN\0") + binary if binary else b""
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def even_light(radiance):
+    """Returns (PNG bytes, exposure in stops) of an environment with one radiance (red, green, blue) everywhere."""
+    most = max(radiance)
+    if most <= 0:
+        return _png.encode(4, 2, bytes(48), 16), 0.0
+    words = [round(65535 * encoded(value / most)) for value in radiance]
+    return _png.encode(4, 2, struct.pack(">3H", *words) * 8, 16), math.log2(most)

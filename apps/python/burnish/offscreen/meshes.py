@@ -1,0 +1,120 @@
+"""Materials and meshes, with pyrender's names and arguments."""
+
+import math
+
+from .. import _native
+from . import gltf
+from .checks import colour, number, refuse, refuse_given
+
+TRIANGLES = 4
+ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
+
+
+class MetallicRoughnessMaterial:
+    """glTF's metallic-roughness material without textures. Colours are linear, 0 to 1; roughness is perceptual. anisotropyStrength (0 to 1)
+    and anisotropyRotation (radians from the first texture axis) are burnish's own."""
+
+    def __init__(self, name=None, normalTexture=None, occlusionTexture=None, emissiveTexture=None, emissiveFactor=None, alphaMode=None,
+                 alphaCutoff=None, doubleSided=False, smooth=True, wireframe=False, baseColorFactor=None, baseColorTexture=None,
+                 metallicFactor=1.0, roughnessFactor=1.0, metallicRoughnessTexture=None, *, anisotropyStrength=0.0, anisotropyRotation=0.0):
+        refuse_given(normalTexture=normalTexture, occlusionTexture=occlusionTexture, emissiveTexture=emissiveTexture,
+                      baseColorTexture=baseColorTexture, metallicRoughnessTexture=metallicRoughnessTexture, wireframe=wireframe or None)
+        if (alphaMode or "OPAQUE") not in ALPHA_MODES:
+            refuse("alphaMode", f"{alphaMode!r} is none of {', '.join(ALPHA_MODES)}")
+        self.name, self.smooth, self.doubleSided, self.alphaMode = name, smooth, bool(doubleSided), alphaMode or "OPAQUE"
+        self.alphaCutoff = number(0.5 if alphaCutoff is None else alphaCutoff, "alphaCutoff", 0)
+        self.baseColorFactor = colour([1.0] * 4 if baseColorFactor is None else baseColorFactor, "baseColorFactor", 1)
+        self.emissiveFactor = colour([0.0] * 3 if emissiveFactor is None else emissiveFactor, "emissiveFactor", 1)[:3]
+        self.metallicFactor, self.roughnessFactor = number(metallicFactor, "metallicFactor", 0, 1), number(roughnessFactor, "roughnessFactor", 0, 1)
+        self.anisotropyStrength = number(anisotropyStrength, "anisotropyStrength", 0, 1)
+        self.anisotropyRotation = number(anisotropyRotation, "anisotropyRotation")
+
+    def write(self, to, flat, both_sides, coverage):
+        members = {"doubleSided": self.doubleSided or both_sides, "alphaMode": self.alphaMode}
+        if self.alphaMode == "MASK":
+            members["alphaCutoff"] = self.alphaCutoff
+        shine = {"baseColorFactor": [1.0, 1.0, 1.0, self.baseColorFactor[3]] if coverage else self.baseColorFactor}
+        if flat or coverage:
+            return to.material({**members, "pbrMetallicRoughness": shine}, {"KHR_materials_unlit": {}})
+        shine.update(metallicFactor=self.metallicFactor, roughnessFactor=self.roughnessFactor)
+        brushed = {"anisotropyStrength": self.anisotropyStrength, "anisotropyRotation": self.anisotropyRotation}
+        return to.material({**members, "pbrMetallicRoughness": shine, "emissiveFactor": self.emissiveFactor},
+                           {"KHR_materials_anisotropy": brushed} if self.anisotropyStrength else {})
+
+
+class Primitive:
+    """Triangles with one material. positions, normals: 3 floats a vertex; texcoord_0: 2, v upwards; color_0: 3 or 4, floats of 0 to 1 or whole
+    numbers of 0 to 255. indices: 3 a triangle, counter-clockwise from the front; None: vertices in order. Without normals faces are flat."""
+
+    def __init__(self, positions, normals=None, tangents=None, texcoord_0=None, texcoord_1=None, color_0=None, joints_0=None, weights_0=None,
+                 indices=None, material=None, mode=None, targets=None, poses=None):
+        refuse_given(tangents=tangents, texcoord_1=texcoord_1, joints_0=joints_0, weights_0=weights_0, targets=targets, poses=poses)
+        if mode not in (None, TRIANGLES):
+            refuse("mode", f"{mode} is not {TRIANGLES}, triangles")
+        self.positions = _native.floats(positions, 3, "positions")
+        self.count = len(self.positions) // 3
+        self._check(self.positions, 3, "positions")
+        self.normals = self._of_vertices(normals, 3, "normals")
+        self.texcoord_0 = self._of_vertices(texcoord_0, 2, "texcoord_0")
+        for i in range(1, len(self.texcoord_0 or ()), 2):
+            self.texcoord_0[i] = 1.0 - self.texcoord_0[i]  # the library has v downwards
+        self.color_0 = None if color_0 is None else _native.floats([colour(row, f"color_0/{i}", 1) for i, row in enumerate(color_0)], 4, "color_0")
+        self._check(self.color_0, 4, "color_0")
+        self.indices = None if indices is None else _native.numbers(indices, 3, "indices")
+        if self.indices is not None and max(self.indices) >= self.count:
+            refuse(f"indices/{list(self.indices).index(max(self.indices))}", f"{max(self.indices)} is beyond {self.count} vertices")
+        self.material = MetallicRoughnessMaterial() if material is None else material
+
+    def _check(self, values, each, name):
+        for i, value in enumerate(values or ()):
+            if not math.isfinite(value):
+                refuse(f"{name}/{i}", f"{value} is not finite")
+        if values is not None and len(values) // each != self.count:
+            refuse(name, f"{len(values) // each} for {self.count} vertices")
+        return values
+
+    def _of_vertices(self, values, each, name):
+        return None if values is None else self._check(_native.floats(values, each, name), each, name)
+
+    def write(self, to, *ways):
+        named = {"NORMAL": (self.normals, 3), "TEXCOORD_0": (self.texcoord_0, 2), "COLOR_0": (self.color_0, 4)}
+        attributes = {name: to.accessor(values, each) for name, (values, each) in named.items() if values is not None and not (name == "COLOR_0" and ways[-1])}
+        entry = {"attributes": {"POSITION": to.accessor(self.positions, 3, bounds=True), **attributes}, "material": self.material.write(to, *ways)}
+        if self.indices is not None:
+            entry["indices"] = to.accessor(self.indices, 1, gltf.ELEMENTS)
+        return entry
+
+
+class Mesh:
+    """Primitives that move together."""
+
+    def __init__(self, primitives, name=None, weights=None, is_visible=True):
+        refuse_given(weights=weights)
+        self.primitives, self.name, self.is_visible = list(primitives), name, is_visible
+
+    @classmethod
+    def from_trimesh(cls, mesh, material=None, is_visible=True, poses=None, wireframe=False, smooth=True):
+        """Returns a Mesh of an object with `vertices` and `faces`, such as trimesh's, or of a list of them. `vertex_normals` give smooth
+        shading. `visual.vertex_colors` colours a mesh without a material. A texture raises burnish.Error."""
+        refuse_given(poses=poses, wireframe=wireframe or None)
+        parts = mesh if isinstance(mesh, (list, tuple)) else [mesh]
+        return cls([_primitive_of(part, material, smooth) for part in parts], is_visible=is_visible)
+
+
+def _primitive_of(part, material, smooth):
+    """Returns the primitive of an object like a trimesh."""
+    visual = getattr(part, "visual", None)
+    kind = getattr(visual, "kind", None)
+    uv = getattr(visual, "uv", None) if kind == "texture" else None
+    if material is None and kind == "texture":
+        given = getattr(visual, "material", None)
+        for name in ("image", "baseColorTexture", "metallicRoughnessTexture", "normalTexture", "emissiveTexture", "occlusionTexture"):
+            refuse_given(**{name: getattr(given, name, None)})
+        names = ("baseColorFactor", "metallicFactor", "roughnessFactor", "emissiveFactor", "doubleSided", "alphaMode", "alphaCutoff")
+        factors = {name: getattr(given, name, None) for name in names}
+        material = MetallicRoughnessMaterial(**{name: value for name, value in factors.items() if value is not None})
+    colours = visual.vertex_colors if material is None and kind == "vertex" else None
+    if material is None:
+        material = MetallicRoughnessMaterial(metallicFactor=0.2, roughnessFactor=0.8)  # as pyrender has it
+    return Primitive(part.vertices, getattr(part, "vertex_normals", None) if smooth else None, texcoord_0=uv, color_0=colours, indices=part.faces,
+                     material=material)
