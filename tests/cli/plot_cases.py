@@ -2,7 +2,7 @@
 
 import math
 import re
-import xml.dom.minidom
+import xml.etree.ElementTree
 
 from harness import case, check
 
@@ -11,7 +11,7 @@ def discs(bench, *words):
     """Returns {family: [(x, y)]} of the dots of `plot axis`."""
     bench.run("plot", "axis", *words, "-o", "a.svg").expect(0)
     text = (bench.folder / "a.svg").read_text()
-    xml.dom.minidom.parseString(text)
+    xml.etree.ElementTree.fromstring(text)
     found = {}
     for family, circle in re.findall(r'<g class="best (c\d)"[^>]*>\s*<circle ([^>]*)', text):
         found.setdefault(family, []).append(tuple(float(re.search(rf'\b{name}="([-\d.]+)"', circle)[1]) for name in ("cx", "cy")))
@@ -58,7 +58,7 @@ def lobe(bench, *words):
     """Returns a figure's lobe data: the peak and its place, the value in the mirror direction and its place; and the figure."""
     bench.run("plot", "lobe", *words, "-o", "l.svg", "-q").expect(0)
     text = (bench.folder / "l.svg").read_text()
-    xml.dom.minidom.parseString(text)
+    xml.etree.ElementTree.fromstring(text)
     number = r"([-\d.e+]+)"
     found = re.search(rf"peak {number} at {number},{number}, mirror direction {number} at {number},{number}", text)
     return [float(group) for group in found.groups()] + [text]
@@ -127,7 +127,7 @@ def contours(bench):
 def sides(bench, *words):
     bench.run("plot", "side", *words, "-o", "s.svg", "-q").expect(0)
     text = (bench.folder / "s.svg").read_text()
-    xml.dom.minidom.parseString(text)
+    xml.etree.ElementTree.fromstring(text)
     found = re.search(r"bent_normal ([\d.]+) %, major_axis ([\d.]+) %", text)
     return float(found[1]), float(found[2])
 
