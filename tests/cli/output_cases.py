@@ -10,6 +10,7 @@ import sys
 import time
 
 import gltf_files as files
+from environment_files import small_sky
 from harness import SMALL, Skipped, case, check, scratch
 
 MAGIC = {
@@ -286,17 +287,18 @@ def devices(bench):
 def cache(bench):
     """A cache folder that is not writable, or holds rubbish, never stops a render."""
     elsewhere = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
-    first = bench.figures(*SMALL, env=elsewhere)
-    again = bench.figures(*SMALL, env=elsewhere)
+    words = ("builtin:sphere", "--size", "64x48", "--msaa", "1", *small_sky(bench))
+    first = bench.figures(*words, env=elsewhere)
+    again = bench.figures(*words, env=elsewhere)
     check(not first["environment_from_cache"] and again["environment_from_cache"], "the second run does not use the cache")
-    without = bench.figures(*SMALL, "--no-cache", env=elsewhere)
+    without = bench.figures(*words, "--no-cache", env=elsewhere)
     check(not without["environment_from_cache"], "--no-cache reads the cache")
     for path in (bench.folder / "cache").rglob("*"):
         if path.is_file():
             path.write_bytes(path.read_bytes()[:100])
-    damaged = bench.figures(*SMALL, env=elsewhere)
+    damaged = bench.figures(*words, env=elsewhere)
     scratch(bench, "file", b"")
-    nowhere = bench.figures(*SMALL, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
+    nowhere = bench.figures(*words, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
     hashes = {found["pixel_hash"] for found in (first, again, without, damaged, nowhere)}
     check(len(hashes) == 1, f"the cache changes the picture: {hashes}")
 

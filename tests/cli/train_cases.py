@@ -15,14 +15,14 @@ SMALL = ("train", "mip", "--steps", "20")
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
 
 
-@case("train.threads_and_instruction_sets_make_no_difference")
+@case("train.threads_and_instruction_sets_make_no_difference", budget=5)
 def threads(bench):
     hashes = set()
-    for name, options, env in (("1", ("--threads", "1"), {}), ("2", ("--threads", "2"), {}), ("3", ("--threads", "3"), {}), ("s", (), {"BN_FORCE_ISA": "avx2"})):
-        bench.run("train", "mip", "--steps", "8", *options, "-o", f"w{name}.mipnet", "-q", env=env).expect(0)
+    for name, options, env in (("1", ("--threads", "1"), {}), ("3", ("--threads", "3"), {}), ("s", (), {"BN_FORCE_ISA": "avx2"})):
+        bench.run("train", "mip", "--steps", "4", *options, "-o", f"w{name}.mipnet", "-q", env=env).expect(0)
         hashes.add(hashlib.sha256((bench.folder / f"w{name}.mipnet").read_bytes()).hexdigest())
-    check(len(hashes) == 1, "weights by 1, 2 and 3 threads and by AVX2 differ")
-    check(bench.left_behind() == ["w1.mipnet", "w2.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
+    check(len(hashes) == 1, "weights by 1 and 3 threads and by AVX2 differ")
+    check(bench.left_behind() == ["w1.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
 
 
 @case("train.killed_goes_on_to_the_same_bytes")
