@@ -70,8 +70,8 @@ def tiff_pixels(path):
     return [tuple(data[i : i + 4]) for i in range(begin, begin + fields[279], 4)]
 
 
-ROUGH_BALL = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--env-samples", "16", "--roughness", "0.9", "--technique",
-              "split_isotropic", "--tonemap", "none", "--no-background", "-q")
+ROUGH_BALL = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--env-samples", "16", "--roughness", "0.9",
+              "--technique", "split_isotropic", "--tonemap", "none", "--no-background", "-q")
 
 
 @case("output.without_a_background_alpha_is_coverage")

@@ -13,8 +13,8 @@ TOLD = (
     (r"^plot, drawing side: ", "plot", "side", "-o", "a.svg"),
     (r"^render, .*levels of material '.*' by kappa: ", "render", "builtin:bumps", "--mip-filter", "kappa", *TINY),
     (r"^bake, mip, ", "bake", "mip", "builtin:bumps", "--mip-filter", "kappa", "-o", "a.mip"),
-    (r"^render, environment builtin:sky(, .*)?: |^baking builtin:sky: ", "render", "builtin:plate", "--env", "builtin:sky", "--env-size", "64", "--env-samples", "256",
-     "--no-cache", "--size", "24x16", "--floor", "off"),
+    (r"^render, environment builtin:sky(, .*)?: |^baking builtin:sky: ", "render", "builtin:plate", "--env", "builtin:sky", "--env-size", "64",
+     "--env-samples", "256", "--no-cache", "--size", "24x16", "--floor", "off"),
     (r"^render, drawing 64x48: ", "render", "builtin:plate", "--technique", "mc", "--samples", "2048", *TINY[2:], "--size", "64x48"),
 )
 

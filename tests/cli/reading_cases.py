@@ -41,7 +41,7 @@ def plain_hdr(value, lines=""):
 
 def drawn(bench, env):
     """Returns the pixel hash and warnings of a sphere under this environment."""
-    found = bench.figures("builtin:sphere", "--size", "64x48", "--msaa", "1", "--env-size", "16", "--env-samples", "4", "--floor", "off", "--env", env)
+    found = bench.figures("builtin:sphere", "--size", "64x48", "--msaa", "1", "--floor", "off", "--env", env, "--env-size", "16", "--env-samples", "4")
     return found["pixel_hash"], found["warnings"]
 
 

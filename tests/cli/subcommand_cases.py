@@ -3,8 +3,10 @@
 import json
 import re
 
+from compare_cases import png
+from detail_cases import bumps
 from fault_cases import CHART, REFERENCE, TINY
-from harness import case, check
+from harness import case, check, scratch
 
 NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # drivers are not under test here
 VIEW = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
@@ -45,12 +47,12 @@ RUNS = {
              (("tpr", "--expr", "u", "1-v", "--size", "4x4", "-o", "r.pfm"), (0,)),
              (("half-vectors", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "h.png"), (0,)),
              (("brdf-lut", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "l.pfm"), (0,)),
-             (("environment", "builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
+             (("environment", "a.hdr", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
              (("displaced", "builtin:sphere", "a.png", "--triangles", "1", "-o", "s.glb"), (0,)),
              (("mip", MAPPED, "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "seen"), (0,)),
              (("mip", MAPPED, "--format", "png-levels", "-o", "textures"), (0,)), (("mip", MAPPED, "--format", "exr-mip", "-o", "levels"), (0,))],
-    "train": [(("mip", "--steps", "1", "-o", "w.mipnet", "-q"), (0,)),
-              (("mip", "--steps", "1", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
+    "train": [(("mip", "--steps", "1", "--only-maps", "maps", "-o", "w.mipnet", "-q"), (0,)),
+              (("mip", "--steps", "1", "--only-maps", "maps", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
     "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish", "markdown")],
@@ -79,11 +81,12 @@ def long(bench):
         run_each(bench, name, runs)
 
 
-@case("subcommand.each_runs_small", "input", budget=15)
+@case("subcommand.each_runs_small", "input", budget=12)
 def each(bench):
     said = bench.run("--help").expect(0).out
     named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
     check(set(named) == set(RUNS), f"{sorted(set(named) ^ set(RUNS))}: in the help or among these runs, not in both")
+    scratch(bench, "maps/waves/a_normal.png", png(64, 64, bumps))
     (bench.folder / "goldens.json").write_text('{"rows": [{"name": "a", "picture": "a.png"}]}')
     for name in named:
         whats = re.search(r"^  WHAT(?: REQUIRED)? +(.*)$", bench.run(name, "--help").expect(0).out, re.MULTILINE)

@@ -71,7 +71,8 @@ def choices(bench, *few):
     made = {}
     maps = () if few else (("--maps", "maps"), ("--only-maps", bench.folder / "maps/"))
     for words in ((), ("--loss", "l2"), ("--loss", "charbonnier"), ("--tone", "log"), ("--levels", "2"), ("--size", "2x16"), *maps,
-                  ("--from", bench.folder / "from.mipnet"), ("--taught-by", bench.folder / "from.mipnet"), ("--light", "0.5"), ("--mirrored", "1"), ("--footprint", "8")):
+                  ("--from", bench.folder / "from.mipnet"), ("--taught-by", bench.folder / "from.mipnet"), ("--light", "0.5"), ("--mirrored", "1"),
+                  ("--footprint", "8")):
         bench.run("train", "mip", "--steps", "2" if few else "4", *few, *words, "-o", "w.mipnet", "-q").expect(0)
         made[words] = (bench.folder / "w.mipnet").read_bytes()
         said = json.loads(bench.run("info", "--json", "--weights", "w.mipnet").expect(0).out)["command"].split()
