@@ -83,7 +83,7 @@ def degenerate_reference(bench):
     bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+12", "scale the scene down")
 
 
-@case("hostile.what_an_environment_needed_is_said")
+@case("hostile.what_an_environment_needed_is_said", budget=4)
 def repaired_environment(bench):
     pixels = [1.0] * (8 * 4 * 3)
     pixels[5], pixels[7], pixels[8], pixels[20] = float("nan"), -1.0, -2.0, float("inf")
@@ -234,7 +234,7 @@ def header_bombs(bench):
                 check(done.peak_bytes < 200 << 20, f"{name} took {done.peak_bytes >> 20} MiB\n{done.describe()}")
 
 
-@case("hostile.offsets_that_lead_out_of_the_file", "input")
+@case("hostile.offsets_that_lead_out_of_the_file", "input", budget=5)
 def offsets(bench):
     """An OpenEXR image whose lines lie before its first byte, or far behind the last. OpenEXR adds offsets unchecked: -1 and 4 give 3."""
     whole = (pathlib.Path(__file__).parent.parent / "fuzz/corpus/exr/lines_before_the_file.exr").read_bytes()
@@ -246,7 +246,7 @@ def offsets(bench):
         check(place and int(place.group(1)) <= len(whole), f"no place in the file\n{done.describe()}")
 
 
-@case("hostile.headers_that_scale_by_nothing", "input")
+@case("hostile.headers_that_scale_by_nothing", "input", budget=5)
 def scales(bench):
     """Images whose samples are divided by 0, or multiplied by 0 or by NaN."""
     pixels = struct.pack("<48f", *[0.5] * 48)

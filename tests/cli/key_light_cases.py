@@ -78,7 +78,7 @@ def poor_environments(bench):
             check(found["warnings"] == [], f"{name}: {found['warnings']}")
 
 
-@case("key_lights.environments_are_repaired_and_said_so", "input")
+@case("key_lights.environments_are_repaired_and_said_so", "input", budget=8)
 def repaired(bench):
     """A warning is one line, also in --stats, from the bake and from the cache."""
     for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 infinite values"),
@@ -119,7 +119,7 @@ def unwritable_cache(bench):
     check(len(json.loads((bench.folder / "s.json").read_text())["warnings"]) == 1, "not in --stats")
 
 
-@case("key_lights.render_the_same_on_every_road")
+@case("key_lights.render_the_same_on_every_road", budget=8)
 def same_on_every_road(bench):
     available = json.loads(bench.run("info", "--json").expect(0).out)["isa_available"]
     for words in (("--technique", "auto"), ("--technique", "mc", "--samples", "4"), ("--technique", "bent_normal", "--tilt", "10,-5")):

@@ -65,7 +65,7 @@ def tables(bench, given_of):
         bench.run("bake", "half-vectors", "--nu=" + value, "--nv", "1", "-o", "t.exr").expect(2).expect_one_line("--nu")
 
 
-@case("phong.tables_from_files_are_those_that_frames_make", "input", budget=10)
+@case("phong.tables_from_files_are_those_that_frames_make", "input", budget=14)
 def some_tables(bench):
     tables(bench, {"16": (("both",),), "60": (("large.exr", "a.pfm"),), "64": (("across.exr",),)})
 
@@ -85,7 +85,7 @@ def devices(bench):
                        also=[("--technique", "bent_normal", "--diffuse", "ashikhmin-shirley")]))
 
 
-@case("phong.baked_environments_are_read_back", "input")
+@case("phong.baked_environments_are_read_back", "input", budget=4)
 def environments(bench):
     words = ("builtin:sphere", "--size", "40x30", "--msaa", "1", "--floor", "off")
     bake = ("--env-size", "64", "--env-samples", "32")
@@ -181,7 +181,7 @@ def diffuse_reference(bench):
         check(abs(means[1] / means[0] - 1) < 0.01, f"{degrees} degrees: reference {means[0]}, tile renderer {means[1]}")
 
 
-@case("phong.roughness_by_direction_is_roughness_and_anisotropy", "input")
+@case("phong.roughness_by_direction_is_roughness_and_anisotropy", "input", budget=5)
 def directional(bench):
     scene = scenes(bench)
     bench.run("render", scene, *VIEW, "--f0", "1,1,1", "--roughness", "0.5", "--anisotropy", "0.6", "-q", "-o", "own.pfm").expect(0)

@@ -64,7 +64,7 @@ def lobe(bench, *words):
     return [float(group) for group in found.groups()] + [text]
 
 
-@case("plot.every_model_has_its_peak_where_it_must")
+@case("plot.every_model_has_its_peak_where_it_must", budget=4)
 def peaks(bench):
     names = [line.split()[0] for line in bench.run("list", "models").expect(0).out.splitlines() if line.strip()]
     drawn = 0

@@ -24,7 +24,7 @@ def lines_of(done):
     return [line for line in done.err.splitlines() if re.search(r": (\d+ s|\d+ %.*)$", line)]
 
 
-@case("progress.of_everything_that_takes_long_is_told", budget=8)
+@case("progress.of_everything_that_takes_long_is_told", budget=10)
 def everything(bench):
     for said, *words in TOLD:
         done = bench.run(*words, env=OFTEN).expect(0)

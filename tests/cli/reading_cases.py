@@ -45,7 +45,7 @@ def drawn(bench, env):
     return found["pixel_hash"], found["warnings"]
 
 
-@case("reading.environments_have_the_light_that_their_files_say", "input", budget=4)
+@case("reading.environments_have_the_light_that_their_files_say", "input", budget=5)
 def environments(bench):
     scratch(bench, "right.exr", exr(WIDTH, HEIGHT, sky))
     scratch(bench, "acescg.exr", exr(WIDTH, HEIGHT, to_acescg, attributes=said(ACESCG)))
@@ -66,7 +66,7 @@ def environments(bench):
         (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.329)))))[0], []), "the chromaticities of Rec.709 change something")
 
 
-@case("reading.environments_of_other_shapes_are_said", "input", budget=5)
+@case("reading.environments_of_other_shapes_are_said", "input", budget=6)
 def shapes(bench):
     for width, height, words in ((16, 16, "16 x 16 pixels are not twice as wide as high"), (16, 12, "cross"), (12, 16, "cross"), (24, 4, "row"), (4, 24, "column")):
         name = scratch(bench, "shape.hdr", hdr(width, height, lambda y: b"".join(rgbe(sky(x, y)) for x in range(width))))

@@ -81,7 +81,7 @@ def long(bench):
         run_each(bench, name, runs)
 
 
-@case("subcommand.each_runs_small", "input", budget=12)
+@case("subcommand.each_runs_small", "input", budget=15)
 def each(bench):
     said = bench.run("--help").expect(0).out
     named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
