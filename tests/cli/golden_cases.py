@@ -153,7 +153,7 @@ def folders(bench):
     bench.run("golden", "check", "e", "a", "--flip", "0.05").expect(0)
 
 
-@case("golden.limits_and_masks_decide", budget=5)
+@case("golden.limits_and_masks_decide", budget=8)
 def limits(bench):
     def draw(*words):
         bench.run("render", "builtin:teapot", *SMALL, *words, "-q", "-o", "pot.exr").expect(0)
