@@ -81,21 +81,21 @@ def strokes(bench):
     bench.run("bake", "quaternion", "p.png", "--strokes", "grooves", "-o", "q.png").expect(2).expect_one_line("--strokes")
 
 
-@case("bake.maps_of_strokes_are_drawn_as_grooves_or_highlights")
+@case("bake.maps_of_strokes_are_drawn_as_grooves_or_highlights", budget=4)
 def drawn_strokes(bench):
     """Grooves along a direction look as highlights across it."""
     for name, expressions in (("along", ("cos(2*v)", "sin(2*v)")), ("across", ("-sin(2*v)", "cos(2*v)"))):
-        bench.run("bake", "tpr", "--expr", *expressions, "--size", "32x32", "-q", "-o", name + ".exr").expect(0)
+        bench.run("bake", "tpr", "--expr", *expressions, "--size", "32x32", "-q", "-o", name + ".png").expect(0)
     words = ("render", "builtin:sphere", *SMALL, "--roughness", "0.3", "--anisotropy", "0.9", "-q")
-    for name, more in (("a", ("--rotation-map", "along.exr", "--strokes", "grooves")), ("b", ("--rotation-map", "across.exr")),
-                       ("c", ("--rotation-map", "along.exr"))):
+    for name, more in (("a", ("--rotation-map", "along.png", "--strokes", "grooves")), ("b", ("--rotation-map", "across.png")),
+                       ("c", ("--rotation-map", "along.png"))):
         bench.run(*words, *more, "-o", name + ".pfm").expect(0)
     bench.run("compare", "a.pfm", "b.pfm", "--fail-flip", "0.002").expect(0)
     bench.run("compare", "a.pfm", "c.pfm", "--fail-flip", "0.02").expect(1)
     # a folder's picture turns once, also where another one replaces it
     (bench.folder / "own").mkdir()
-    (bench.folder / "own" / "x_rotation.exr").write_bytes((bench.folder / "along.exr").read_bytes())
-    for more in ((), ("--rotation-map", "along.exr")):
+    (bench.folder / "own" / "x_rotation.png").write_bytes((bench.folder / "along.png").read_bytes())
+    for more in ((), ("--rotation-map", "along.png")):
         for turned in ("grooves", "highlights"):
             bench.run(*words, "--material", "own", *more, "--strokes", turned, "-o", turned + ".pfm").expect(0)
         bench.run("compare", "grooves.pfm", "highlights.pfm", "--fail-flip", "0.005").expect(1)
@@ -103,9 +103,9 @@ def drawn_strokes(bench):
     scratch(bench, "d.png", png(2, 2, lambda x, y: (255, 128, 255)))
     (bench.folder / "bare").mkdir()
     scratch(bench, "bare/x_normal.png", png(2, 2, lambda x, y: (128, 128, 255)))
-    bench.run(*words, "--rotation-map", "along.exr", "--direction-map", "d.png", "-o", "e.png").expect(2).expect_one_line("d.png")
+    bench.run(*words, "--rotation-map", "along.png", "--direction-map", "d.png", "-o", "e.png").expect(2).expect_one_line("d.png")
     for more, needle in ((("--rotation-map", "d.png", "--rotation-encoding", "direction"), "d.png"), (("--direction-map", "d.png"), "d.png"),
-                         (("--material", "own", "--rotation-encoding", "direction"), "x_rotation.exr"),
+                         (("--material", "own", "--rotation-encoding", "direction"), "x_rotation.png"),
                          (("--material", "own", "--direction-map", "d.png"), "d.png"), (("--material", "bare"), "no map"), ((), "no map")):
         done = bench.run(*words, *more, "--strokes", "grooves", "-o", "e.png").expect(2)
         done.expect_one_line("--strokes")

@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 
+from environment_files import small_sky
 from harness import SMALL, Skipped, case, check, scratch
 
 TEMPORARY = ".o.png.0123456789abcdef.bntmp"
@@ -61,18 +62,18 @@ def permissions(bench):
     check((bench.folder / "s.json").stat().st_mode & 0o777 == 0o666 & ~umask, "a new file has other permissions than others")
 
 
-def cache_of(bench):
-    """Returns a new cache for the case with one environment, and its file."""
+def cache_of(bench, *words):
+    """Returns a new cache for the case with one environment, after a picture by these options, and its file."""
     cache = bench.folder / "cache"
-    bench.run("render", *SMALL, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
+    bench.run("render", *words, env={"XDG_CACHE_HOME": str(cache)}).expect(0)
     files = sorted((cache / "burnish").glob("environment-*.bnenv"))
     check(len(files) == 1, f"the cache holds {files}")
     return {"XDG_CACHE_HOME": str(cache)}, files[0]
 
 
-@case("file.leftovers_in_the_cache_count_and_go")
+@case("file.leftovers_in_the_cache_count_and_go", budget=5)
 def cache_leftovers(bench):
-    env, kept = cache_of(bench)
+    env, kept = cache_of(bench, *SMALL)
     for name in (f".{kept.name}.77.0.tmp", f".{kept.name}.00112233445566ff.bntmp"):
         scratch(bench, kept.parent.relative_to(bench.folder) / name, bytes(1 << 20))
     said = bench.run("info", env=env).expect(0).out
@@ -85,7 +86,8 @@ def cache_leftovers(bench):
 
 @case("file.what_stands_at_a_cache_file_s_name_is_replaced")
 def cache_intruders(bench):
-    env, kept = cache_of(bench)
+    words = ("builtin:sphere", "--size", "64x48", "--msaa", "1", *small_sky(bench))
+    env, kept = cache_of(bench, *words)
     whole = kept.read_bytes()
     target = scratch(bench, "precious", b"precious")
 
@@ -98,13 +100,13 @@ def cache_intruders(bench):
     for put in (link, fifo):
         kept.unlink()
         put()
-        bench.run("render", *SMALL, env=env, timeout=30.0).expect(0)
+        bench.run("render", *words, env=env, timeout=30.0).expect(0)
         check(target.read_bytes() == b"precious", "the target of a link in the cache was overwritten")
         check(kept.is_file() and not kept.is_symlink() and kept.read_bytes() == whole, "the cache file was not made anew")
     other = pathlib.Path(shutil.copy(kept, bench.folder / "elsewhere"))
     kept.unlink()
     kept.symlink_to(other)
-    found = bench.figures(*SMALL, env=env)
+    found = bench.figures(*words, env=env)
     check(not found["environment_from_cache"], "a link in the cache was read")
 
 
@@ -232,8 +234,9 @@ def lost_checkpoint(bench):
 
 @case("file.an_environment_is_baked_once_however_it_is_turned_and_exposed")
 def one_bake(bench):
-    env, kept = cache_of(bench)
+    small = ("builtin:sphere", "--size", "64x48", "--msaa", "1", *small_sky(bench))
+    env, kept = cache_of(bench, *small)
     for words in (("--env-rotation", "70"), ("--env-exposure", "1.5"), ("--env-rotation", "-90", "--env-exposure", "-2")):
-        check(bench.figures(*SMALL, *words, env=env)["environment_from_cache"], f"{words} baked it anew")
+        check(bench.figures(*small, *words, env=env)["environment_from_cache"], f"{words} baked it anew")
     baked = [name for name in os.listdir(kept.parent) if name.startswith("environment-")]
     check(baked == [kept.name], f"the cache holds {os.listdir(kept.parent)}")

@@ -153,27 +153,40 @@ def folders(bench):
     bench.run("golden", "check", "e", "a", "--flip", "0.05").expect(0)
 
 
-@case("golden.limits_and_masks_decide", budget=20)
+@case("golden.limits_and_masks_decide", budget=8)
 def limits(bench):
-    pot = {"name": "pot", "scene": "builtin:teapot", "format": "exr"}
-    write(bench, [pot])
-    bench.run("golden", "check", "m.json").expect(5)
-    bench.run("golden", "bless", "m.json").expect(0)
-    darker = {**pot, "options": ["--env-exposure", "-0.2"]}
-    for hold, code in (({"flip": 0.5}, 0), ({"flip": 1e-6}, 1), ({"flip": 0.5, "flip_p99": 1e-6}, 1), ({"pattern": 1e-9}, 1), ({"pattern": 50}, 0)):
-        write(bench, [{**darker, "hold": hold}])
-        bench.run("golden", "check", "m.json").expect(code)
+    def draw(*words):
+        bench.run("render", "builtin:teapot", *SMALL, *words, "-q", "-o", "pot.exr").expect(0)
+
+    rows, expected = [], {}
+
+    def add(name, verdict, **more):
+        rows.append({"name": name, "picture": "pot.exr", "golden": f"goldens/{name}.exr", **more})
+        expected[name] = verdict
+
+    for i, (hold, verdict) in enumerate((({"flip": 0.5}, "passed"), ({"flip": 1e-6}, "differs"), ({"flip": 0.5, "flip_p99": 1e-6}, "differs"),
+                                         ({"pattern": 1e-9}, "differs"), ({"pattern": 50}, "passed"))):
+        add(f"hold{i}", verdict, hold=hold)
     # Black pixels of the mask do not count
     (bench.folder / "none.ppm").write_bytes(b"P6 64 48 255\n" + bytes(3 * 64 * 48))
     (bench.folder / "all.ppm").write_bytes(b"P6 64 48 255\n" + b"\xff" * (3 * 64 * 48))
     (bench.folder / "small.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
-    for mask, code in (("none.ppm", 0), ("all.ppm", 1), ("small.ppm", 4), ("absent.ppm", 4)):
-        write(bench, [{**darker, "mask": mask}])
-        bench.run("golden", "check", "m.json").expect(code)
+    for mask, verdict in (("none.ppm", "passed"), ("all.ppm", "differs"), ("small.ppm", "failed"), ("absent.ppm", "failed")):
+        add(mask, verdict, mask=mask)
+    draw()
+    write(bench, [{key: value for key, value in row.items() if key != "mask"} for row in rows])
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    draw("--env-exposure", "-0.2")
+    write(bench, rows)
+    bench.run("golden", "check", "m.json").expect(4)
+    check(verdicts(bench) == expected, f"{results(bench)}")
     # Another size or kind differs, and says so
-    write(bench, [{**pot, "options": ["--size", "32x32"]}])
+    draw("--size", "32x32")
+    write(bench, rows[:1])
     bench.run("golden", "check", "m.json").expect(1)
-    check("32x32" in results(bench)["pot"]["reason"] and "64x48" in results(bench)["pot"]["reason"], results(bench))
+    reason = results(bench)["hold0"]["reason"]
+    check("32x32" in reason and "64x48" in reason, reason)
 
 
 @case("golden.noise_is_judged_by_variance", budget=20)

@@ -8,6 +8,7 @@ import xml.dom.minidom
 import zlib
 
 import gltf_files as files
+from environment_files import small_sky
 from harness import GIB, SMALL, Skipped, case, check, scratch
 from input_cases import accept, refuse
 
@@ -82,7 +83,7 @@ def degenerate_reference(bench):
     bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+12", "scale the scene down")
 
 
-@case("hostile.what_an_environment_needed_is_said")
+@case("hostile.what_an_environment_needed_is_said", budget=4)
 def repaired_environment(bench):
     pixels = [1.0] * (8 * 4 * 3)
     pixels[5], pixels[7], pixels[8], pixels[20] = float("nan"), -1.0, -2.0, float("inf")
@@ -96,9 +97,10 @@ def repaired_environment(bench):
     check(len(found["warnings"]) == 3, f"--stats has {found.get('warnings')}")
     scratch(bench, "file", b"")
     env = {"XDG_CACHE_HOME": str(bench.folder / "file")}
-    done = bench.run("render", *SMALL, env=env).expect(0)
+    words = ("builtin:sphere", "--size", "64x48", "--msaa", "1", *small_sky(bench))
+    done = bench.run("render", *words, env=env).expect(0)
     check(done.err.count("is not cached") == 1, f"an unwritable cache is not said\n{done.describe()}")
-    check(len(bench.figures(*SMALL, env=env)["warnings"]) == 1, "an unwritable cache is not in --stats")
+    check(len(bench.figures(*words, env=env)["warnings"]) == 1, "an unwritable cache is not in --stats")
     check(bench.figures(*SMALL)["warnings"] == [], "warnings without a reason")
     for command in (("profile", "--frames", "1"), ("chart", "--techniques", "split_isotropic", "--runs", "1", "--reference-samples", "64",
                                                    "--error-size", "32x24", "-o", "report")):
@@ -232,33 +234,33 @@ def header_bombs(bench):
                 check(done.peak_bytes < 200 << 20, f"{name} took {done.peak_bytes >> 20} MiB\n{done.describe()}")
 
 
-@case("hostile.offsets_that_lead_out_of_the_file", "input")
+@case("hostile.offsets_that_lead_out_of_the_file", "input", budget=5)
 def offsets(bench):
     """An OpenEXR image whose lines lie before its first byte, or far behind the last. OpenEXR adds offsets unchecked: -1 and 4 give 3."""
     whole = (pathlib.Path(__file__).parent.parent / "fuzz/corpus/exr/lines_before_the_file.exr").read_bytes()
     at = whole.index(b"\xff" * 8 + b"\xff" * 8)
     for offset in (-1, -4, -8, -4096, -(1 << 40), -(1 << 63), (1 << 63) - 1, len(whole) + 1):
         scratch(bench, "bad.exr", whole[:at] + struct.pack("<q", offset) + whole[at + 8:])
-        done = refuse(bench, "builtin:plate", env="bad.exr")
+        done = refuse(bench, "builtin:sphere", env="bad.exr")
         place = re.search(r"byte (\d+)", done.err)
         check(place and int(place.group(1)) <= len(whole), f"no place in the file\n{done.describe()}")
 
 
-@case("hostile.headers_that_scale_by_nothing", "input")
+@case("hostile.headers_that_scale_by_nothing", "input", budget=5)
 def scales(bench):
     """Images whose samples are divided by 0, or multiplied by 0 or by NaN."""
     pixels = struct.pack("<48f", *[0.5] * 48)
     for scale in (b"0", b"-0.0", b"nan", b"-inf", b"1e400", b"1e-400", b"x", b"1x", b"1" * 100):
         scratch(bench, "bad.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels)
-        refuse(bench, "builtin:plate", env="bad.pfm", needles=["byte 7", "scale"])
+        refuse(bench, "builtin:sphere", env="bad.pfm", needles=["byte 7", "scale"])
     for kind, most in ((b"P5", b"0"), (b"P6", b"65536"), (b"P2", b"-1"), (b"P3", b"")):
         scratch(bench, "bad.ppm", kind + b"\n4 4\n" + most + b"\n")
         with open(bench.folder / "bad.ppm", "ab") as file:
             file.write(bytes(48))
-        refuse(bench, "builtin:plate", env="bad.ppm", needles=["largest value"])
+        refuse(bench, "builtin:sphere", env="bad.ppm", needles=["largest value"])
     for scale in (b"2.5", b"-1e-3", b"#\n\t-1"):
-        accept(bench, "builtin:plate", "--env", scratch(bench, "good.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels))
-    accept(bench, "builtin:plate", "--env", scratch(bench, "good.pgm", b"P5 #\n4 4 # sides\n1\n" + bytes(16)))
+        accept(bench, "builtin:sphere", "--floor", "off", "--env", scratch(bench, "good.pfm", b"PF\n4 4\n" + scale + b"\n" + pixels))
+    accept(bench, "builtin:sphere", "--floor", "off", "--env", scratch(bench, "good.pgm", b"P5 #\n4 4 # sides\n1\n" + bytes(16)))
 
 
 @case("hostile.an_environment_has_a_limit_of_pixels", "input")

@@ -76,8 +76,8 @@ def library(bench):
         hashes = hashes_of_turntable(bench, folder, out)
         check(len(set(hashes)) == 5, f"four sides and a turned mesh, five pictures: {hashes}")
         for i in range(4):
-            bench.run("render", "builtin:spheres", "--env", str(pathlib.Path(folder, f"side{i}.exr")), "--size", "8x8", "--env-size", "16",
-                      "--no-cache").expect(0)  # the library found its image module
+            bench.run("render", "builtin:sphere", "--env", str(pathlib.Path(folder, f"side{i}.exr")), "--size", "8x8", "--env-size", "16", "--env-samples",
+                      "4", "--floor", "off", "--no-cache").expect(0)  # the library found its image module
 
 
 @case("install.examples_build_and_run", tier="nightly")

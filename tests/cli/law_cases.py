@@ -7,7 +7,7 @@ import math
 import re
 import struct
 
-from environment_files import exr
+from environment_files import exr, hdr, rgbe
 from gltf_files import data_uri, png, text
 from harness import case, check, scratch
 
@@ -183,9 +183,9 @@ in_two_tiers("scenes_have_no_scale", scaled, ("auto", "mc"))
 
 def white_ball(bench, *words):
     """Returns the mean of an image with white metal under uniform light."""
-    (bench.folder / "even.exr").write_bytes(exr(16, 8, lambda *_: (1.0, 1.0, 1.0)))
+    (bench.folder / "even.hdr").write_bytes(hdr(16, 8, lambda y: 16 * rgbe((1.0, 1.0, 1.0))))
     scratch(bench, "ball.gltf", ball(1.0))
-    values = [v for row in picture(bench, "m", "ball.gltf", "--env", "even.exr", *LIGHT[2:], "--eye", "0.5,1,2.5", "--target", "0,0,0", *words)[1]
+    values = [v for row in picture(bench, "m", "ball.gltf", "--env", "even.hdr", *LIGHT[2:], "--eye", "0.5,1,2.5", "--target", "0,0,0", *words)[1]
               for v in row if v > 0]
     return sum(values) / len(values)
 

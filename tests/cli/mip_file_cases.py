@@ -7,6 +7,7 @@ import struct
 import gltf_files as files
 from compare_cases import png
 from detail_cases import bare, bumps, hash_of
+from environment_files import small_sky
 from harness import case, check
 from input_cases import scratch
 from mip_cases import SMALL
@@ -192,9 +193,10 @@ def full_disk(bench):
 def kept(bench):
     whole(bench, "set"), whole(bench, "other", basecolor=lambda x, y: (250, 4 * x, 40))
     cache = bench.folder / "cache"
+    lit = ("--size", "64x48", "--msaa", "1", "--samples", "4", "--technique", "mc", *small_sky(bench))
 
     def drawn(folder, *words):
-        found = bench.figures("builtin:sphere", *SMALL, "--material", folder, *words, env={"XDG_CACHE_HOME": str(cache)})
+        found = bench.figures("builtin:sphere", *lit, "--material", folder, *words, env={"XDG_CACHE_HOME": str(cache)})
         return found["pixel_hash"], {path: path.read_bytes() for path in (cache / "burnish").glob("levels-*.mip")}
 
     check(not drawn("set")[1], "plain means are kept")

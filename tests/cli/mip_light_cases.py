@@ -5,7 +5,8 @@ import json
 import math
 import struct
 
-from compare_cases import pfm, png
+from compare_cases import png
+from environment_files import hdr, rgbe
 from harness import case, check
 from input_cases import scratch
 from model_cases import read_pfm
@@ -121,8 +122,8 @@ def truth_of(bench, name, samples, *words):
 
 
 def furnace(bench):
-    scratch(bench, "white.pfm", pfm(32, 16, lambda x, y: (1.0, 1.0, 1.0)))
-    return "--env", "white.pfm"
+    scratch(bench, "white.hdr", hdr(32, 16, lambda y: 32 * rgbe((1.0, 1.0, 1.0))))
+    return "--env", "white.hdr"
 
 
 def light_is_kept(bench, kind):

@@ -10,6 +10,7 @@ import sys
 import time
 
 import gltf_files as files
+from environment_files import small_sky
 from harness import SMALL, Skipped, case, check, scratch
 
 MAGIC = {
@@ -69,11 +70,13 @@ def tiff_pixels(path):
     return [tuple(data[i : i + 4]) for i in range(begin, begin + fields[279], 4)]
 
 
+ROUGH_BALL = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--env-samples", "16", "--roughness", "0.9",
+              "--technique", "split_isotropic", "--tonemap", "none", "--no-background", "-q")
+
+
 @case("output.without_a_background_alpha_is_coverage")
 def alpha(bench):
-    drawn = ("render", "builtin:sphere", "--size", "64x64", "--msaa", "8", "--env-size", "32", "--roughness", "0.9", "--technique", "split_isotropic",
-             "--tonemap", "none", "-q")
-    bench.run(*drawn, "--no-background", "-o", "a.tif", "-o", "a.exr", "-o", "a.pfm").expect(0)
+    bench.run(*ROUGH_BALL, "-o", "a.tif", "-o", "a.exr", "-o", "a.pfm").expect(0)
     pixels = tiff_pixels(bench.folder / "a.tif")
     check(pixels[0] == (0, 0, 0, 0), f"a corner is {pixels[0]}")
     check(pixels[32 * 64 + 32][3] == 255, f"the middle is {pixels[32 * 64 + 32]}")
@@ -85,10 +88,16 @@ def alpha(bench):
         if inside and 0 < row[inside[0] - 1][3] < 255:
             edge, next_to = row[inside[0] - 1], row[inside[0]]
             check(all(edge[c] >= next_to[c] - 24 for c in range(3)), f"row {y}: {edge} beside {next_to}")
-    done = bench.run(*drawn, "--backend", "vulkan", "--no-background", "-o", "v.tif")
-    if done.code != 77:  # a machine without a device
-        done.expect(0)
-        check(tiff_pixels(bench.folder / "v.tif") == pixels, "Vulkan's alpha is another")
+
+
+@case("output.alpha_of_a_device_is_that_of_the_tile_renderer", tier="nightly")
+def device_alpha(bench):
+    done = bench.run(*ROUGH_BALL, "--backend", "vulkan", "-o", "v.tif")
+    if done.code == 77:
+        raise Skipped("no device")
+    done.expect(0)
+    bench.run(*ROUGH_BALL, "-o", "a.tif").expect(0)
+    check(tiff_pixels(bench.folder / "v.tif") == tiff_pixels(bench.folder / "a.tif"), "Vulkan's alpha is another")
 
 
 @case("output.the_reference_has_the_alpha_of_the_tile_renderer")
@@ -278,17 +287,18 @@ def devices(bench):
 def cache(bench):
     """A cache folder that is not writable, or holds rubbish, never stops a render."""
     elsewhere = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
-    first = bench.figures(*SMALL, env=elsewhere)
-    again = bench.figures(*SMALL, env=elsewhere)
+    words = ("builtin:sphere", "--size", "64x48", "--msaa", "1", *small_sky(bench))
+    first = bench.figures(*words, env=elsewhere)
+    again = bench.figures(*words, env=elsewhere)
     check(not first["environment_from_cache"] and again["environment_from_cache"], "the second run does not use the cache")
-    without = bench.figures(*SMALL, "--no-cache", env=elsewhere)
+    without = bench.figures(*words, "--no-cache", env=elsewhere)
     check(not without["environment_from_cache"], "--no-cache reads the cache")
     for path in (bench.folder / "cache").rglob("*"):
         if path.is_file():
             path.write_bytes(path.read_bytes()[:100])
-    damaged = bench.figures(*SMALL, env=elsewhere)
+    damaged = bench.figures(*words, env=elsewhere)
     scratch(bench, "file", b"")
-    nowhere = bench.figures(*SMALL, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
+    nowhere = bench.figures(*words, env={"XDG_CACHE_HOME": str(bench.folder / "file")})
     hashes = {found["pixel_hash"] for found in (first, again, without, damaged, nowhere)}
     check(len(hashes) == 1, f"the cache changes the picture: {hashes}")
 

@@ -3,80 +3,97 @@
 import json
 import re
 
+from compare_cases import png
+from detail_cases import bumps
 from fault_cases import CHART, REFERENCE, TINY
-from harness import case, check
+from harness import case, check, scratch
 
 NO_DEVICE = {"VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}  # drivers are not under test here
 VIEW = ("--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16")
+BARE = (*VIEW, "--floor", "off")
+MAPPED = "builtin:roofs=1"  # a map of few texels
 
 # Command lines by subcommand, each with its allowed exit codes: 77 where a device or the reference is missing.
 RUNS = {
     "render": [((*TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr", "-o", "a.pfm", "-o", "a.jpg", "-o", "a.tif", "--stats", "s.json",
                  "--trace", "t.json"), (0,)),
                ((*REFERENCE[1:], "--checkpoint", "c.part", "--checkpoint-seconds", "0", "--variance", "v.exr", "-o", "r.exr"), (0, 77)),
-               (("builtin:plate", *VIEW, "--backend", "vulkan", "-o", "v.png"), (0, 77)),
-               (("builtin:plate", *VIEW, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.exr"), (0,)),
-               (("builtin:plate", *VIEW, "--turntable", "2", "-o", "t%d.exr", "-o", "t.apng"), (0,)),
-               (("builtin:plate", *VIEW, "--direction-map", "a.png", "-o", "d.exr"), (0,)),
-               (("builtin:plate", *VIEW, "--technique", "bent_normal", "--risks", "risks.png"), (0,)),
-               (("builtin:glass", *VIEW, "--technique", "mc", "-o", "g.exr"), (0,)),
-               (("builtin:plate", *VIEW, "--normal-map", "a.png", "--mip-filter", "lean", "--frame-map", "quaternion", "-o", "n.exr"), (0,)),
-               (("builtin:plate", *VIEW, "--normal-map", "a.png", "--mip-filter", "teacher", "-o", "t.exr"), (0,)),
-               (("builtin:bumps", *VIEW, "--mip-filter", "kappa", "--mip-kappa", "0.9", "-o", "k.exr"), (0,)),
-               (("builtin:bumps", *VIEW, "--couple", "albedo", "--color-kernel", "kaiser", "--show", "tensor", "-o", "f.png"), (0,)),
-               (("builtin:bumps", *VIEW, "--height-scale", "2", "--height-map", "a.png", "--pom-metric", "uv", "-o", "h.exr"), (0,)),
-               (("builtin:lights", *VIEW, "--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "-o", "l.exr"), (0,))],
+               (("builtin:plate", *BARE, "--backend", "vulkan", "-o", "v.png"), (0, 77)),
+               (("builtin:plate", *BARE, "--animate", "roughness=0.1:0.6", "--steps", "2", "-o", "m%d.png"), (0,)),
+               (("builtin:plate", *BARE, "--turntable", "2", "-o", "t%d.png", "-o", "t.apng"), (0,)),
+               (("builtin:plate", *BARE, "--direction-map", "a.png", "-o", "d.pfm"), (0,)),
+               (("builtin:plate", *BARE, "--technique", "bent_normal", "--risks", "risks.png"), (0,)),
+               (("builtin:glass", *BARE, "--technique", "mc", "-o", "g.pfm"), (0,)),
+               (("builtin:plate", *BARE, "--normal-map", "a.png", "--mip-filter", "lean", "--frame-map", "quaternion", "-o", "n.pfm"), (0,)),
+               (("builtin:plate", *BARE, "--normal-map", "a.png", "--mip-filter", "teacher", "-o", "t.pfm"), (0,)),
+               ((MAPPED, *BARE, "--mip-filter", "kappa", "--mip-kappa", "0.9", "-o", "k.pfm"), (0,)),
+               ((MAPPED, *BARE, "--couple", "albedo", "--color-kernel", "kaiser", "--show", "tensor", "-o", "f.png"), (0,)),
+               ((MAPPED, *BARE, "--height-scale", "2", "--height-map", "a.png", "--pom-metric", "uv", "-o", "h.pfm"), (0,)),
+               (("builtin:lights", *BARE, "--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "-o", "l.pfm"), (0,))],
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
-                (("--sequence", "m%d.exr", "t%d.exr", "--json", "-"), (0,))],
+                (("--sequence", "m%d.png", "t%d.png", "--json", "-"), (0,))],
     "golden": [(("check", "goldens.json"), (5,)), (("bless", "goldens.json"), (0,)), (("merge", "golden-results", "-o", "merged"), (5,))],
-    "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77)),
-              (("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips"), (0,))],
+    "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
     "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
     "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],
     "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",
                  "--junit", "y.xml"), (0, 77))],
     "race": [(("builtin:plate", *VIEW, "--techniques", "split_isotropic", "--runs", "1", "--devices", "lavapipe", "--json", "z.json"), (0, 77))],
     "plot": [(("axis", "-o", "axis.svg"), (0,)), (("lobe", "--tilt", "9,4", "-o", "lobe.svg"), (0,)),
-             (("side", "-o", "side.svg"), (0,)), (("half-vectors", "-o", "half.svg"), (0,)), (("ltc", "-o", "ltc.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,)),
+             (("side", "-o", "side.svg"), (0,)), (("half-vectors", "-o", "half.svg"), (0,)),
              (("energy", "-o", "energy.svg"), (0,))],
     "bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,)),
              (("direction", "a.png", "--from", "luminance", "-o", "d.png"), (0,)), (("quaternion", "a.png", "-o", "q.png"), (0,)),
-             (("tpr", "--expr", "u", "1-v", "--size", "4x4", "-o", "r.exr"), (0,)),
+             (("tpr", "--expr", "u", "1-v", "--size", "4x4", "-o", "r.pfm"), (0,)),
              (("half-vectors", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "h.png"), (0,)),
-             (("brdf-lut", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "l.exr"), (0,)),
-             (("environment", "builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
+             (("brdf-lut", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "l.pfm"), (0,)),
+             (("environment", "a.hdr", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
              (("displaced", "builtin:sphere", "a.png", "--triangles", "1", "-o", "s.glb"), (0,)),
-             (("mip", "builtin:bumps", "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "levels"), (0,)),
-             (("mip", "builtin:bumps", "--format", "png-levels", "-o", "textures"), (0,)), (("mip", "builtin:bumps", "--format", "exr-mip", "-o", "levels"), (0,))],
-    "train": [(("mip", "--steps", "1", "-o", "w.mipnet", "-q"), (0,)),
-              (("mip", "--steps", "1", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
+             (("mip", MAPPED, "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "seen"), (0,)),
+             (("mip", MAPPED, "--format", "png-levels", "-o", "textures"), (0,)), (("mip", MAPPED, "--format", "exr-mip", "-o", "levels"), (0,))],
+    "train": [(("mip", "--steps", "1", "--only-maps", "maps", "-o", "w.mipnet", "-q"), (0,)),
+              (("mip", "--steps", "1", "--only-maps", "maps", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
     "export": [(("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish", "markdown")],
     "info": [((), (0,)), (("--json",), (0,))],
 }
+# Those that take seconds however small.
+LONG = {"chart": [(("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips"), (0,))],
+        "plot": [(("ltc", "-o", "ltc.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,))]}
 
 
-@case("subcommand.each_runs_small", "input")
+def run_each(bench, name, runs):
+    for words, codes in runs:
+        if bench.sanitized and "--mip" in words:  # minutes of searches under sanitizers; render has a small search
+            continue
+        done = bench.run(name, *words, env=NO_DEVICE)
+        check(done.code in codes, done.describe())
+        check("Sanitizer" not in done.err and "runtime error" not in done.err, done.describe())
+        for word in words:
+            if word.endswith(".json"):
+                check(done.code or json.loads((bench.folder / word).read_text()), f"{word} is empty")
+
+
+@case("subcommand.each_that_takes_seconds_runs", "input", tier="nightly")
+def long(bench):
+    for name, runs in LONG.items():
+        run_each(bench, name, runs)
+
+
+@case("subcommand.each_runs_small", "input", budget=15)
 def each(bench):
     said = bench.run("--help").expect(0).out
     named = [line.split()[0] for line in said.split("Subcommands:\n")[1].split("\n\n")[0].splitlines()]
     check(set(named) == set(RUNS), f"{sorted(set(named) ^ set(RUNS))}: in the help or among these runs, not in both")
+    scratch(bench, "maps/waves/a_normal.png", png(64, 64, bumps))
     (bench.folder / "goldens.json").write_text('{"rows": [{"name": "a", "picture": "a.png"}]}')
     for name in named:
         whats = re.search(r"^  WHAT(?: REQUIRED)? +(.*)$", bench.run(name, "--help").expect(0).out, re.MULTILINE)
         whats = re.findall(r"[a-z-]+", re.sub(r"\(.*| or ", " ", whats.group(1))) if whats else []
-        without = set(whats) - {words[0] for words, _ in RUNS[name] if words}
+        without = set(whats) - {words[0] for words, _ in RUNS[name] + LONG.get(name, []) if words}
         check(not without, f"{name} {sorted(without)}: in the help, and without a run")
-        for words, codes in RUNS[name]:
-            if bench.sanitized and "--mip" in words:  # minutes of searches under sanitizers; render has a small search
-                continue
-            done = bench.run(name, *words, env=NO_DEVICE)
-            check(done.code in codes, done.describe())
-            check("Sanitizer" not in done.err and "runtime error" not in done.err, done.describe())
-            for word in words:
-                if word.endswith(".json"):
-                    check(done.code or json.loads((bench.folder / word).read_text()), f"{word} is empty")
+        run_each(bench, name, RUNS[name])
 
 
 @case("subcommand.each_refuses_bad_input", "input")

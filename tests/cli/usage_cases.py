@@ -165,10 +165,10 @@ def negative_numbers(bench):
         bench.run("render", *SMALL, *eye, "--exposure", "-1.5", "-o", "a.png").expect(0)
 
 
-@case("usage.lists_name_what_options_accept")
+@case("usage.lists_name_what_options_accept", budget=5)
 def lists(bench):
     """An option takes every name of its list. The reflection models are listed too, and no option names one."""
-    tiny = ("--size", "8x8", *SMALL[2:])
+    tiny = ("--size", "8x8", "--msaa", "1", "--env-size", "16", "--env-samples", "4", "--floor", "off")
     options = {"techniques": lambda name: ("--technique", name, "--samples", "1"), "scenes": lambda name: (name,),
                "environments": lambda name: ("--env", name), "models": None, "extensions": None}
     expected = {"techniques": "split_isotropic", "scenes": "builtin:teapot", "environments": "builtin:studio", "models": "ggx",

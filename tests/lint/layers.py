@@ -21,7 +21,7 @@ ROOMS = {
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
     "apps": ("report", "cli", "options", "info", "risks", "plan", "render", "compare", "golden", "export", "bake", "chart", "parity", "profile",
-             "lab/mip", "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab"),
+             "lab/mip", "lab/train", "lab/atlas", "lab/plot", "lab/race", "lab/ltc", "lab", "examples"),
 }
 # Known exceptions: a file, the room that it includes out of order, and why.
 GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"
@@ -49,7 +49,7 @@ THIRD_PARTY = (
     (r"vulkan/", ("raster/vulkan", "tests/unit/vulkan")),
     (r"embree", ("raster/reference", "bench")), # bench races rays against the tile renderer
     (r"nlohmann/", ("core", "apps", "tests", "bench")),
-    (r"gtest/|gmock/", ("tests",)),
+    (r"gtest/|gmock/", ("tests", "apps/examples")),
     (r"benchmark/", ("bench",)),
     (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
 )
