@@ -13,6 +13,7 @@ TEST(Golden, ThePlateIsAsItWas)
     ASSERT_TRUE(session) << session.error().line();
     FrameDesc desc;
     desc.width = 64, desc.height = 48;
+    desc.samples = automatic_technique().default_samples; // as `burnish render` takes
     desc.view = session->framed(desc.width, desc.height);
     const Result<Frame> frame = session->render(desc);
     ASSERT_TRUE(frame) << frame.error().line();

@@ -60,7 +60,7 @@ struct FrameDesc {
     int msaa = 8; // 1, 2, 4, 8, 16
     View view;
     std::string technique = "auto";
-    int samples = 16; // for techniques that take samples
+    int samples = 16; // for techniques that take samples; `burnish render` takes TechniqueInfo::default_samples
     // Techniques and samples of the scene's materials, by index, in place of the two fields above; empty: those for all. A technique that
     // reads the box-filtered environment cannot be one of them.
     std::vector<MaterialTechnique> by_material;
