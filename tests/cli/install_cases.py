@@ -103,6 +103,33 @@ def examples(bench):
             check(run("golden_test", env={"PLATE_HASH": "1"}).returncode == 1, "a golden test that cannot fail")
 
 
+@case("install.debian_package_installs_and_draws", tier="nightly")
+def debian_package(bench):
+    """Installs the package below a root of its own, whose own Debian has nothing else."""
+    if not all(map(shutil.which, ("cpack", "dpkg", "dpkg-deb", "dpkg-shlibdeps"))) or os.geteuid() != 0:
+        raise Skipped("no cpack, no dpkg-dev, or not root")
+    with tempfile.TemporaryDirectory(prefix="burnish-deb-") as folder:
+        folder = pathlib.Path(folder)
+        quiet = dict(check=True, timeout=300, stdout=subprocess.DEVNULL, env=INSTALLING)
+        subprocess.run(["cpack", "-G", "DEB", "--config", str(pathlib.Path(bench.program).parent / "CPackConfig.cmake"), "-B", str(folder)], **quiet)
+        package = next(folder.glob("burnish_*.deb"))
+        depends = subprocess.run(["dpkg-deb", "-f", str(package), "Depends"], capture_output=True, text=True, check=True).stdout
+        for name in ("libc6", "libstdc++6", "libopenimageio", "libtbb12", "libpng16-16"):
+            check(name in depends, f"{name} is not among what the package depends on: {depends}")
+        root = folder / "root"
+        for part in ("updates", "info"):
+            (root / "var/lib/dpkg" / part).mkdir(parents=True)
+        (root / "var/lib/dpkg/status").touch()
+        (root / "etc").mkdir()
+        subprocess.run(["dpkg", f"--root={root}", "--force-depends", "--force-script-chrootless", "--no-triggers", "--install", str(package)], stderr=subprocess.DEVNULL, **quiet)
+        program = root / "usr/bin/burnish"
+        own = json.loads(bench.run("render", *SMALL, "--stats", "-", "-q").expect(0).out)["pixel_hash"]
+        told = json.loads(bench.run("render", *SMALL, "--stats", "-", "-q", "-o", "a.exr", program=program).expect(0).out)["pixel_hash"]
+        check(told == own and (bench.folder / "a.exr").exists(), "the packaged program draws another picture")
+        subprocess.run(["dpkg", f"--root={root}", "--force-script-chrootless", "--no-triggers", "--purge", "burnish"], **quiet)
+        check(not [path for path in (root / "usr").rglob("*") if path.is_file()], "files stay when the package goes")
+
+
 @case("install.without_the_module_png_still_works", "input")
 def without_module(bench):
     """A program alone still renders built-in scenes to PNG, and reports other formats in one line."""
