@@ -50,33 +50,31 @@ def lines_of(file, macro):
 
 
 def parameters():
-    """Returns {option: (type, default, functions, choices, range)} of the parameters of techniques, and {field: option}."""
+    """Returns {option: (type, default, functions, range)} of the parameters of techniques."""
     ways = [name for _, _, name, *_ in lines_of("shading/models.def", "BN_AREA_LIGHTS")]
     lobes = [line[0] for line in lines_of("shading/models.def", "BN_LOBE")]
-    table, fields = {}, {"samples": "samples"}
-    for field, kind, option, fallback, least, most, unit, _, *readers in lines_of("shading/models.def", "BN_PARAMETER"):
-        name = fields[field] = option.replace("-", "_")
+    table = {}
+    for _, kind, option, fallback, least, most, unit, _, *readers in lines_of("shading/models.def", "BN_PARAMETER"):
+        name = option.replace("-", "_")
         choices = {"way": ways, "lobe": lobes, "choice": unit.split("|")}.get(kind, [])
         shown = {"number": "float", "whole": "int", "flag": "bool", "angles": "Vector2"}.get(kind) or literal(choices)
         plain = {"flag": str(fallback != "0"), "angles": "(0.0, 0.0)", "number": fallback}.get(kind, fallback)
         default = f'"{choices[int(fallback)]}"' if choices else plain
         bounds = f"{least} to {most}" if kind in ("number", "whole") else ""
         functions = EVERY if readers in ([], [""]) or "reference" in readers[0].split() else DRAWS
-        table[name] = shown, default, functions, choices, bounds
-    return table, fields
+        table[name] = shown, default, functions, bounds
+    return table
 
 
 def keywords(burnish):
     """Returns [(name, type, default, functions, meaning)] of all options."""
-    table, fields = parameters()
+    table = parameters()
     found = []
     for name, meaning in burnish.options().items():
         if name in OPTIONS:
-            (shown, default, functions), choices, bounds = OPTIONS[name], [], ""
+            (shown, default, functions), bounds = OPTIONS[name], ""
         else:
-            shown, default, functions, choices, bounds = table[name]
-        meaning = meaning.replace("{}", ", ".join(choices))
-        meaning = re.sub(r"FrameDesc::(\w+)", lambda field: fields.get(field[1], field[1]), meaning)
+            shown, default, functions, bounds = table[name]
         plain = re.sub(r"(?<=\d)\.0\b", "", bounds)
         found_bounds = re.search(rf"(?<![\d.]){re.escape(plain)}(?![\d.]*\d)", meaning)
         meaning += f". {plain}" if bounds and not found_bounds else ""

@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #ifdef BN_ONETBB
 #include <oneapi/tbb/blocked_range.h>
@@ -61,6 +63,46 @@ void start_workers(tbb::task_arena& arena, int threads)
     });
 }
 
+// Arenas that no Jobs object uses, for later ones: oneTBB keeps some memory of each arena that ends. Leaked on purpose, as above.
+struct SpareArenas {
+    std::mutex mutex;
+    std::vector<std::pair<int, std::unique_ptr<tbb::task_arena>>> arenas; // by thread count
+    std::size_t made = 0;                                                 // of all arenas; that many have room
+};
+SpareArenas& spare_arenas()
+{
+    static SpareArenas* spare = new SpareArenas;
+    return *spare;
+}
+
+std::unique_ptr<tbb::task_arena> take_spare_arena(int threads)
+{
+    SpareArenas& spare = spare_arenas();
+    const std::lock_guard lock(spare.mutex);
+    for (auto at = spare.arenas.begin(); at != spare.arenas.end(); ++at)
+        if (at->first == threads) {
+            std::unique_ptr<tbb::task_arena> arena = std::move(at->second);
+            spare.arenas.erase(at);
+            return arena;
+        }
+    return nullptr;
+}
+
+// Counts a new arena, so that keep_arena() finds room.
+void count_arena()
+{
+    SpareArenas& spare = spare_arenas();
+    const std::lock_guard lock(spare.mutex);
+    spare.arenas.reserve(++spare.made);
+}
+
+void keep_arena(int threads, std::unique_ptr<tbb::task_arena> arena)
+{
+    SpareArenas& spare = spare_arenas();
+    const std::lock_guard lock(spare.mutex);
+    spare.arenas.emplace_back(threads, std::move(arena));
+}
+
 // Opens an arena for `threads` threads. Returns null where the system refuses oneTBB a thread now, or has done so
 // before.
 std::unique_ptr<tbb::task_arena> open_arena(int threads)
@@ -101,7 +143,9 @@ Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
     if (wanted == 1)
         return;
 #ifdef BN_ONETBB
-    impl_->arena = open_arena(wanted);
+    impl_->arena = take_spare_arena(wanted);
+    if (!impl_->arena && (impl_->arena = open_arena(wanted)))
+        count_arena();
     if (impl_->arena) {
         impl_->threads = wanted;
         return;
@@ -112,7 +156,13 @@ Jobs::Jobs(int threads) : impl_(std::make_unique<Impl>())
         impl_->seats.push_back(worker);
 }
 
-Jobs::~Jobs() = default;
+Jobs::~Jobs()
+{
+#ifdef BN_ONETBB
+    if (impl_ && impl_->arena)
+        keep_arena(impl_->threads, std::move(impl_->arena));
+#endif
+}
 
 int Jobs::threads() const
 {

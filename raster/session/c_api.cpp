@@ -40,7 +40,7 @@ std::string& last_error()
 
 int fails(const Error& error)
 {
-    last_error() = error.line();
+    last_error() = c_words(error.line());
     return static_cast<int>(error.code);
 }
 

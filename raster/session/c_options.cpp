@@ -1,8 +1,10 @@
 #include "raster/session/c_options.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "raster/frame/layers.h"
 
@@ -227,8 +229,18 @@ const std::vector<COption>& c_options()
             {"cache", "Keeps bakes in the cache",
              [](CSettings& to, const std::string& v) { return put(v, to.open.environment.use_cache); }},
         };
-        for (const ParameterInfo& p : parameters())
-            list.push_back({c_name(p.option), p.summary, nullptr});
+        for (const ParameterInfo& p : parameters()) {
+            std::string help = p.summary;
+            if (const std::size_t at = help.find("{}"); at != std::string::npos) {
+                std::string names;
+                for (const std::string& name : choices_of(p))
+                    names += (names.empty() ? "" : ", ") + name;
+                help.replace(at, 2, names);
+            }
+            list.push_back({c_name(p.option), help, nullptr});
+        }
+        for (COption& option : list)
+            option.help = c_words(option.help);
         return list;
     }();
     return table;
@@ -248,6 +260,24 @@ std::string c_name(const std::string& name)
 {
     std::string out = name;
     std::replace(out.begin(), out.end(), '-', '_');
+    return out;
+}
+
+std::string c_words(const std::string& text)
+{
+    std::string out = text;
+    for (const std::string_view type : {"FrameDesc::", "SessionOptions::", "OpenOptions::", "EnvironmentOptions::"})
+        for (std::size_t at = out.find(type); at != std::string::npos; at = out.find(type, at)) {
+            out.erase(at, type.size());
+            std::size_t end = at;
+            while (end < out.size() && (std::isalnum(static_cast<unsigned char>(out[end])) || out[end] == '_'))
+                ++end;
+            for (const ParameterInfo& p : parameters())
+                if (out.compare(at, end - at, p.name) == 0) {
+                    out.replace(at, end - at, c_name(p.option));
+                    break;
+                }
+        }
     return out;
 }
 

@@ -37,6 +37,9 @@ const std::vector<std::string>& c_material_options();
 // Returns the name with '_' in place of '-'.
 std::string c_name(const std::string& name);
 
+// Returns a text with the names of options in place of fields: "FrameDesc::brdf" becomes "brdf".
+std::string c_words(const std::string& text);
+
 // Errors: ExitCode::usage with the option's name as place.
 Result<CSettings> settings_of(const burnish_options* options);
 Status set_material(Material& to, const burnish_options* options);
