@@ -104,6 +104,11 @@ class Browser:
         self.until("document.readyState === 'complete' && location.protocol === 'file:'")
         self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")  # a page gets no input before its first frame
 
+    def visit(self, address):
+        """Opens a page of a server."""
+        self.send("Page.navigate", url=address)
+        self.until("document.readyState === 'complete' && location.protocol === 'http:'")
+
     def value(self, expression):
         result = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:

@@ -3,6 +3,7 @@
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -90,6 +91,16 @@ def no_dates(bench):
     check(not wrong, "\n".join(wrong))
 
 
+def served(bench, command, folder, page):
+    """Returns the faults of a server that prints its address and ends by Ctrl-C."""
+    with subprocess.Popen(command, cwd=folder, env=bench.environment({}), stdout=subprocess.PIPE, text=True) as running:
+        address = running.stdout.readline()
+        running.send_signal(signal.SIGINT)
+        code = running.wait(timeout=60)
+    if code or not address.startswith("http://127.0.0.1:"):
+        yield f"{page.name}: {' '.join(map(str, command))}: exit code {code}, address '{address}'"
+
+
 def run_page(bench, page):
     """Returns the faults of a page's commands, which run in sequence in a new folder."""
     folder = bench.folder / f"{page.parent.name}_{page.stem}"
@@ -100,6 +111,9 @@ def run_page(bench, page):
         program = bench.program if words[0] == "burnish" else words[0]
         lab = len(words) > 1 and words[0] == "burnish" and words[1] in pages.LAB
         if lab and not lab_program(bench).exists():
+            continue
+        if words[:2] == ["burnish", "serve"] and code == 0:
+            yield from served(bench, [program, *words[1:]], folder, page)
             continue
         done = subprocess.run([program, *words[1:]], cwd=folder, env=bench.environment({}), capture_output=True, text=True, timeout=900)
         absent = done.returncode == 77 and any(word in NEEDS for word in words)

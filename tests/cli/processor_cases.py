@@ -4,6 +4,7 @@ import json
 import pathlib
 import platform
 import shutil
+import sys
 
 from harness import Skipped, case, check
 
@@ -31,7 +32,7 @@ def too_old(bench):
 @case("processor.library_is_refused_below_x86_64_v2")
 def library_refused(bench):
     """The dynamic loader refuses with a message and without a crash."""
-    qemu, python = emulator(), shutil.which("python3")
+    qemu, python = emulator(), sys.executable
     library = next(pathlib.Path(bench.program).parent.glob("raster/session/libburnish.so.*.*.*"), None)
     if not library or not python:
         raise Skipped("no libburnish.so or no python3")

@@ -33,6 +33,7 @@ RUNS = {
     "compare": [(("a.exr", "a.hdr", "--json", "-", "--error-map", "e.png", "--html", "c.html"), (0,)), (("a.png", "a.tif"), (0,)),
                 (("--sequence", "m%d.png", "t%d.png", "--json", "-"), (0,))],
     "golden": [(("check", "goldens.json"), (5,)), (("bless", "goldens.json"), (0,)), (("merge", "golden-results", "-o", "merged"), (5,))],
+    "serve": [(("nothing.glb",), (4,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
     "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
     "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],

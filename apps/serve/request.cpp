@@ -1,0 +1,253 @@
+#include "apps/serve/request.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "apps/cli/report.h"
+#include "core/scene/builtin/builtin.h"
+#include "raster/frame/upload.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostSide = 4096, kMostReferenceSamples = 1 << 16;
+constexpr const char* kKinds[] = {"flag",   "count", "integer", "number", "bytes", "size",
+                                  "vector", "name",  "names",   "text",   "file",  "folder"};
+
+bool ends_in(const fs::path& path, std::initializer_list<const char*> extensions)
+{
+    return std::any_of(extensions.begin(), extensions.end(), [&](const char* e) { return path.extension() == e; });
+}
+
+// Appends the models and environments of a folder, by name.
+Status add_folder(const fs::path& folder, ServedLists& lists)
+{
+    std::vector<fs::path> found;
+    std::error_code failed, ignored;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed);
+    for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed))
+        if (at->is_regular_file(ignored))
+            found.push_back(at->path());
+    if (failed)
+        return Error{ExitCode::bad_input, folder.string(), "", failed.message()};
+    std::sort(found.begin(), found.end());
+    for (const fs::path& path : found) {
+        const ServedFile file{path.lexically_relative(folder).string(), path.string()};
+        if (ends_in(path, {".gltf", ".glb", ".obj"}) && lists.scenes.size() < kMostServed)
+            lists.scenes.push_back(file);
+        if (ends_in(path, {".hdr", ".exr"}) && lists.environments.size() < kMostServed)
+            lists.environments.push_back(file);
+    }
+    return {};
+}
+
+const ServedFile* find_served(const std::vector<ServedFile>& files, const std::string& name)
+{
+    const auto found = std::find_if(files.begin(), files.end(), [&](const ServedFile& f) { return f.name == name; });
+    return found == files.end() ? nullptr : &*found;
+}
+
+std::string quoted(const std::string& word)
+{
+    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./:,=+") ==
+                                            std::string::npos;
+    if (plain)
+        return word;
+    std::string out = "'";
+    for (const char c : word)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+Result<int> whole_of(const Json& json, const char* name, int fallback, int low, int high)
+{
+    const auto found = json.find(name);
+    if (found == json.end())
+        return fallback;
+    if (!found->is_number_integer() || found->get<std::int64_t>() < low || found->get<std::int64_t>() > high)
+        return usage_error(name, fmt::format("is no whole number from {} to {}", low, high));
+    return found->get<int>();
+}
+
+std::string text_of(const Json& json, const char* name)
+{
+    const auto found = json.find(name);
+    return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+// Returns the options without those that the request's kind sets or ignores.
+std::vector<std::pair<std::string, std::string>> drawn_options(const DrawRequest& request)
+{
+    std::vector<std::pair<std::string, std::string>> options;
+    for (const auto& option : request.options) {
+        const bool of_tiles = option.first == "--msaa" || option.first == "--technique" || option.first == "--samples";
+        if (!(request.reduction > 1 && option.first == "--msaa") && !(request.reference_samples > 0 && of_tiles))
+            options.push_back(option);
+    }
+    if (request.reduction > 1 && request.reference_samples == 0)
+        options.emplace_back("--msaa", "1");
+    return options;
+}
+
+} // namespace
+
+Result<ServedLists> served_lists(const std::string& target)
+{
+    ServedLists lists;
+    std::error_code ignored;
+    const bool builtin = target.rfind("builtin:", 0) == 0;
+    if (fs::is_directory(target, ignored)) {
+        BN_TRY(add_folder(target, lists));
+    } else if (!target.empty() && !builtin) {
+        const fs::path path(target);
+        if (!fs::is_regular_file(path, ignored))
+            return Error{ExitCode::bad_input, target, "", "is neither a file nor a folder"};
+        ServedLists beside;
+        BN_TRY(add_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), beside));
+        lists.scenes.push_back({path.filename().string(), target});
+        lists.environments = std::move(beside.environments);
+    }
+    for (const BuiltinInfo& scene : builtin_scenes())
+        lists.scenes.push_back({std::string("builtin:") + scene.name, std::string("builtin:") + scene.name});
+    if (builtin) { // first, and failure scenes too
+        const auto at = std::find_if(lists.scenes.begin(), lists.scenes.end(), [&](const ServedFile& f) { return f.name == target; });
+        if (at != lists.scenes.end())
+            lists.scenes.erase(at);
+        lists.scenes.insert(lists.scenes.begin(), {target, target});
+    }
+    for (const BuiltinInfo& environment : builtin_environments())
+        lists.environments.push_back({std::string("builtin:") + environment.name, std::string("builtin:") + environment.name});
+    return lists;
+}
+
+Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
+{
+    if (!json.is_object())
+        return usage_error("request", "is no object");
+    DrawRequest request;
+    const ServedFile* scene = find_served(lists.scenes, text_of(json, "scene"));
+    if (!scene)
+        return usage_error("scene", "is none of those served");
+    request.scene = scene->path;
+    if (const std::string name = text_of(json, "environment"); !name.empty()) {
+        const ServedFile* environment = find_served(lists.environments, name);
+        if (!environment)
+            return usage_error("environment", "is none of those served");
+        request.environment = environment->path;
+    }
+    RenderArguments arguments;
+    const OptionTable table = render_option_table(arguments);
+    if (const auto options = json.find("options"); options != json.end() && options->is_object())
+        for (const auto& [name, value] : options->items()) {
+            const auto known =
+                std::find_if(table.options().begin(), table.options().end(), [&](const Option& o) { return o.name == name; });
+            if (known == table.options().end() || !is_served(*known) || !value.is_string())
+                return usage_error(name, "cannot be set by a page");
+            request.options.emplace_back(name, value.get<std::string>());
+        }
+    for (const auto& [name, to, low, high] : {std::tuple{"width", &request.width, 1, kMostSide},
+                                              {"height", &request.height, 1, kMostSide},
+                                              {"reduction", &request.reduction, 1, 8},
+                                              {"reference_samples", &request.reference_samples, 0, kMostReferenceSamples}}) {
+        const Result<int> number = whole_of(json, name, *to, low, high);
+        BN_TRY(number);
+        *to = *number;
+    }
+    if (request.width < 1 || request.height < 1)
+        return usage_error("width", "and height are missing");
+    return request;
+}
+
+bool is_served(const Option& option)
+{
+    const ValueKind kind = option.value.kind;
+    const bool plain = kind == ValueKind::flag || kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
+                       kind == ValueKind::name || option.name == "--camera";
+    const bool group = option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
+                       option.group == "Parameters of techniques";
+    const bool output = option.name == "--exposure" || option.name == "--tonemap" || option.name == "--resolve" ||
+                        option.name == "--show" || option.name == "--shadows" || option.name == "--shadow-samples";
+    return plain && (group || output) && option.name != "--no-cache";
+}
+
+Json served_options(const OptionTable& table)
+{
+    Json rows = Json::array();
+    for (const Option& option : table.options())
+        if (is_served(option)) {
+            Json row = {{"name", option.name},
+                        {"group", option.group},
+                        {"help", option.meaning()},
+                        {"kind", kKinds[static_cast<std::size_t>(option.value.kind)]},
+                        {"value", option.value_name},
+                        {"names", option.value.names},
+                        {"initial", option.default_text()}};
+            if (option.value.kind == ValueKind::integer || option.value.kind == ValueKind::number)
+                row["low"] = option.value.low, row["high"] = option.value.high;
+            rows.push_back(std::move(row));
+        }
+    return rows;
+}
+
+Result<RenderOptions> render_options_of(const DrawRequest& request, const Limits& limits, int threads, RenderArguments& arguments)
+{
+    arguments.plain.limits = limits;
+    OptionTable table = render_option_table(arguments);
+    const auto set = [&table](const std::string& name, const std::string& text) { return table.set(name, text); };
+    BN_TRY(set("SCENE", request.scene));
+    if (!request.environment.empty())
+        BN_TRY(set("--env", request.environment));
+    BN_TRY(set("--size",
+               fmt::format("{}x{}", std::max(1, request.width / request.reduction), std::max(1, request.height / request.reduction))));
+    for (const auto& [name, text] : drawn_options(request))
+        BN_TRY(set(name, text));
+    if (request.reference_samples > 0) {
+        BN_TRY(set("--backend", "reference"));
+        BN_TRY(set("--samples", std::to_string(request.reference_samples)));
+    }
+    if (threads > 0)
+        BN_TRY(set("--threads", std::to_string(threads)));
+    Result<RenderOptions> options = check_render_options(arguments, table);
+    BN_TRY(options);
+    options->quiet = true;
+    options->mips.frames_override = sets_materials(options->frame);
+    return options;
+}
+
+std::string command_of(const DrawRequest& request)
+{
+    std::string text = "burnish render " + quoted(request.scene);
+    if (!request.environment.empty())
+        text += " --env " + quoted(request.environment);
+    text += fmt::format(" --size {}x{}", std::max(1, request.width / request.reduction), std::max(1, request.height / request.reduction));
+    for (const auto& [name, value] : drawn_options(request))
+        text += " " + name + (value.empty() ? "" : " " + quoted(value));
+    if (request.reference_samples > 0)
+        text += fmt::format(" --backend reference --samples {}", request.reference_samples);
+    return text + " -o picture.png";
+}
+
+std::string session_key(const DrawRequest& request)
+{
+    RenderArguments arguments;
+    const OptionTable table = render_option_table(arguments);
+    Json key = {request.scene, request.environment, request.reference_samples > 0};
+    for (const Option& option : table.options()) {
+        const bool frame = !changes_scene(option) && option.group != "Environment" && option.name != "--floor" && option.name != "--brdf";
+        for (const auto& [name, value] : request.options)
+            if (name == option.name && !frame)
+                key.push_back(name + "=" + value);
+    }
+    // Frames that override materials need no textures
+    for (const auto& [name, value] : request.options)
+        if (name == "--roughness" || name == "--anisotropy")
+            key.push_back(name);
+    return json_text(key, -1);
+}
+
+} // namespace burnish

@@ -1,0 +1,249 @@
+#include "apps/serve/server.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <system_error>
+
+#include "apps/cli/field_options.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/render/stats.h"
+#include "apps/serve/assets.h"
+#include "apps/serve/http.h"
+#include "core/base/exception.h"
+#include "core/base/version.h"
+#include "core/image/image.h"
+#include "core/image/io/image_io.h"
+#include "core/image/magma.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kInfoHeader = "X-Burnish"; // JSON about the picture in the body
+
+std::string random_token()
+{
+    std::random_device device;
+    std::string token;
+    for (int i = 0; i < 4; ++i)
+        token += fmt::format("{:08x}", device());
+    return token;
+}
+
+Image shown_picture(const Drawn& drawn)
+{
+    const RenderOptions& o = drawn.options;
+    return drawn.rendered.shown.empty() ? display_picture(drawn.rendered.color, o.tonemap, o.exposure_ev, drawn.rendered.parts, o.resolve)
+                                        : drawn.rendered.shown;
+}
+
+Json info_of(const DrawRequest& request, const Drawn& drawn)
+{
+    const RenderFigures& f = drawn.rendered.figures;
+    const auto vec3 = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
+    return {{"hash", hash_text(f.hash)},
+            {"command", command_of(request)},
+            {"width", drawn.rendered.color.width},
+            {"height", drawn.rendered.color.height},
+            {"frame_ms", f.frame_ms.empty() ? 0.0 : f.frame_ms.back()},
+            {"load_ms", f.load_ms},
+            {"environment_ms", f.bake_ms},
+            {"prepare_ms", f.prepare_ms},
+            {"samples", f.frame.sampling.samples},
+            {"nan_pixels", f.nan_pixels},
+            {"centre", vec3(drawn.centre)},
+            {"radius", drawn.radius},
+            {"to_eye", vec3(drawn.to_eye)},
+            {"warnings", drawn.warnings}};
+}
+
+class Pages {
+  public:
+    Pages(const ServeSetting& setting, ServedLists lists)
+        : setting_(setting), lists_(std::move(lists)), token_(random_token()), drawings_(setting.limits, setting.threads)
+    {
+    }
+
+    const std::string& token() const { return token_; }
+    void stop() { drawings_.stop(); }
+    void listens_on(int port)
+    {
+        for (const char* host : {"127.0.0.1", "localhost"})
+            hosts_.push_back(fmt::format("{}:{}", host, port));
+    }
+
+    HttpResponse operator()(const HttpRequest& request)
+    {
+        HttpResponse response;
+        response.headers = {{"Cache-Control", "no-store"},
+                            {"X-Content-Type-Options", "nosniff"},
+                            {"Referrer-Policy", "no-referrer"},
+                            {"Content-Security-Policy",
+                             "default-src 'none'; img-src 'self' blob: data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+                             "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}};
+        const std::string given = request.path == "/" ? request.parameter("token") : request.header("x-token");
+        if (std::find(hosts_.begin(), hosts_.end(), request.header("host")) == hosts_.end() || given != token_) {
+            response.status = 403, response.body = "This page needs the address that `burnish serve` printed, with its token.\n";
+            return response;
+        }
+        try {
+            const Status done = route(request, response);
+            if (!done)
+                refuse(response, done.error());
+        } catch (...) {
+            refuse(response, error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}));
+        }
+        return response;
+    }
+
+  private:
+    static void answer(HttpResponse& response, const Json& json)
+    {
+        response.type = "application/json", response.body = json_text(json, -1);
+    }
+
+    static void refuse(HttpResponse& response, const Error& error)
+    {
+        response.status = error.code == ExitCode::differ ? 409 : 400;
+        answer(response, {{"error", line_of(error)}});
+    }
+
+    Status route(const HttpRequest& request, HttpResponse& response)
+    {
+        if (request.method == "GET" && request.path == "/") {
+            response.type = "text/html; charset=utf-8", response.body.assign(kServePage.bytes, kServePage.size);
+            return {};
+        }
+        if (request.method == "GET" && request.path == "/lists") {
+            answer(response, lists_json());
+            return {};
+        }
+        if (request.method == "GET" && request.path == "/changes") {
+            answer(response, {{"changes", setting_.watch ? drawings_.look_for_changes() : 0}});
+            return {};
+        }
+        constexpr std::pair<const char*, Status (Pages::*)(const Json&, HttpResponse&)> kPosts[] = {
+            {"/draw", &Pages::draw}, {"/difference", &Pages::difference}, {"/save", &Pages::save}};
+        for (const auto& [path, work] : kPosts)
+            if (request.method == "POST" && request.path == path) {
+                const Json json = Json::parse(request.body, nullptr, false);
+                return json.is_discarded() ? Status(usage_error("request", "is no JSON")) : (this->*work)(json, response);
+            }
+        response.status = 404, response.body = "There is no such page.\n";
+        return {};
+    }
+
+    Json lists_json() const
+    {
+        const auto names = [](const std::vector<ServedFile>& files) {
+            Json out = Json::array();
+            for (const ServedFile& file : files)
+                out.push_back(file.name);
+            return out;
+        };
+        RenderArguments arguments;
+        return {{"version", version()},
+                {"scenes", names(lists_.scenes)},
+                {"environments", names(lists_.environments)},
+                {"options", served_options(render_option_table(arguments))},
+                {"watch", setting_.watch},
+                {"save", !setting_.output_folder.empty()}};
+    }
+
+    static Status picture(HttpResponse& response, const Image& image, const Json& info)
+    {
+        Result<std::string> png = encode_png(image);
+        BN_TRY(png);
+        response.headers.emplace_back(kInfoHeader, json_text(info, -1));
+        response.type = "image/png", response.body = std::move(*png);
+        return {};
+    }
+
+    Status draw(const Json& json, HttpResponse& response)
+    {
+        const Result<DrawRequest> request = draw_request_of(json, lists_);
+        BN_TRY(request);
+        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+        BN_TRY(drawn);
+        return picture(response, shown_picture(**drawn), info_of(*request, **drawn));
+    }
+
+    // Draws both pictures, and answers with HDR-FLIP's error map of the second.
+    Status difference(const Json& json, HttpResponse& response)
+    {
+        std::shared_ptr<const Drawn> both[2];
+        for (int i = 0; i < 2; ++i) {
+            const Result<DrawRequest> request =
+                draw_request_of(json.is_object() ? json.value(i ? "test" : "reference", Json()) : Json(), lists_);
+            BN_TRY(request);
+            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+            BN_TRY(drawn);
+            both[i] = *drawn;
+        }
+        const Image &a = both[0]->rendered.color, &b = both[1]->rendered.color;
+        if (a.width != b.width || a.height != b.height)
+            return usage_error("test", "has another size");
+        if (not_finite_pixels(a, b))
+            return Error{ExitCode::not_finite, "", "", "pixels are NaN or Inf"};
+        const Jobs jobs(setting_.threads);
+        const FlipResult flip = flip_hdr(a, b, FlipOptions(), jobs);
+        const ErrorSummary summary = summarise_errors(flip.error);
+        return picture(response, magma_map(flip.error), {{"flip_mean", summary.mean}, {"flip_p99", summary.p99}});
+    }
+
+    Status save(const Json& json, HttpResponse& response)
+    {
+        if (setting_.output_folder.empty())
+            return usage_error("save", "needs `burnish serve -o FOLDER`");
+        const std::string extension = json.is_object() ? json.value("extension", ".png") : ".png";
+        if (extension != ".png" && extension != ".exr")
+            return usage_error("extension", "is neither .png nor .exr");
+        const Result<DrawRequest> request = draw_request_of(json, lists_);
+        BN_TRY(request);
+        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+        BN_TRY(drawn);
+        const std::lock_guard lock(saving_);
+        std::error_code ignored;
+        for (int number = 1; number <= 9999; ++number) {
+            const std::string path = (fs::path(setting_.output_folder) / fmt::format("picture-{:04d}{}", number, extension)).string();
+            if (fs::exists(fs::symlink_status(path, ignored)))
+                continue;
+            BN_TRY(write_rendered(path, (*drawn)->rendered, (*drawn)->options));
+            answer(response, {{"path", path}});
+            return {};
+        }
+        return Error{ExitCode::output_failed, setting_.output_folder, "", "holds 9999 pictures"};
+    }
+
+    const ServeSetting& setting_;
+    ServedLists lists_;
+    std::string token_;
+    std::vector<std::string> hosts_;
+    Drawings drawings_;
+    std::mutex saving_;
+};
+
+} // namespace
+
+Status serve(const ServeSetting& setting, const std::atomic<bool>& stop, const std::function<void(const std::string&)>& ready)
+{
+    Result<ServedLists> lists = served_lists(setting.target);
+    BN_TRY(lists);
+    Pages pages(setting, std::move(*lists));
+    Result<HttpServer> server = HttpServer::open(setting.port);
+    BN_TRY(server);
+    pages.listens_on(server->port());
+    ready(fmt::format("http://127.0.0.1:{}/?token={}", server->port(), pages.token()));
+    server->run(
+        stop, [&pages](const HttpRequest& request) { return pages(request); }, [&pages] { pages.stop(); });
+    return {};
+}
+
+} // namespace burnish

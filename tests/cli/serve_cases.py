@@ -1,0 +1,196 @@
+"""burnish serve: a page on this machine that draws, under a token, and writes nothing unasked."""
+
+import http.client
+import json
+import os
+import shlex
+import shutil
+import signal
+import socket
+import subprocess
+import urllib.parse
+
+from browser import Browser
+from harness import case, check
+
+SMALL_LIGHT = {"--env-size": "16", "--env-samples": "16", "--floor": "off", "--msaa": "1"}
+
+
+class Served:
+    """A running `burnish serve` and its address."""
+
+    def __init__(self, bench, *words):
+        self.process = subprocess.Popen([bench.program, "serve", *words], cwd=bench.folder, env=bench.environment({}), stdin=subprocess.DEVNULL,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+        parts = urllib.parse.urlsplit(self.address)
+        self.port, self.token = parts.port, parts.query.removeprefix("token=")
+
+    def __enter__(self):
+        check(self.token, f"no address: {self.process.stderr.read() if self.process.poll() is not None else ''}")
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGINT)
+        try:
+            code = self.process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+        check(code == 0, f"it ended with {code}: {self.process.stderr.read()}")
+
+    def ask(self, path, body=None, **headers):
+        """Returns status, headers and body of an answer."""
+        link = http.client.HTTPConnection("127.0.0.1", self.port, timeout=120)
+        sent = {"X-Token": self.token, **{name.replace("_", "-"): value for name, value in headers.items()}}
+        link.request("GET" if body is None else "POST", path, body if body is None or isinstance(body, (str, bytes)) else json.dumps(body), sent)
+        answer = link.getresponse()
+        return answer.status, answer.headers, answer.read()
+
+
+def wish(scene="builtin:sphere", size=(64, 48), **options):
+    return {"scene": scene, "environment": "builtin:studio", "width": size[0], "height": size[1],
+            "options": {**SMALL_LIGHT, **{"--" + name.replace("_", "-"): value for name, value in options.items()}}}
+
+
+def hash_of_command(bench, command):
+    words = shlex.split(command)
+    check(words[:2] == ["burnish", "render"], command)
+    return json.loads(bench.run("render", *words[2:], "--stats", "-", "-q").expect(0).out)["pixel_hash"]
+
+
+@case("serve.pictures_are_those_of_the_command_it_names", budget=10)
+def pictures(bench):
+    with Served(bench, "builtin:sphere") as served:
+        for more in ({}, {"roughness": "0.3", "anisotropy": "0.8"}, {"technique": "mc", "samples": "4"}, {"orbit": "20,40", "zoom": "1.5", "no_background": ""}):
+            status, headers, body = served.ask("/draw", wish(**more))
+            check(status == 200 and body.startswith(b"\x89PNG"), f"{more}: {status} {body[:200]}")
+            info = json.loads(headers["X-Burnish"])
+            check(info["hash"] == hash_of_command(bench, info["command"]), f"{info['command']} draws another picture")
+            (bench.folder / "served.png").write_bytes(body)
+            bench.run("compare", "served.png", "picture.png", "--fail-max", "0", "-q").expect(0)
+        # A quarter of the sides
+        info = json.loads(served.ask("/draw", {**wish(), "reduction": 4})[1]["X-Burnish"])
+        check((info["width"], info["height"]) == (16, 12) and info["hash"] == hash_of_command(bench, info["command"]), str(info))
+        # The reference, and the difference of two settings
+        info = json.loads(served.ask("/draw", {**wish(size=(16, 12)), "reference_samples": 64})[1]["X-Burnish"])
+        check(info["samples"] == 64 and not info["warnings"] and info["hash"] == hash_of_command(bench, info["command"]), str(info))
+        status, headers, _ = served.ask("/difference", {"reference": wish(), "test": wish(roughness="0.3")})
+        found = json.loads(headers["X-Burnish"])
+        check(status == 200 and 0.001 < found["flip_mean"] < found["flip_p99"], str(found))
+        check(json.loads(served.ask("/difference", {"reference": wish(), "test": wish()})[1]["X-Burnish"])["flip_mean"] == 0, "a picture differs from itself")
+
+
+@case("serve.takes_no_request_without_its_token", "input")
+def refusals(bench):
+    (bench.folder / "models").mkdir()
+    (bench.folder / "models/broken.glb").write_bytes(b"glTF, not")
+    before = bench.left_behind()
+    with Served(bench, "models") as served:
+        check(served.ask("/lists")[0] == 200, "the lists")
+        page = served.ask(f"/?token={served.token}")
+        check(page[0] == 200 and b"<title>burnish" in page[2] and "default-src 'none'" in page[1]["Content-Security-Policy"], "the page")
+        for headers in ({"X_Token": ""}, {"X_Token": served.token[:-1]}, {"Host": f"evil.example:{served.port}"}, {"Host": "127.0.0.1"}):
+            for path, body in (("/lists", None), ("/draw", wish()), (f"/?token={'0' * 32}", None)):
+                check(served.ask(path, body, **headers)[0] == 403, f"{headers} {path}")
+        for body, needle in ((b"{", "no JSON"), ([], "no object"), (wish("/etc/passwd"), "scene"), (wish("../models/broken.glb"), "scene"),
+                             ({**wish(), "environment": "/etc/passwd"}, "environment"), ({**wish(), "width": 100000}, "width"), ({**wish(), "width": 0}, "width"),
+                             ({**wish(), "height": "x"}, "height"), (wish(output="x.png"), "--output"), (wish(stats="x"), "--stats"), (wish(env="x.hdr"), "--env"),
+                             (wish(normal_map="x.png"), "--normal-map"), (wish(light="sphere"), "--light"), (wish(nothing="1"), "--nothing"),
+                             (wish(roughness="nan"), "--roughness"), (wish(technique="none"), "none"), ({**wish(), "options": {"--roughness": 1}}, "--roughness"),
+                             (wish("broken.glb"), "broken.glb"), ({**wish(), "reference_samples": -1}, "reference_samples")):
+            status, _, answer = served.ask("/draw", body)
+            check(status == 400 and needle in json.loads(answer)["error"], f"{body}: {status} {answer}")
+        check(served.ask("/save", wish())[0] == 400 and "-o FOLDER" in json.loads(served.ask("/save", wish())[2])["error"], "save without a folder")
+        check(served.ask("/nothing")[0] == 404 and served.ask("/nothing", {})[0] == 404, "a path that is none")
+        # Texts that are no HTTP, too long, or cut
+        for text in (b"\r\n\r\n", b"GET\r\n\r\n", b"GET / HTTP/2\r\n\r\n", b"GET / HTTP/1.1\r\n: x\r\n\r\n", b"POST /draw HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n",
+                     b"POST /draw HTTP/1.1\r\nContent-Length: -1\r\n\r\n", b"POST /draw HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", b"GET / HTTP/1.1\r\nX: " + b"x" * 40000 + b"\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", served.port), timeout=20) as link:
+                try:
+                    link.sendall(text)
+                    answer = link.recv(100)
+                except ConnectionError:  # closed before all was sent
+                    continue
+                check(answer.startswith(b"HTTP/1.1 400"), f"{text[:60]}: {answer}")
+        with socket.create_connection(("127.0.0.1", served.port), timeout=20) as link:
+            link.sendall(b"POST /draw HTTP/1.1\r\nContent-Length: 100\r\n\r\n{")  # goes without its rest
+        check(served.ask("/lists")[0] == 200, "it no longer answers")
+    check(bench.left_behind() == before, f"files were written: {bench.left_behind()}")
+    for words, code, needle in ((("nowhere",), 4, "nowhere"), (("--port", "99999"), 2, "--port"), (("-o", "models/broken.glb"), 7, "broken.glb")):
+        bench.run("serve", *words).expect(code).expect_one_line(needle)
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        bench.run("serve", "--port", taken.getsockname()[1]).expect(2).expect_one_line("--port")
+
+
+@case("serve.saves_where_it_may_and_sees_files_change", budget=10)
+def saves(bench):
+    (bench.folder / "models").mkdir()
+    model = bench.folder / "models/lamp.glb"
+    shutil.copy(bench.data_file("models/AnisotropyBarnLampSmall.glb"), model)
+    with Served(bench, "models", "-o", "pictures", "--watch") as served:
+        lists = json.loads(served.ask("/lists")[2])
+        check(lists["scenes"][0] == "lamp.glb" and "builtin:sphere" in lists["scenes"] and lists["save"] and lists["watch"], str(lists)[:300])
+        check({"--roughness", "--technique", "--env-rotation"} <= {row["name"] for row in lists["options"]}, "options")
+        status, _, answer = served.ask("/save", wish("lamp.glb"))
+        check(status == 200, str(answer))
+        served.ask("/save", {**wish("lamp.glb"), "extension": ".exr"})
+        served.ask("/save", wish("lamp.glb"))
+        check(served.ask("/save", {**wish(), "extension": "/../x.png"})[0] == 400, "a name that leads elsewhere")
+        check(sorted(os.listdir(bench.folder / "pictures")) == ["picture-0001.exr", "picture-0001.png", "picture-0002.png"], str(bench.left_behind()))
+        check(json.loads(served.ask("/changes")[2])["changes"] == 0, "nothing has changed")
+        before = json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"]
+        shutil.copy(bench.data_file("models/AnisotropyBarnLampSmall.glb"), model)
+        os.utime(model, (1, 1))
+        check(json.loads(served.ask("/changes")[2])["changes"] == 1, "a changed file was not seen")
+        check(json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"] == before, "the same file, another picture")
+
+
+@case("serve.page_turns_compares_and_shows_its_command", budget=25)
+def page(bench):
+    with Served(bench, "builtin:sphere", "-o", "pictures") as served, Browser(bench.folder / "browser") as browser:
+        browser.size(900, 600)
+        browser.visit(served.address)
+        done = lambda mode: browser.until(f"document.body.dataset.done === '{mode}'", 60)
+        done("A")
+        browser.value("(() => { Object.assign(state.options.A, " + json.dumps(SMALL_LIGHT) + "); later(); document.body.dataset.done = ''; })()")
+        done("A")
+        first = browser.value("document.body.dataset.hash")
+        check(first == hash_of_command(bench, browser.value("document.getElementById('command').textContent")), "the page's hash is not the command's")
+        # An option by its row, then a turn by the mouse
+        browser.value("""(() => { const input = document.getElementById('o--roughness'); input.value = '0.3';
+            document.body.dataset.done = ''; input.dispatchEvent(new Event('change')); })()""")
+        done("A")
+        second = browser.value("document.body.dataset.hash")
+        check(second != first and "--roughness 0.3" in browser.value("document.getElementById('command').textContent"), "the option does nothing")
+        browser.value("document.body.dataset.done = ''")
+        browser.mouse("mousePressed", 200, 300, button="left", clickCount=1)
+        browser.mouse("mouseMoved", 260, 320, button="left", buttons=1)
+        browser.mouse("mouseReleased", 260, 320, button="left", clickCount=1)
+        done("A")
+        command = browser.value("document.getElementById('command').textContent")
+        check("--orbit" in command and browser.value("document.body.dataset.hash") == hash_of_command(bench, command), command)
+        # B with another technique beside A, their difference, the reference
+        browser.value("(() => { document.getElementById('copy').click(); state.options.B['--technique'] = 'bent_normal'; })()")
+        for mode in ("split", "error"):
+            browser.value(f"(() => {{ document.body.dataset.done = ''; document.querySelector('[data-show={mode}]').click(); }})()")
+            done(mode)
+            browser.screenshot(bench.folder / f"{mode}.png")
+        check("mean 0." in browser.value("document.getElementById('figures').textContent"), "no figure of the difference")
+        browser.value("document.querySelector('[data-show=reference]').click()")
+        browser.until("document.body.dataset.samples >= 64", 60)
+        browser.screenshot(bench.folder / "reference.png")
+        browser.value("(() => { document.body.dataset.done = ''; document.querySelector('[data-show=A]').click(); })()")
+        done("A")
+        browser.value("document.querySelector('[data-save]').click()")
+        browser.until("document.getElementById('message').textContent.includes('picture-0001.png')")
+        check((bench.folder / "pictures/picture-0001.png").exists(), "nothing was saved")
+        browser.size(400, 800)
+        browser.value("document.body.dataset.done = ''")
+        done("A")
+        check(browser.value("document.documentElement.scrollWidth <= 400"), "the page is wider than a phone")
+        browser.screenshot(bench.folder / "narrow.png")
+        check(not browser.faults, f"the console says {browser.faults}")
+        outside = [url for url in browser.requests if not url.startswith((f"http://127.0.0.1:{served.port}/", "blob:", "data:", "about:"))]
+        check(not outside, f"it asks {outside}")
