@@ -23,16 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 8> kExtensions = {"exr", "hdr", "pfm", "png", "jpg", "jpeg", "tif", "tiff"};
 
-std::string extension_of(const std::string& path)
-{
-    std::string extension = fs::path(path).extension().string();
-    if (!extension.empty())
-        extension.erase(0, 1);
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
 Error output_error(const std::string& path, const std::string& reason)
 {
     return Error{ExitCode::output_failed, path, "", reason};
@@ -94,6 +84,16 @@ Status write_stream(std::FILE* stream, const std::string& label, const std::stri
 }
 
 } // namespace
+
+std::string extension_of(const std::string& path)
+{
+    std::string extension = fs::path(path).extension().string();
+    if (!extension.empty())
+        extension.erase(0, 1);
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
 
 bool same_file(const std::string& a, const std::string& b)
 {

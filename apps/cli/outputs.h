@@ -26,6 +26,8 @@ Status check_folder_path(const std::string& folder);
 // Makes the folder if it is missing. Fails if it is not writable.
 Status make_output_folder(const std::string& folder);
 
+std::string extension_of(const std::string& path); // in lower case, without its dot
+
 // True if two names lead to one file, even one not yet made. Pipes and devices never count as one.
 bool same_file(const std::string& a, const std::string& b);
 

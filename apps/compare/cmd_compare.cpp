@@ -124,7 +124,7 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
     const Jobs jobs(options.threads);
     const Result<Pictures> pictures = read_pictures(options, jobs);
     if (!pictures)
-        return fail(pictures.error());
+        return fails_unread(options, pictures.error());
     Report report(options.quiet, options.verbosity);
     report.promise_stdout({options.json, options.csv, options.junit, options.html});
     report.release();

@@ -79,6 +79,8 @@ int compare_folders(const CompareOptions& options)
             continue;
         ++bad;
         const int code = fail(verdict.error());
+        if (verdict.error().code == ExitCode::usage) // of all pictures
+            return code;
         worst = gravity(code) > gravity(worst) ? code : worst;
     }
     report.figure("pictures", bad ? fmt::format("{} of {} fail", bad, names->size()) : fmt::format("{}", names->size()));

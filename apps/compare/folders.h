@@ -4,8 +4,8 @@
 
 namespace burnish {
 
-// Compares the pictures of equal relative paths. Returns the exit code: that of the gravest picture, where missing and unreadable ones
-// come before sizes that do not match, NaN, and limits.
+// Compares the pictures of equal relative paths. Returns the exit code of the gravest picture. Missing and unreadable ones come first, then
+// sizes that do not match, NaN, and limits.
 int compare_folders(const CompareOptions& options);
 
 // With --sequence: compares each picture with its reference, and successive pictures with each other. Returns the exit code.

@@ -4,6 +4,8 @@
 #include <set>
 #include <system_error>
 
+#include "apps/cli/outputs.h"
+
 namespace burnish {
 namespace {
 
@@ -11,8 +13,8 @@ namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& path)
 {
-    const std::string extension = path.extension().string();
-    for (const char* known : {".png", ".exr", ".hdr", ".pfm", ".tif", ".tiff", ".jpg", ".jpeg", ".webp", ".bmp", ".ppm"})
+    const std::string extension = extension_of(path.string());
+    for (const char* known : {"png", "exr", "hdr", "pfm", "tif", "tiff", "jpg", "jpeg", "webp", "bmp", "ppm"})
         if (extension == known)
             return true;
     return false;

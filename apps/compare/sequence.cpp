@@ -95,7 +95,7 @@ int compare_sequences(const CompareOptions& options)
 {
     const Result<std::vector<int>> numbers = numbers_of(options);
     if (!numbers)
-        return fail(numbers.error());
+        return fails_unread(options, numbers.error());
     const Jobs jobs(options.threads);
     Report report(options.quiet, options.verbosity);
     report.promise_stdout({options.json, options.csv, options.junit, options.html});
@@ -110,7 +110,7 @@ int compare_sequences(const CompareOptions& options)
     for (const int number : *numbers) {
         Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
-            return fail(frames.error());
+            return fails_unread(options, frames.error());
         if (!frames->note.empty() && !before)
             report.event("note", frames->note);
         floats = frames->reference.type == PixelType::f32;

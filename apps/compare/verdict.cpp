@@ -5,7 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
 #include "apps/report/html.h"
+#include "apps/report/json.h"
 
 namespace burnish {
 namespace {
@@ -119,6 +122,18 @@ std::string verdict_html(const CompareOptions& options, const Status& verdict)
         names += (names.empty() ? "" : ", ") + fmt::format("{} {:g}", option, value.get<double>());
     }
     return fmt::format("<p class=\"verdict\"><strong>Passes.</strong> Limits: {}.</p>\n", escaped(names));
+}
+
+int fails_unread(const CompareOptions& options, const Error& error)
+{
+    const Json json = verdict_json(options, error);
+    for (const auto& [path, text] : {std::pair{options.json, json_text(json, 2) + "\n"},
+                                     {options.csv, csv_text(Json::array({json}))},
+                                     {options.junit, compare_junit({verdict_case(options.test, error)})}})
+        if (!path.empty() && error.code != ExitCode::usage)
+            if (const Status written = write_text(path, text); !written)
+                fail(written.error());
+    return fail(error);
 }
 
 } // namespace burnish

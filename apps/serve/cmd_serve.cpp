@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "apps/cli/command.h"
-#include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
@@ -24,16 +23,21 @@ Examples:
   burnish serve lamp.glb --watch
   burnish serve models/ -o pictures)";
 
+constexpr const char* kLimits = "Limits on input";
+
 struct ServeArguments {
     ServeSetting setting;
 };
 
-int run_serve(ServeArguments& arguments)
+int run_serve(ServeArguments& arguments, const OptionTable& given)
 {
     ServeSetting& setting = arguments.setting;
-    if (!setting.output_folder.empty())
-        if (const Status made = make_output_folder(setting.output_folder); !made)
-            return fail(made.error());
+    for (const Option& option : given.options())
+        if (option.given && option.group == kLimits) {
+            setting.limit_words.push_back(option.name);
+            if (option.takes_value())
+                setting.limit_words.push_back(option.value.get());
+        }
     const std::atomic<bool>& stop = watch_stop_signals();
     const Status served = serve(setting, stop, [](const std::string& address) {
         std::fputs((address + "\n").c_str(), stdout);
@@ -51,7 +55,7 @@ OptionTable serve_option_table(ServeArguments& to)
                           {"--watch", "", "Draw again where a file of the scene changes", flag(to.setting.watch)}});
     table.add("Output", {{"-o,--output", "FOLDER", "Folder where the page may save pictures", folder(to.setting.output_folder), "none"}});
     table.add("Machine", {threads_option(to.setting.threads, "Worker threads; never changes a picture")});
-    table.add("Limits on input", limit_options(to.setting.limits));
+    table.add(kLimits, limit_options(to.setting.limits));
     return table;
 }
 
@@ -61,7 +65,7 @@ Command serve_command()
 {
     auto arguments = std::make_shared<ServeArguments>();
     return {"serve", "Show scenes in a browser, with every option of the picture", serve_option_table(*arguments), kFooter,
-            [arguments](OptionTable&) { return run_serve(*arguments); }};
+            [arguments](OptionTable& given) { return run_serve(*arguments, given); }};
 }
 
 } // namespace burnish

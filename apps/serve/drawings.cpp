@@ -1,7 +1,9 @@
 #include "apps/serve/drawings.h"
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 #include "apps/cli/report.h"
 #include "apps/options/scene_view.h"
@@ -10,6 +12,13 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kKeptSessions = 4, kKeptPictures = 8;
+constexpr std::int64_t kKeptPixels = 8 << 20; // of all kept pictures
+constexpr std::chrono::milliseconds kPause(50);
+
+Error overtaken()
+{
+    return Error{ExitCode::differ, "", "", "stopped for another picture"};
+}
 
 std::filesystem::file_time_type time_of(const std::string& path)
 {
@@ -18,19 +27,55 @@ std::filesystem::file_time_type time_of(const std::string& path)
     return failed ? std::filesystem::file_time_type::min() : time;
 }
 
+// Sets a flag once nobody waits for the picture. Ends with the object.
+class Lookout {
+  public:
+    Lookout(const std::function<bool()>& gone, std::atomic<bool>& stop)
+        : thread_([this, gone, &stop] {
+              while (!ended_ && !stop) {
+                  if (gone && gone())
+                      stop = true;
+                  std::this_thread::sleep_for(kPause);
+              }
+          })
+    {
+    }
+    ~Lookout()
+    {
+        ended_ = true;
+        thread_.join();
+    }
+
+  private:
+    std::atomic<bool> ended_ = false;
+    std::thread thread_;
+};
+
 } // namespace
+
+void Drawings::note_file(const std::string& path, Time time)
+{
+    if (std::none_of(files_.begin(), files_.end(), [&](const auto& file) { return file.first == path; }))
+        files_.emplace_back(path, time);
+}
 
 Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const RenderOptions& options)
 {
-    const std::string key = session_key(request);
+    const std::string key = session_key(request, options);
     const bool reference = request.reference_samples > 0;
-    if (!reference) { // a reference's session holds its number of samples
+    const Time begin = Time::clock::now();
+    std::uint64_t changes = 0;
+    {
         const std::lock_guard lock(kept_);
-        for (auto at = sessions_.begin(); at != sessions_.end(); ++at)
+        changes = changes_;
+        for (auto at = sessions_.begin(); at != sessions_.end() && !reference; ++at) // a reference's session holds its number of samples
             if (at->key == key) {
                 sessions_.splice(sessions_.begin(), sessions_, at);
                 return sessions_.front();
             }
+        for (const std::string& path : {request.scene, request.environment}) // one that cannot be read may be mended
+            if (!path.empty() && path.rfind("builtin:", 0) != 0)
+                note_file(path, time_of(path));
     }
     Prepared made;
     made.key = key;
@@ -44,10 +89,11 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     std::vector<std::string> read = made.session->scene().files;
     const std::vector<std::string>& lights = made.session->parts().environment->files;
     read.insert(read.end(), lights.begin(), lights.end());
-    for (const std::string& path : read)
-        if (std::none_of(files_.begin(), files_.end(), [&](const auto& file) { return file.first == path; }))
-            files_.emplace_back(path, time_of(path));
-    if (!reference) {
+    for (const std::string& path : read) {
+        const Time time = time_of(path);
+        note_file(path, time > begin ? Time::min() : time); // changed while it was read
+    }
+    if (!reference && changes == changes_) {
         sessions_.push_front(made);
         if (sessions_.size() > kKeptSessions)
             sessions_.pop_back();
@@ -55,55 +101,103 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     return made;
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request)
+Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request, const std::atomic<bool>& stop)
 {
     auto drawn = std::make_shared<Drawn>();
     RenderArguments arguments;
     Result<RenderOptions> options = render_options_of(request, limits_, threads_, arguments);
     BN_TRY(options);
-    options->reference.stop = &stop_reference_;
+    options->reference.stop = &stop;
     Result<Prepared> made = prepared(request, *options);
     BN_TRY(made);
     Session& session = *made->session;
     const Result<ChosenView> view = choose_view(*options, session.scene(), session.tables());
     BN_TRY(view);
+    options->outputs = {"picture.png"}; // whose edges need the pixels' samples
     FrameDesc desc = options->frame;
     desc.view = view->view;
     Result<Rendered> rendered = render_frames(*options, desc, session, made->figures);
     BN_TRY(rendered);
     if (rendered->figures.frame.sampling.stopped)
-        return Error{ExitCode::differ, "", "", "stopped for another picture"};
+        return overtaken();
     drawn->warnings = made->warnings;
     drawn->warnings.insert(drawn->warnings.begin(), options->warnings.begin(), options->warnings.end());
     const DrawTables& tables = session.tables();
-    drawn->centre = 0.5f * (tables.bounds_min + tables.bounds_max);
+    drawn->view = view->view, drawn->origin = session.scene().origin;
+    drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));
     drawn->radius = std::max(0.5f * glm::length(tables.bounds_max - tables.bounds_min), 1e-20f);
-    drawn->to_eye = -view->view.forward;
+    options->reference.stop = nullptr;
     drawn->options = std::move(*options), drawn->rendered = std::move(*rendered);
     return std::shared_ptr<const Drawn>(drawn);
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request)
+void Drawings::stop_references()
+{
+    for (std::atomic<bool>* stop : references_)
+        *stop = true;
+}
+
+void Drawings::stop()
+{
+    const std::lock_guard lock(kept_);
+    ending_ = true;
+    stop_references();
+}
+
+Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, const Call& call)
 {
     const bool reference = request.reference_samples > 0;
-    stop_reference_ = true; // of an older request
-    const std::lock_guard drawing(reference ? reference_ : tile_);
+    const std::uint64_t mine = call.passing ? ++latest_ : 0;
+    std::atomic<bool> stop = false;
     {
         const std::lock_guard lock(kept_);
+        stop_references(); // of older requests
+        references_.push_back(&stop);
+        stop = ending_;
+    }
+    struct Leave {
+        Drawings& of;
+        std::atomic<bool>* stop;
+        ~Leave()
+        {
+            const std::lock_guard lock(of.kept_);
+            of.references_.remove(stop);
+        }
+    } leave{*this, &stop};
+    const std::lock_guard drawing(reference ? reference_ : tile_);
+    if ((call.passing && mine != latest_) || (call.gone && call.gone()))
+        return overtaken();
+    std::uint64_t changes = 0;
+    {
+        const std::lock_guard lock(kept_);
+        changes = changes_;
         for (auto at = pictures_.begin(); at != pictures_.end(); ++at)
             if (at->first == request) {
                 pictures_.splice(pictures_.begin(), pictures_, at);
                 return pictures_.front().second;
             }
     }
-    if (reference)
-        stop_reference_ = ending_.load();
-    Result<std::shared_ptr<const Drawn>> drawn = draw_now(request);
+    Result<std::shared_ptr<const Drawn>> drawn = std::shared_ptr<const Drawn>();
+    if (reference) {
+        const Lookout lookout(call.gone, stop);
+        drawn = draw_now(request, stop);
+    } else {
+        drawn = draw_now(request, stop);
+    }
     BN_TRY(drawn);
     const std::lock_guard lock(kept_);
+    if (changes != changes_) // of files that are others now
+        return drawn;
     pictures_.emplace_front(request, *drawn);
-    if (pictures_.size() > kKeptPictures)
-        pictures_.pop_back();
+    std::int64_t pixels = 0;
+    std::size_t kept = 0;
+    auto at = pictures_.begin();
+    for (; at != pictures_.end() && kept < kKeptPictures; ++at, ++kept) {
+        pixels += std::int64_t{at->first.width} * at->first.height;
+        if (kept > 0 && pixels > kKeptPixels)
+            break;
+    }
+    pictures_.erase(at, pictures_.end());
     return drawn;
 }
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -19,25 +20,26 @@ struct Drawn {
     RenderOptions options;
     Rendered rendered;
     std::vector<std::string> warnings;
-    glm::vec3 centre{0.0f}, to_eye{0, 0, 1}; // world space; to_eye is a unit vector
-    float radius = 1.0f;                     // of the scene's box, metres
+    View view;
+    glm::dvec3 origin{0.0}, centre{0.0}; // of the view's places, and of the scene's box; world space, metres
+    float radius = 1.0f;                 // of the scene's box, metres
 };
 
 class Drawings {
   public:
     Drawings(const Limits& limits, int threads) : limits_(limits), threads_(threads) {}
 
-    // Draws, or returns a kept picture. Any thread may call it; one tile picture and one reference are drawn at a time. A reference that is
-    // being drawn stops where another request comes: an error of ExitCode::differ. Errors are those of `burnish render`.
-    Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request);
+    struct Call {
+        bool passing = false;       // left out where a later passing request waits
+        std::function<bool()> gone; // true once nobody waits for the picture
+    };
+    // Draws, or returns a kept picture. Any thread may call it; one tile picture and one reference are drawn at a time. References stop
+    // where another request comes, or nobody waits: an error of ExitCode::differ. Other errors are those of `burnish render`.
+    Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request, const Call& call);
 
     // Forgets everything if a file that was read has changed since. Returns how often that happened.
     std::uint64_t look_for_changes();
-    void stop() // ends a reference; later ones stop at once
-    {
-        ending_ = true;
-        stop_reference_ = true;
-    }
+    void stop(); // ends references; later ones stop at once
 
   private:
     struct Prepared {
@@ -46,18 +48,23 @@ class Drawings {
         RenderFigures figures;
         std::vector<std::string> warnings;
     };
+    using Time = std::filesystem::file_time_type;
     Result<Prepared> prepared(const DrawRequest& request, const RenderOptions& options);
-    Result<std::shared_ptr<const Drawn>> draw_now(const DrawRequest& request);
+    Result<std::shared_ptr<const Drawn>> draw_now(const DrawRequest& request, const std::atomic<bool>& stop);
+    void note_file(const std::string& path, Time time);
+    void stop_references();
 
     Limits limits_;
     int threads_ = 0;
     std::mutex tile_, reference_, kept_;
-    std::atomic<bool> stop_reference_ = false, ending_ = false;
+    std::atomic<std::uint64_t> latest_ = 0; // of passing requests
     // Under kept_:
-    std::list<Prepared> sessions_;                                               // the latest first
-    std::list<std::pair<DrawRequest, std::shared_ptr<const Drawn>>> pictures_;   // the latest first
-    std::vector<std::pair<std::string, std::filesystem::file_time_type>> files_; // that sessions were made from
+    std::list<Prepared> sessions_;                                             // the latest first
+    std::list<std::pair<DrawRequest, std::shared_ptr<const Drawn>>> pictures_; // the latest first
+    std::vector<std::pair<std::string, Time>> files_;                          // that sessions were made from
+    std::list<std::atomic<bool>*> references_;                                 // flags that stop those waiting or drawn
     std::uint64_t changes_ = 0;
+    bool ending_ = false;
 };
 
 } // namespace burnish

@@ -23,7 +23,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kMostConnections = 16, kPatienceSeconds = 10;
+constexpr int kMostConnections = 16, kPatienceSeconds = 10, kLookMs = 100; // kLookMs: between looks at `stop`
 
 Error bad(const char* reason)
 {
@@ -57,21 +57,37 @@ const char* reason_of(int status)
     }
 }
 
-// Reads until the buffer holds `bytes`, or `end` where that is not empty. False: closed, too late, or more than `most`.
-bool receive(int socket, std::string& buffer, std::size_t bytes, std::string_view end, std::size_t most)
+// What a connection is read under.
+struct Patience {
+    const std::atomic<bool>& stop;
+    std::chrono::steady_clock::time_point until;
+};
+
+// Reads until the buffer holds `bytes`, or `end` where that is not empty. False: closed, too late, stopped, or more than `most`.
+bool receive(int socket, std::string& buffer, std::size_t bytes, std::string_view end, std::size_t most, const Patience& patience)
 {
     char part[4096];
     while (end.empty() ? buffer.size() < bytes : buffer.find(end) == std::string::npos) {
-        if (buffer.size() > most)
+        if (buffer.size() > most || patience.stop || std::chrono::steady_clock::now() > patience.until)
             return false;
-        const ssize_t got = recv(socket, part, sizeof(part), 0);
-        if (got < 0 && errno == EINTR)
+        pollfd waiting{socket, POLLIN, 0};
+        if (poll(&waiting, 1, kLookMs) <= 0)
+            continue;
+        const ssize_t got = recv(socket, part, sizeof(part), MSG_DONTWAIT);
+        if (got < 0 && (errno == EINTR || errno == EAGAIN))
             continue;
         if (got <= 0)
             return false;
         buffer.append(part, static_cast<std::size_t>(got));
     }
     return true;
+}
+
+bool is_closed(int socket)
+{
+    char byte = 0;
+    const ssize_t got = recv(socket, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+    return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
 void send_all(int socket, std::string_view text)
@@ -86,10 +102,11 @@ void send_all(int socket, std::string_view text)
     }
 }
 
-Result<HttpRequest> receive_request(int socket)
+Result<HttpRequest> receive_request(int socket, const std::atomic<bool>& stop)
 {
+    const Patience patience{stop, std::chrono::steady_clock::now() + std::chrono::seconds(kPatienceSeconds)};
     std::string buffer;
-    if (!receive(socket, buffer, 0, "\r\n\r\n", kMostHeadBytes))
+    if (!receive(socket, buffer, 0, "\r\n\r\n", kMostHeadBytes, patience))
         return bad("is incomplete");
     const std::size_t head = buffer.find("\r\n\r\n") + 4;
     Result<HttpRequest> request = parse_http_head(std::string_view(buffer).substr(0, head));
@@ -97,20 +114,20 @@ Result<HttpRequest> receive_request(int socket)
     const Result<std::size_t> length = http_body_length(*request);
     BN_TRY(length);
     buffer.erase(0, head);
-    if (!receive(socket, buffer, *length, "", kMostBodyBytes))
+    if (!receive(socket, buffer, *length, "", kMostBodyBytes, patience))
         return bad("is incomplete");
     request->body = buffer.substr(0, *length);
+    request->gone = [socket] { return is_closed(socket); };
     return request;
 }
 
-void answer_connection(int socket, const std::function<HttpResponse(const HttpRequest&)>& answer)
+void answer_connection(int socket, const std::atomic<bool>& stop, const std::function<HttpResponse(const HttpRequest&)>& answer)
 {
     const timeval patience{kPatienceSeconds, 0};
-    setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
     setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
     HttpResponse response;
     try {
-        const Result<HttpRequest> request = receive_request(socket);
+        const Result<HttpRequest> request = receive_request(socket, stop);
         if (request)
             response = answer(*request);
         else
@@ -228,17 +245,20 @@ void HttpServer::run(const std::atomic<bool>& stop, const std::function<HttpResp
     int open = 0;
     while (!stop) {
         pollfd waiting{socket_, POLLIN, 0};
-        if (poll(&waiting, 1, 100) <= 0) // a tenth of a second, to look at `stop`
+        if (poll(&waiting, 1, kLookMs) <= 0)
             continue;
         const int connection = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-        if (connection < 0)
+        if (connection < 0) { // no descriptor is left: later
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
             continue;
+        }
         std::unique_lock lock(mutex);
-        ended.wait(lock, [&] { return open < kMostConnections; });
+        while (open >= kMostConnections && !stop)
+            ended.wait_for(lock, std::chrono::milliseconds(kLookMs));
         ++open;
         try {
-            std::thread([&mutex, &ended, &open, &answer, connection] {
-                answer_connection(connection, answer);
+            std::thread([&mutex, &ended, &open, &answer, &stop, connection] {
+                answer_connection(connection, stop, answer);
                 const std::lock_guard done(mutex);
                 --open;
                 ended.notify_all();

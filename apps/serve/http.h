@@ -19,6 +19,7 @@ struct HttpRequest {
     std::string method, path, query;            // path: without the query, as sent
     std::map<std::string, std::string> headers; // names in lower case
     std::string body;
+    std::function<bool()> gone; // true once the connection is closed at its other end; empty: not known
 
     std::string header(const std::string& name) const;  // "" if absent
     std::string parameter(std::string_view name) const; // of the query, as sent; "" if absent

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "core/scene/builtin/builtin.h"
 #include "raster/frame/upload.h"
@@ -21,29 +22,44 @@ constexpr const char* kKinds[] = {"flag",   "count", "integer", "number", "bytes
 
 bool ends_in(const fs::path& path, std::initializer_list<const char*> extensions)
 {
-    return std::any_of(extensions.begin(), extensions.end(), [&](const char* e) { return path.extension() == e; });
+    const std::string own = extension_of(path.string());
+    return std::any_of(extensions.begin(), extensions.end(), [&](const char* e) { return own == e; });
 }
 
-// Appends the models and environments of a folder, by name.
-Status add_folder(const fs::path& folder, ServedLists& lists)
+// Appends the models and environments below a folder, by name.
+void add_files(std::vector<fs::path> found, const fs::path& folder, ServedLists& lists)
 {
-    std::vector<fs::path> found;
-    std::error_code failed, ignored;
-    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed);
-    for (; !failed && at != fs::recursive_directory_iterator(); at.increment(failed))
-        if (at->is_regular_file(ignored))
-            found.push_back(at->path());
-    if (failed)
-        return Error{ExitCode::bad_input, folder.string(), "", failed.message()};
     std::sort(found.begin(), found.end());
     for (const fs::path& path : found) {
         const ServedFile file{path.lexically_relative(folder).string(), path.string()};
-        if (ends_in(path, {".gltf", ".glb", ".obj"}) && lists.scenes.size() < kMostServed)
+        if (ends_in(path, {"gltf", "glb", "obj"}) && lists.scenes.size() < kMostServed)
             lists.scenes.push_back(file);
-        if (ends_in(path, {".hdr", ".exr"}) && lists.environments.size() < kMostServed)
+        if (ends_in(path, {"hdr", "exr"}) && lists.environments.size() < kMostServed)
             lists.environments.push_back(file);
     }
-    return {};
+}
+
+// Returns the files that an iterator over a folder finds. An entry that vanishes meanwhile ends the search.
+template <class Iterator> std::vector<fs::path> files_of(Iterator at, std::error_code& failed)
+{
+    std::vector<fs::path> found;
+    std::error_code ignored;
+    for (; !failed && at != Iterator(); at.increment(failed))
+        if (at->is_regular_file(ignored) && ends_in(at->path(), {"gltf", "glb", "obj", "hdr", "exr"}))
+            found.push_back(at->path());
+    return found;
+}
+
+// True if brackets nest deeper than `most`. Brackets in texts count too.
+bool nests_deeper(const std::string& text, int most)
+{
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0;
+        if (depth > most)
+            return true;
+    }
+    return false;
 }
 
 const ServedFile* find_served(const std::vector<ServedFile>& files, const std::string& name)
@@ -99,30 +115,43 @@ std::vector<std::pair<std::string, std::string>> drawn_options(const DrawRequest
 Result<ServedLists> served_lists(const std::string& target)
 {
     ServedLists lists;
-    std::error_code ignored;
+    std::error_code failed;
     const bool builtin = target.rfind("builtin:", 0) == 0;
-    if (fs::is_directory(target, ignored)) {
-        BN_TRY(add_folder(target, lists));
+    if (fs::is_directory(target, failed)) {
+        fs::recursive_directory_iterator at(target, fs::directory_options::skip_permission_denied, failed);
+        if (failed)
+            return Error{ExitCode::bad_input, target, "", failed.message()};
+        add_files(files_of(std::move(at), failed), target, lists);
     } else if (!target.empty() && !builtin) {
         const fs::path path(target);
-        if (!fs::is_regular_file(path, ignored))
+        if (!fs::is_regular_file(path, failed))
             return Error{ExitCode::bad_input, target, "", "is neither a file nor a folder"};
+        if (!ends_in(path, {"gltf", "glb", "obj"}))
+            return Error{ExitCode::bad_input, target, "", "is no .gltf, .glb or .obj file"};
+        const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
         ServedLists beside;
-        BN_TRY(add_folder(path.has_parent_path() ? path.parent_path() : fs::path("."), beside));
+        add_files(files_of(fs::directory_iterator(folder, failed), failed), folder, beside);
         lists.scenes.push_back({path.filename().string(), target});
         lists.environments = std::move(beside.environments);
+    } else if (builtin) { // failure scenes too
+        BN_TRY(make_builtin_scene(target.substr(8)));
+        lists.scenes.push_back({target, target});
     }
     for (const BuiltinInfo& scene : builtin_scenes())
-        lists.scenes.push_back({std::string("builtin:") + scene.name, std::string("builtin:") + scene.name});
-    if (builtin) { // first, and failure scenes too
-        const auto at = std::find_if(lists.scenes.begin(), lists.scenes.end(), [&](const ServedFile& f) { return f.name == target; });
-        if (at != lists.scenes.end())
-            lists.scenes.erase(at);
-        lists.scenes.insert(lists.scenes.begin(), {target, target});
-    }
+        if (const std::string name = std::string("builtin:") + scene.name; name != target)
+            lists.scenes.push_back({name, name});
     for (const BuiltinInfo& environment : builtin_environments())
         lists.environments.push_back({std::string("builtin:") + environment.name, std::string("builtin:") + environment.name});
     return lists;
+}
+
+Result<Json> request_json(const std::string& text)
+{
+    constexpr int kMostDepth = 8;
+    if (nests_deeper(text, kMostDepth))
+        return usage_error("request", "nests too deeply");
+    Json json = Json::parse(text, nullptr, false);
+    return json.is_discarded() ? Result<Json>(usage_error("request", "is no JSON")) : Result<Json>(std::move(json));
 }
 
 Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
@@ -160,6 +189,8 @@ Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
     }
     if (request.width < 1 || request.height < 1)
         return usage_error("width", "and height are missing");
+    if ((request.reduction & (request.reduction - 1)) != 0)
+        return usage_error("reduction", "is none of 1, 2, 4 and 8");
     return request;
 }
 
@@ -219,7 +250,7 @@ Result<RenderOptions> render_options_of(const DrawRequest& request, const Limits
     return options;
 }
 
-std::string command_of(const DrawRequest& request)
+std::string command_of(const DrawRequest& request, const std::vector<std::string>& further)
 {
     std::string text = "burnish render " + quoted(request.scene);
     if (!request.environment.empty())
@@ -229,24 +260,24 @@ std::string command_of(const DrawRequest& request)
         text += " " + name + (value.empty() ? "" : " " + quoted(value));
     if (request.reference_samples > 0)
         text += fmt::format(" --backend reference --samples {}", request.reference_samples);
+    for (const std::string& word : further)
+        text += " " + quoted(word);
     return text + " -o picture.png";
 }
 
-std::string session_key(const DrawRequest& request)
+std::string session_key(const DrawRequest& request, const RenderOptions& options)
 {
     RenderArguments arguments;
     const OptionTable table = render_option_table(arguments);
-    Json key = {request.scene, request.environment, request.reference_samples > 0};
+    Json key = {request.scene, request.environment, request.reference_samples > 0, options.mips.frames_override};
     for (const Option& option : table.options()) {
-        const bool frame = !changes_scene(option) && option.group != "Environment" && option.name != "--floor" && option.name != "--brdf";
+        const bool prepared = changes_scene(option) || option.group == "Environment" || option.name == "--floor" ||
+                              option.name == "--brdf" || option.name == "--no-background" ||
+                              option.name == "--shadows"; // floors and warnings follow these
         for (const auto& [name, value] : request.options)
-            if (name == option.name && !frame)
+            if (name == option.name && prepared)
                 key.push_back(name + "=" + value);
     }
-    // Frames that override materials need no textures
-    for (const auto& [name, value] : request.options)
-        if (name == "--roughness" || name == "--anisotropy")
-            key.push_back(name);
     return json_text(key, -1);
 }
 

@@ -20,7 +20,7 @@ struct ServedFile {
 struct ServedLists {
     std::vector<ServedFile> scenes, environments;
 };
-// Lists built-in scenes and environments, and those of a file or folder: models below it, and pictures that are environments. At most
+// Lists built-in scenes and environments, and those of a folder with all below it, or a file with the environments beside it. At most
 // kMostServed of each. Errors: ExitCode::bad_input.
 inline constexpr std::size_t kMostServed = 1000;
 Result<ServedLists> served_lists(const std::string& target);
@@ -34,6 +34,9 @@ struct DrawRequest {
     bool operator==(const DrawRequest&) const = default;
 };
 
+// Reads a request's body. Errors: ExitCode::usage for a text that is no JSON, or nests deeper than requests do.
+Result<Json> request_json(const std::string& text);
+
 // Reads {scene, environment, options: {name: value}, width, height, reduction, reference_samples}. Names must be in the lists, and options
 // must be served. Errors: ExitCode::usage.
 Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists);
@@ -44,9 +47,10 @@ Json served_options(const OptionTable& table); // [{name, group, help, kind, low
 
 // The request's options of `burnish render`. `arguments` receives their values.
 Result<RenderOptions> render_options_of(const DrawRequest& request, const Limits& limits, int threads, RenderArguments& arguments);
-std::string command_of(const DrawRequest& request); // a line for a shell that draws the same picture
+// Returns a line for a shell that draws the same picture. further: words that follow, such as limits.
+std::string command_of(const DrawRequest& request, const std::vector<std::string>& further = {});
 
 // Part of the request that a prepared session depends on, as text.
-std::string session_key(const DrawRequest& request);
+std::string session_key(const DrawRequest& request, const RenderOptions& options);
 
 } // namespace burnish

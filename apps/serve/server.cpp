@@ -1,6 +1,7 @@
 #include "apps/serve/server.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
+#include "apps/options/scene_view.h"
 #include "apps/render/stats.h"
 #include "apps/serve/assets.h"
 #include "apps/serve/http.h"
@@ -44,12 +46,13 @@ Image shown_picture(const Drawn& drawn)
                                         : drawn.rendered.shown;
 }
 
-Json info_of(const DrawRequest& request, const Drawn& drawn)
+Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<std::string>& further)
 {
     const RenderFigures& f = drawn.rendered.figures;
-    const auto vec3 = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
+    const auto vec3 = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
+    const View& view = drawn.view;
     return {{"hash", hash_text(f.hash)},
-            {"command", command_of(request)},
+            {"command", command_of(request, further)},
             {"width", drawn.rendered.color.width},
             {"height", drawn.rendered.color.height},
             {"frame_ms", f.frame_ms.empty() ? 0.0 : f.frame_ms.back()},
@@ -60,7 +63,9 @@ Json info_of(const DrawRequest& request, const Drawn& drawn)
             {"nan_pixels", f.nan_pixels},
             {"centre", vec3(drawn.centre)},
             {"radius", drawn.radius},
-            {"to_eye", vec3(drawn.to_eye)},
+            {"eye", vec3(drawn.origin + glm::dvec3(view.eye))},
+            {"forward", vec3(glm::dvec3(view.forward))},
+            {"fov", view.orthographic ? Json() : Json(2.0 * std::atan(static_cast<double>(view.tan_half_y)) / kRadiansPerDegree)},
             {"warnings", drawn.warnings}};
 }
 
@@ -76,7 +81,7 @@ class Pages {
     void listens_on(int port)
     {
         for (const char* host : {"127.0.0.1", "localhost"})
-            hosts_.push_back(fmt::format("{}:{}", host, port));
+            hosts_.push_back(port == 80 ? host : fmt::format("{}:{}", host, port));
     }
 
     HttpResponse operator()(const HttpRequest& request)
@@ -129,12 +134,12 @@ class Pages {
             answer(response, {{"changes", setting_.watch ? drawings_.look_for_changes() : 0}});
             return {};
         }
-        constexpr std::pair<const char*, Status (Pages::*)(const Json&, HttpResponse&)> kPosts[] = {
+        constexpr std::pair<const char*, Status (Pages::*)(const Json&, const HttpRequest&, HttpResponse&)> kPosts[] = {
             {"/draw", &Pages::draw}, {"/difference", &Pages::difference}, {"/save", &Pages::save}};
         for (const auto& [path, work] : kPosts)
             if (request.method == "POST" && request.path == path) {
-                const Json json = Json::parse(request.body, nullptr, false);
-                return json.is_discarded() ? Status(usage_error("request", "is no JSON")) : (this->*work)(json, response);
+                const Result<Json> json = request_json(request.body);
+                return json ? (this->*work)(*json, request, response) : Status(json.error());
             }
         response.status = 404, response.body = "There is no such page.\n";
         return {};
@@ -166,24 +171,24 @@ class Pages {
         return {};
     }
 
-    Status draw(const Json& json, HttpResponse& response)
+    Status draw(const Json& json, const HttpRequest& asked, HttpResponse& response)
     {
         const Result<DrawRequest> request = draw_request_of(json, lists_);
         BN_TRY(request);
-        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {true, asked.gone});
         BN_TRY(drawn);
-        return picture(response, shown_picture(**drawn), info_of(*request, **drawn));
+        return picture(response, shown_picture(**drawn), info_of(*request, **drawn, setting_.limit_words));
     }
 
     // Draws both pictures, and answers with HDR-FLIP's error map of the second.
-    Status difference(const Json& json, HttpResponse& response)
+    Status difference(const Json& json, const HttpRequest& asked, HttpResponse& response)
     {
         std::shared_ptr<const Drawn> both[2];
         for (int i = 0; i < 2; ++i) {
             const Result<DrawRequest> request =
                 draw_request_of(json.is_object() ? json.value(i ? "test" : "reference", Json()) : Json(), lists_);
             BN_TRY(request);
-            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
             BN_TRY(drawn);
             both[i] = *drawn;
         }
@@ -198,16 +203,18 @@ class Pages {
         return picture(response, magma_map(flip.error), {{"flip_mean", summary.mean}, {"flip_p99", summary.p99}});
     }
 
-    Status save(const Json& json, HttpResponse& response)
+    Status save(const Json& json, const HttpRequest& asked, HttpResponse& response)
     {
         if (setting_.output_folder.empty())
             return usage_error("save", "needs `burnish serve -o FOLDER`");
-        const std::string extension = json.is_object() ? json.value("extension", ".png") : ".png";
-        if (extension != ".png" && extension != ".exr")
+        std::string extension = ".png";
+        if (const auto given = json.find("extension"); given != json.end())
+            extension = *given == ".exr" ? ".exr" : *given == ".png" ? ".png" : "";
+        if (extension.empty())
             return usage_error("extension", "is neither .png nor .exr");
         const Result<DrawRequest> request = draw_request_of(json, lists_);
         BN_TRY(request);
-        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request);
+        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
         BN_TRY(drawn);
         const std::lock_guard lock(saving_);
         std::error_code ignored;
@@ -236,6 +243,8 @@ Status serve(const ServeSetting& setting, const std::atomic<bool>& stop, const s
 {
     Result<ServedLists> lists = served_lists(setting.target);
     BN_TRY(lists);
+    if (!setting.output_folder.empty())
+        BN_TRY(make_output_folder(setting.output_folder));
     Pages pages(setting, std::move(*lists));
     Result<HttpServer> server = HttpServer::open(setting.port);
     BN_TRY(server);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "apps/serve/drawings.h"
 #include "core/base/result.h"
@@ -15,6 +16,7 @@ struct ServeSetting {
     int port = 0;              // 0: any that is free
     bool watch = false;        // draw again where a file changes
     Limits limits;
+    std::vector<std::string> limit_words; // options of the limits that were given, for the commands that pages show
     int threads = 0;
 };
 

@@ -67,7 +67,7 @@ void start_workers(tbb::task_arena& arena, int threads)
 struct SpareArenas {
     std::mutex mutex;
     std::vector<std::pair<int, std::unique_ptr<tbb::task_arena>>> arenas; // by thread count
-    std::size_t made = 0;                                                 // of all arenas; that many have room
+    std::size_t made = 0;                                                 // arenas so far; `arenas` has room for all
 };
 SpareArenas& spare_arenas()
 {

@@ -1,5 +1,6 @@
 #include "core/scene/add_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -83,8 +84,9 @@ Result<std::int32_t> add_mesh(Scene& scene, const MeshInput& mesh)
     for (std::size_t i = 0; i < corners; ++i) {
         const std::size_t v = corner_at(mesh, i);
         p[i] = mesh.positions[v];
-        const float length = glm::length(normals[v]);
-        n[i] = length > 0.0f ? normals[v] / length : glm::vec3(0, 0, 1);
+        const glm::vec3 size = glm::abs(normals[v]);
+        const float most = std::max({size.x, size.y, size.z}); // squares of other lengths over- or underflow
+        n[i] = most > 0.0f ? glm::normalize(normals[v] / most) : glm::vec3(0, 0, 1);
         if (mapped)
             uv[i] = mesh.coordinates[v];
     }

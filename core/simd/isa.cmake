@@ -57,11 +57,11 @@ foreach(row any_scalar ${BN_MACHINE}_avx2 ${BN_MACHINE}_avx512)
   endif()
 endforeach()
 if(NOT BN_ISA_SET STREQUAL "all") # packages have all of them, and each at its best
-  set(allowed "NOT DEFINED ENV{BN_TEST_INSTALL}") # a test of what is installed
+  set(refused "NOT DEFINED ENV{BN_TEST_INSTALL}") # but for a test of what is installed
   if(NOT BN_ISA_SET STREQUAL "tested")
-    set(allowed TRUE)
+    set(refused TRUE)
   endif()
-  install(CODE "if(${allowed})
+  install(CODE "if(${refused})
     message(FATAL_ERROR \"BN_ISA_SET=${BN_ISA_SET} is not for packages: configure with -DBN_ISA_SET=all to install\")
   endif()" ALL_COMPONENTS)
 endif()

@@ -19,7 +19,6 @@ def junit_of(bench, name):
 @case("compare.every_report_says_what_was_judged", "input")
 def verdicts(bench):
     pictures(bench)
-    scratch(bench, "hole.png", png(24, 16, ramp))
     words = ("a.png", "b.png", "--json", "j.json", "--csv", "c.csv", "--junit", "u.xml", "--html", "p.html", "-q")
     for limits, code, verdict in (((), 0, None), (("--fail-max", "0.5"), 0, "passed"), (("--fail-flip", "0.5", "--fail-max", "0.01"), 1, "differs")):
         done = bench.run("compare", *words, *limits).expect(code)

@@ -74,6 +74,8 @@ def some_tables(bench):
 def all_tables(bench):
     each = (("both/h.exr",), ("both/a.exr",), ("a.pfm",), ("both",), ("large.exr", "a.pfm"), ("across.exr",))
     tables(bench, dict.fromkeys(("16", "60", "64"), each))
+    for name in ("both/h.exr", "a.pfm"):
+        bench.run("render", *LOBE, "--anisotropy", "0.5", "--as-table", name, "-q", "-o", "no.pfm").expect(4).expect_one_line(name, "nu")
 
 
 @case("phong.tables_from_files_give_the_same_words_on_devices", tier="nightly")

@@ -299,6 +299,25 @@ def examples(bench):
     check("golden_test.png" in run(bench, script, code=1).stderr and (bench.folder / "golden_test.png").exists(), "a changed picture passed")
 
 
+@case("python.arrays_may_outlive_the_package", budget=10)
+def outlive(bench):
+    """The interpreter frees modules at its end, in no promised order."""
+    for program in pythons():
+        python(bench, f"""
+import sys, types
+picture = burnish.load('builtin:plate', {KEYWORDS}).render({FRAME})
+later = sys.modules['later'] = types.ModuleType('later')
+later.capsule, later.picture = picture.__dlpack__(), picture
+try:
+    import numpy
+    class Kept: pass
+    Kept.array, Kept.itself = numpy.from_dlpack(picture), Kept
+    later.array = numpy.from_dlpack(picture)
+except (ImportError, AttributeError):
+    pass
+""", program)
+
+
 @case("python.shares_and_offscreen_scenes_do_not_grow", tier="nightly")
 def growth(bench):
     """One picture kept in each round would add 28 MiB."""

@@ -3,11 +3,14 @@
 import http.client
 import json
 import os
+import pathlib
 import shlex
 import shutil
 import signal
 import socket
 import subprocess
+import threading
+import time
 import urllib.parse
 
 from browser import Browser
@@ -48,6 +51,19 @@ class Served:
         return answer.status, answer.headers, answer.read()
 
 
+    def ask_for_nothing(self, body):
+        """Sends a request whose answer is of no interest."""
+        try:
+            self.ask("/draw", body)
+        except OSError:
+            pass
+
+
+def cpu_seconds(process):
+    fields = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def wish(scene="builtin:sphere", size=(64, 48), **options):
     return {"scene": scene, "environment": "builtin:studio", "width": size[0], "height": size[1],
             "options": {**SMALL_LIGHT, **{"--" + name.replace("_", "-"): value for name, value in options.items()}}}
@@ -62,13 +78,18 @@ def hash_of_command(bench, command):
 @case("serve.pictures_are_those_of_the_command_it_names", budget=10)
 def pictures(bench):
     with Served(bench, "builtin:sphere") as served:
-        for more in ({}, {"roughness": "0.3", "anisotropy": "0.8"}, {"technique": "mc", "samples": "4"}, {"orbit": "20,40", "zoom": "1.5", "no_background": ""}):
+        for more in ({}, {"roughness": "0.3", "anisotropy": "0.8"}, {"technique": "mc", "samples": "4"}, {"orbit": "20,40", "zoom": "1.5", "no_background": ""}, {"msaa": "8", "roughness": "0.2"},
+                     {"floor": "stage"}, {"floor": "stage", "no_background": ""}, {"frame_map": "off"}):
             status, headers, body = served.ask("/draw", wish(**more))
             check(status == 200 and body.startswith(b"\x89PNG"), f"{more}: {status} {body[:200]}")
             info = json.loads(headers["X-Burnish"])
             check(info["hash"] == hash_of_command(bench, info["command"]), f"{info['command']} draws another picture")
             (bench.folder / "served.png").write_bytes(body)
             bench.run("compare", "served.png", "picture.png", "--fail-max", "0", "-q").expect(0)
+        # Warnings are those of this picture, not of the session
+        for words, told in (({"shadows": "ratio"}, True), ({}, False), ({"shadows": "ratio"}, True)):
+            info = json.loads(served.ask("/draw", wish(**words))[1]["X-Burnish"])
+            check(any("--shadows has no effect" in line for line in info["warnings"]) == told, f"{words}: {info['warnings']}")
         # A quarter of the sides
         info = json.loads(served.ask("/draw", {**wish(), "reduction": 4})[1]["X-Burnish"])
         check((info["width"], info["height"]) == (16, 12) and info["hash"] == hash_of_command(bench, info["command"]), str(info))
@@ -79,6 +100,40 @@ def pictures(bench):
         found = json.loads(headers["X-Burnish"])
         check(status == 200 and 0.001 < found["flip_mean"] < found["flip_p99"], str(found))
         check(json.loads(served.ask("/difference", {"reference": wish(), "test": wish()})[1]["X-Burnish"])["flip_mean"] == 0, "a picture differs from itself")
+
+
+@case("serve.references_stop_for_other_pictures", budget=20)
+def stopped(bench):
+    long = {**wish(size=(640, 480)), "reference_samples": 65536}
+    with Served(bench, "builtin:sphere") as served:
+        answers = []
+        waiting = threading.Thread(target=lambda: answers.append(served.ask("/draw", long)[0]))
+        waiting.start()
+        time.sleep(0.5)
+        check(served.ask("/draw", wish())[0] == 200, "a picture beside a reference")
+        waiting.join(timeout=30)
+        check(answers == [409], f"the reference ended with {answers}")
+        # A closed page leaves no work behind
+        text = json.dumps(long)
+        with socket.create_connection(("127.0.0.1", served.port)) as link:
+            link.sendall(f"POST /draw HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\nX-Token: {served.token}\r\nContent-Length: {len(text)}\r\n\r\n{text}".encode())
+            time.sleep(0.3)
+        time.sleep(1)
+        busy = cpu_seconds(served.process.pid)
+        time.sleep(1)
+        check(cpu_seconds(served.process.pid) - busy < 0.3, "a reference goes on for nobody")
+        # Many at once
+        several = [threading.Thread(target=lambda: answers.append(served.ask("/draw", wish())[0])) for _ in range(40)]
+        for one in several:
+            one.start()
+        for one in several:
+            one.join(timeout=60)
+        check(len(answers) == 41 and set(answers) <= {200, 409} and answers.count(200) >= 1, str(answers))
+        # Ctrl-C, when the block ends, does not wait for this one
+        threading.Thread(target=lambda: served.ask_for_nothing(long), daemon=True).start()
+        time.sleep(0.5)
+        begin = time.monotonic()
+    check(time.monotonic() - begin < 10, "Ctrl-C waited for a reference")
 
 
 @case("serve.takes_no_request_without_its_token", "input")
@@ -93,6 +148,7 @@ def refusals(bench):
         for headers in ({"X_Token": ""}, {"X_Token": served.token[:-1]}, {"Host": f"evil.example:{served.port}"}, {"Host": "127.0.0.1"}):
             for path, body in (("/lists", None), ("/draw", wish()), (f"/?token={'0' * 32}", None)):
                 check(served.ask(path, body, **headers)[0] == 403, f"{headers} {path}")
+        check(served.ask(f"/?token={served.token}", Host="evil.example")[0] == 403, "the page for another host")
         for body, needle in ((b"{", "no JSON"), ([], "no object"), (wish("/etc/passwd"), "scene"), (wish("../models/broken.glb"), "scene"),
                              ({**wish(), "environment": "/etc/passwd"}, "environment"), ({**wish(), "width": 100000}, "width"), ({**wish(), "width": 0}, "width"),
                              ({**wish(), "height": "x"}, "height"), (wish(output="x.png"), "--output"), (wish(stats="x"), "--stats"), (wish(env="x.hdr"), "--env"),
@@ -101,6 +157,10 @@ def refusals(bench):
                              (wish("broken.glb"), "broken.glb"), ({**wish(), "reference_samples": -1}, "reference_samples")):
             status, _, answer = served.ask("/draw", body)
             check(status == 400 and needle in json.loads(answer)["error"], f"{body}: {status} {answer}")
+        deep = '{"reference":' + "[" * 400000 + "]" * 400000 + "}"
+        for path in ("/draw", "/difference", "/save"):
+            check(served.ask(path, deep)[0] == 400, f"{path}: brackets without end")
+        check(served.ask("/save", {**wish(), "extension": 1})[0] == 400 and served.ask("/draw", {**wish(), "reduction": 3})[0] == 400, "odd values")
         check(served.ask("/save", wish())[0] == 400 and "-o FOLDER" in json.loads(served.ask("/save", wish())[2])["error"], "save without a folder")
         check(served.ask("/nothing")[0] == 404 and served.ask("/nothing", {})[0] == 404, "a path that is none")
         # Texts that are no HTTP, too long, or cut
@@ -118,7 +178,8 @@ def refusals(bench):
             link.sendall(b"POST /draw HTTP/1.1\r\nContent-Length: 100\r\n\r\n{")  # goes without its rest
         check(served.ask("/lists")[0] == 200, "it no longer answers")
     check(bench.left_behind() == before, f"files were written: {bench.left_behind()}")
-    for words, code, needle in ((("nowhere",), 4, "nowhere"), (("--port", "99999"), 2, "--port"), (("-o", "models/broken.glb"), 7, "broken.glb")):
+    (bench.folder / "text.txt").write_text("no scene")
+    for words, code, needle in ((("nowhere",), 4, "nowhere"), (("builtin:nope",), 4, "nope"), (("text.txt",), 4, "text.txt"), (("--port", "99999"), 2, "--port"), (("-o", "models/broken.glb"), 7, "broken.glb")):
         bench.run("serve", *words).expect(code).expect_one_line(needle)
     with socket.create_server(("127.0.0.1", 0)) as taken:
         bench.run("serve", "--port", taken.getsockname()[1]).expect(2).expect_one_line("--port")
@@ -141,10 +202,15 @@ def saves(bench):
         check(sorted(os.listdir(bench.folder / "pictures")) == ["picture-0001.exr", "picture-0001.png", "picture-0002.png"], str(bench.left_behind()))
         check(json.loads(served.ask("/changes")[2])["changes"] == 0, "nothing has changed")
         before = json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"]
-        shutil.copy(bench.data_file("models/AnisotropyBarnLampSmall.glb"), model)
+        whole = bench.data_file("models/AnisotropyBarnLampSmall.glb").read_bytes()
+        changes = lambda: json.loads(served.ask("/changes")[2])["changes"]
+        model.write_bytes(whole[:1000])  # half of another version, then all of it
         os.utime(model, (1, 1))
-        check(json.loads(served.ask("/changes")[2])["changes"] == 1, "a changed file was not seen")
-        check(json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"] == before, "the same file, another picture")
+        check(changes() == 1 and served.ask("/draw", wish("lamp.glb"))[0] == 400, "a changed file was not seen")
+        shutil.copy(bench.data_file("models/Lights.glb"), model)
+        os.utime(model, (2, 2))
+        check(changes() == 2, "a file that was mended was not seen")
+        check(json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"] != before, "another file, the same picture")
 
 
 @case("serve.page_turns_compares_and_shows_its_command", budget=25)
@@ -170,7 +236,15 @@ def page(bench):
         browser.mouse("mouseReleased", 260, 320, button="left", clickCount=1)
         done("A")
         command = browser.value("document.getElementById('command').textContent")
-        check("--orbit" in command and browser.value("document.body.dataset.hash") == hash_of_command(bench, command), command)
+        check("--eye" in command and browser.value("document.body.dataset.hash") == hash_of_command(bench, command), command)
+        # A move keeps the distance
+        place = lambda name: [float(x) for x in browser.value("document.getElementById('command').textContent").split(f"--{name} ")[1].split()[0].split(",")]
+        before = place("eye"), place("target")
+        browser.value("(() => { document.body.dataset.done = ''; document.getElementById('view').focus(); document.getElementById('view').dispatchEvent("
+                      "new KeyboardEvent('keydown', { key: 'ArrowRight', shiftKey: true })); })()")
+        done("A")
+        moved = [b - a for a, b in zip(before[0], place("eye"))]
+        check(all(abs((b - a) - m) < 1e-6 for a, b, m in zip(before[1], place("target"), moved)) and max(map(abs, moved)) > 1e-3, f"{before} {moved}")
         # B with another technique beside A, their difference, the reference
         browser.value("(() => { document.getElementById('copy').click(); state.options.B['--technique'] = 'bent_normal'; })()")
         for mode in ("split", "error"):
@@ -194,3 +268,27 @@ def page(bench):
         check(not browser.faults, f"the console says {browser.faults}")
         outside = [url for url in browser.requests if not url.startswith((f"http://127.0.0.1:{served.port}/", "blob:", "data:", "about:"))]
         check(not outside, f"it asks {outside}")
+
+
+@case("serve.every_option_draws_what_its_command_draws", tier="nightly")
+def every_option(bench):
+    """A kept session must not outlive an option that it depends on."""
+    values = {"--camera": [], "--orbit": ["30,10"], "--eye": ["0.6,0.3,0.6"], "--target": ["0,0.05,0"], "--f0": ["0.9,0.5,0.3"], "--tilt": ["10,0"], "--env-size": ["32"],
+              "--env-samples": ["32"], "--samples": ["9"], "--shadow-samples": ["32"], "--msaa": ["8"]}
+    for scene in ("builtin:bumps", "builtin:lights"):
+        with Served(bench, scene) as served:
+            wrong, seen = [], 0
+            for row in json.loads(served.ask("/lists")[2])["options"]:
+                usual = row["initial"]
+                tried = values.get(row["name"]) if row["name"] in values else [""] if row["kind"] == "flag" else [
+                    name for name in row["names"] if name != usual][:3] if row["names"] else [str(row["low"] + (min(row["high"], row["low"] + 2) - row["low"]) // 2)]
+                for value in tried or []:
+                    request = wish(scene, size=(32, 24))
+                    request["options"][row["name"]] = value
+                    status, headers, answer = served.ask("/draw", request)
+                    if status != 200:
+                        continue  # refused, as the program would
+                    info, seen = json.loads(headers["X-Burnish"]), seen + 1
+                    if info["hash"] != hash_of_command(bench, info["command"]):
+                        wrong.append(f"{row['name']} {value}")
+            check(not wrong and seen > 60, f"{scene}, {seen} pictures: {wrong}")

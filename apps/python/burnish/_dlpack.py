@@ -47,6 +47,10 @@ def _unread(capsule, held=_held, valid=_valid, pointer=_pointer, names=(OLD, NEW
             held.pop(pointer(capsule, name), None)
 
 
+for _kept in (_delete, _unread):  # an array may outlive this module, at the interpreter's end
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(_kept))
+
+
 def capsule(owner, address, shape, max_version=None):
     """Returns a capsule of 32-bit floats at the address; the owner lives until the reader lets go. Readers that know DLPack 1.0 see that
     the floats are read-only; older ones cannot be told."""

@@ -150,6 +150,31 @@ TEST(jobs, objects_of_different_size_live_side_by_side)
     }
 }
 
+TEST(jobs, objects_of_one_size_after_another_run_on_the_threads_they_name)
+{
+    const auto total = [](int threads) { // of the numbers below a hundred
+        const Jobs jobs(threads);
+        EXPECT_EQ(jobs.threads(), threads);
+        std::atomic<int> sum = 0;
+        jobs.parallel_for(100, [&](std::size_t i, int worker) {
+            EXPECT_LT(worker, threads);
+            sum += static_cast<int>(i);
+        });
+        return sum.load();
+    };
+    for (int round = 0; round < 3; ++round)
+        for (const int threads : {2, 3, 2, 1, 4, 3})
+            EXPECT_EQ(total(threads), 4950);
+    std::vector<std::thread> callers;
+    for (int i = 0; i < 4; ++i)
+        callers.emplace_back([&, i] {
+            for (int round = 0; round < 20; ++round)
+                EXPECT_EQ(total(2 + (i + round) % 2), 4950);
+        });
+    for (std::thread& caller : callers)
+        caller.join();
+}
+
 // Callers from several threads share an object's worker numbers, and nested loops use another object's.
 TEST(jobs, callers_from_other_threads_share_an_object)
 {
