@@ -65,7 +65,9 @@ Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<s
             {"radius", drawn.radius},
             {"eye", vec3(drawn.origin + glm::dvec3(view.eye))},
             {"forward", vec3(glm::dvec3(view.forward))},
-            {"fov", view.orthographic ? Json() : Json(2.0 * std::atan(static_cast<double>(view.tan_half_y)) / kRadiansPerDegree)},
+            {"fov", view.orthographic
+                        ? Json()
+                        : Json(2.0 * std::atan(static_cast<double>(view.tan_half_y)) / static_cast<double>(kRadiansPerDegree))},
             {"warnings", drawn.warnings}};
 }
 

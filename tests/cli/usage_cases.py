@@ -48,7 +48,7 @@ def version(bench):
 
 
 WRITTEN = {"-o", "--json", "--svg", "--stats", "--trace", "--html", "--junit", "--csv", "--variance", "--error-map"}  # options that name a file
-MORE = {"render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("--json", "file/a"), "race": ("--json", "file/a"),
+MORE = {"serve": ("-o", "file/pictures"), "render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("--json", "file/a"), "race": ("--json", "file/a"),
         "profile": ("--json", "file/a")}
 
 
