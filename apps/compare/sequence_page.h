@@ -9,8 +9,8 @@
 
 namespace burnish {
 
-// Returns a self-contained page: the verdict, errors and changes over the frames, and the pictures of the worst frame. `json`: what --json
-// writes. Reads the worst frame's files.
+// Returns a self-contained page: the verdict, errors and changes over the frames, and the pictures of the worst frame. `json`: the object
+// that --json writes. Reads the worst frame's files.
 Result<std::string> sequence_page(const CompareOptions& options, const Status& verdict, const Json& json, const Jobs& jobs);
 
 } // namespace burnish

@@ -1,4 +1,4 @@
-// Draws what pages ask for. Sessions and pictures of the last requests are kept.
+// Draws the pictures that pages ask for. Sessions and pictures of the last requests are kept.
 #pragma once
 #include <atomic>
 #include <cstdint>

@@ -57,7 +57,7 @@ const char* reason_of(int status)
     }
 }
 
-// What a connection is read under.
+// Limits on reading from a connection.
 struct Patience {
     const std::atomic<bool>& stop;
     std::chrono::steady_clock::time_point until;

@@ -57,7 +57,7 @@ foreach(row any_scalar ${BN_MACHINE}_avx2 ${BN_MACHINE}_avx512)
   endif()
 endforeach()
 if(NOT BN_ISA_SET STREQUAL "all") # packages have all of them, and each at its best
-  set(refused "NOT DEFINED ENV{BN_TEST_INSTALL}") # but for a test of what is installed
+  set(refused "NOT DEFINED ENV{BN_TEST_INSTALL}") # but for a test of installed files
   if(NOT BN_ISA_SET STREQUAL "tested")
     set(refused TRUE)
   endif()

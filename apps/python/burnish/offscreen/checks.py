@@ -1,4 +1,4 @@
-"""Checks of what scenes for the offscreen renderer are made of: poses, colours, numbers."""
+"""Checks of poses, colours and numbers in scenes for the offscreen renderer."""
 
 import math
 

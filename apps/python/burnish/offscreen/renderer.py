@@ -39,7 +39,7 @@ class OffscreenRenderer:
             if name in keywords:
                 refuse(name, "the scene and the viewport decide it")
         self.viewport_width, self.viewport_height, self.keywords = viewport_width, viewport_height, keywords
-        self._kept = {}  # what was opened last, for colours and for coverage: (bytes, environment), scene
+        self._kept = {}  # scenes opened last, for colours and for coverage: (bytes, environment), scene
 
     def render(self, scene, flags=RenderFlags.NONE, seg_node_map=None):
         """Draws the scene. Returns (colour, depth).
