@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 #include <system_error>
 
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostPictureBytes = 1ull << 30, kMostHashBytes = 1024;
+constexpr std::uint64_t kMostPictureBytes = 1ull << 30, kMostHashBytes = 1024, kMostStatsBytes = 1 << 20;
 
 std::string in_folder(const std::string& folder, const std::string& path)
 {
@@ -66,6 +67,8 @@ Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const 
         run.words.insert(run.words.end(), {"-q", "-o", absolute(to)});
         if (row.limits.z)
             run.words.insert(run.words.end(), {"--variance", absolute(to) + ".variance.exr"});
+        if (row.limits.instructions)
+            run.words.insert(run.words.end(), {"--count-instructions", "--stats", absolute(to) + ".stats.json"});
         return run_child(run);
     }
     // A picture from before the run must not pass for a new one
@@ -106,6 +109,25 @@ void judge_hash(const GoldenRow& row, const std::string& golden, const Image& pi
     const std::string now = golden_hash(picture);
     if (now != wanted)
         result.verdict = GoldenVerdict::differs, result.reason = fmt::format("its hash is {}, the golden's {}", now, wanted.substr(0, 16));
+}
+
+// Adds the verdict on the instructions that the picture's statistics tell.
+void judge_instructions(const std::string& stats, double limit, GoldenResult& result)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(stats, kMostStatsBytes);
+    const nlohmann::json json = bytes ? nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false) : nlohmann::json();
+    const auto found = json.is_object() ? json.find("shading_instructions") : json.end();
+    if (!json.is_object() || found == json.end() || !found->is_number()) {
+        result.verdict = GoldenVerdict::failed, result.reason = "its instructions are not known: the table of costs lacks a technique";
+        return;
+    }
+    result.instructions = found->get<double>();
+    if (result.instructions <= limit)
+        return;
+    result.reason += (result.reason.empty() ? "" : "; ") +
+                     fmt::format("shading takes {:.6g} instructions, more than {:.6g}", result.instructions, limit);
+    if (result.verdict == GoldenVerdict::passed)
+        result.verdict = GoldenVerdict::differs;
 }
 
 } // namespace
@@ -157,9 +179,14 @@ GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, con
         result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
         return result;
     }
+    const auto judged = [&] {
+        if (row.limits.instructions && result.verdict != GoldenVerdict::failed)
+            judge_instructions(results + result.picture + ".stats.json", *row.limits.instructions, result);
+        return result;
+    };
     if (row.hash_alone) {
         judge_hash(row, result.golden, *picture, result);
-        return result;
+        return judged();
     }
     Result<Image> golden = picture_at(result.golden, row.golden, setting.limits);
     if (!golden)
@@ -181,7 +208,7 @@ GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, con
                 input.variance = std::move(*own);
     }
     judge(row.limits, std::move(input), jobs, shown, result);
-    return result;
+    return judged();
 }
 
 } // namespace burnish

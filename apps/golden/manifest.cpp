@@ -84,9 +84,10 @@ void read_limits(const Value& of, const std::string& place, GoldenLimits& to)
     const Value* hold = member(of, "hold");
     if (!hold)
         return;
-    check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z"});
+    check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z", "instructions"});
     to = {number_of(*hold, "flip", place + "/hold", 1.0), number_of(*hold, "flip_p99", place + "/hold", 1.0),
-          number_of(*hold, "pattern", place + "/hold", 100.0), number_of(*hold, "z", place + "/hold", 1.0)};
+          number_of(*hold, "pattern", place + "/hold", 100.0), number_of(*hold, "z", place + "/hold", 1.0),
+          number_of(*hold, "instructions", place + "/hold", 1e18)};
 }
 
 void read_environment(const Value& of, const std::string& place, std::map<std::string, std::string>& to)
@@ -169,6 +170,8 @@ GoldenRow read_row(const Value& of, const std::string& place, const Defaults& de
         row.kind = row.command.empty() ? GoldenKind::picture : GoldenKind::command;
         row.extension = fs::path(row.picture).extension().string();
     }
+    if (row.limits.instructions && row.kind != GoldenKind::scene)
+        throw Mistake{place + "/hold/instructions", "belong to a scene that burnish draws"};
     if (row.hash_alone && !row.limits.exact())
         throw Mistake{place + "/hold", "needs the golden picture, and this row keeps its hash alone"};
     if (row.hash_alone && !row.mask.empty())

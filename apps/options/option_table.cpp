@@ -64,6 +64,8 @@ std::vector<Option> output_rows(RenderArguments& to)
          file(to.plain.risks)},
         {"--exposure", "EV", "Exposure of 8-bit pictures in stops: multiplies radiance by 2^EV before tonemapping",
          number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
+        {"--count-instructions", "", "Adds the instructions of shading to --stats, by the table of costs: equal on every machine",
+         flag(to.plain.counts_instructions)},
         {"--stats", "FILE", "JSON file with times, counts, warnings and the pixel hash; - for standard output", file(to.plain.stats_file)},
         {"--trace", "FILE", "Timeline as Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)},
         quiet_option(to.plain.quiet),

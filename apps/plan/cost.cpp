@@ -6,6 +6,7 @@
 #include "apps/options/scene_view.h"
 #include "core/base/check.h"
 #include "raster/frame/frame_record.h"
+#include "raster/frame/upload.h"
 #include "shading/techniques/lobe_line.k.h"
 
 namespace burnish {
@@ -24,6 +25,14 @@ double line_samples(const PixelLobes::Lobe& at, int samples)
     const float per_width = static_cast<float>(shares ? kLineSamplesShared : kLineSamplesAlone);
     const double count = static_cast<double>(lobe_line_count(line, per_width, most));
     return 1.0 + 2.0 * std::ceil(0.5 * (count - 1.0));
+}
+
+// Returns the cost of a fragment, whose lobe decides on lobe_line's samples.
+double fragment_cost(const PlanCost& cost, int samples, const PixelLobes::Lobe& lobe)
+{
+    const double n = cost.line ? line_samples(lobe, samples) : static_cast<double>(samples);
+    const bool alone = cost.line && lobe.sigma_u == lobe.sigma_v;
+    return cost.fixed - (alone ? kSharing : 0.0) + cost.sample * n;
 }
 
 } // namespace
@@ -75,13 +84,36 @@ std::vector<double> mean_costs(const MaterialTechnique& setting, const PixelLobe
         if (material[p] < 0)
             continue;
         const std::size_t m = static_cast<std::size_t>(material[p]);
-        const double n = cost->line ? line_samples(lobes.of[p], setting.samples) : static_cast<double>(setting.samples);
-        const bool alone = cost->line && lobes.of[p].sigma_u == lobes.of[p].sigma_v;
-        sums[m] += cost->fixed - (alone ? kSharing : 0.0) + cost->sample * n, pixels[m] += 1.0;
+        sums[m] += fragment_cost(*cost, setting.samples, lobes.of[p]), pixels[m] += 1.0;
     }
     for (std::size_t m = 0; m < count; ++m)
         sums[m] /= std::max(1.0, pixels[m]);
     return sums;
+}
+
+std::optional<double> shading_instructions(const Frame& frame, const FrameDesc& desc, const DrawTables& tables)
+{
+    const auto cost_of = [](const std::string& technique) -> const PlanCost* {
+        const std::string& name = technique == automatic_technique().name ? chosen_technique().name : technique;
+        const auto found = std::find_if(plan_costs().begin(), plan_costs().end(), [&](const PlanCost& c) { return c.technique == name; });
+        return found == plan_costs().end() ? nullptr : &*found;
+    };
+    const PixelLobes lobes = lobes_of(frame, desc);
+    const std::size_t msaa = frame.triangle_ids.size() / std::max<std::size_t>(1, lobes.of.size());
+    const auto central = static_cast<std::size_t>(central_sample(standard_samples(static_cast<int>(msaa))));
+    double sum = 0.0, pixels = 0.0;
+    for (std::size_t p = 0; p < lobes.of.size(); ++p) {
+        const std::uint32_t id = frame.triangle_ids[p * msaa + central];
+        if (id == kNoTriangle)
+            continue;
+        const MaterialTechnique usual{desc.technique, desc.samples};
+        const MaterialTechnique& setting = desc.by_material.empty() ? usual : desc.by_material[tables.triangle_material[id]];
+        const PlanCost* cost = cost_of(setting.technique);
+        if (!cost)
+            return std::nullopt;
+        sum += fragment_cost(*cost, setting.samples, lobes.of[p]), pixels += 1.0;
+    }
+    return pixels > 0.0 ? sum / pixels * static_cast<double>(frame.stats.visible_fragments) : 0.0; // edges have several fragments a pixel
 }
 
 } // namespace burnish

@@ -10,6 +10,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/options/scene_with_view.h"
+#include "apps/plan/cost.h"
 #include "apps/render/mirror.h"
 #include "apps/render/shadows.h"
 #include "core/image/image.h"
@@ -197,7 +198,9 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     const bool shadows = casts_shadows(options, desc, session);
     const bool mirrors = options.floor == FloorChoice::mirror && options.backend != "reference";
     desc.triangle_ids = desc.triangle_ids || mirrors;
-    desc.layers = desc.layers || shadows || options.show != Shown::light;
+    const bool counts = options.counts_instructions && options.backend == "tile";
+    desc.layers = desc.layers || shadows || options.show != Shown::light || counts;
+    desc.triangle_ids = desc.triangle_ids || counts;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     // Render the frames, and compare their hashes
     for (int i = 0; i < options.frames; ++i) {
@@ -214,6 +217,8 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         last = std::move(*frame);
         progress.step();
     }
+    if (counts)
+        figures.instructions = shading_instructions(last, desc, session.tables());
     // Add shadows, reflections, false colours and risks
     if (shadows) {
         BN_TRY(add_shadows(options, desc, session, last));

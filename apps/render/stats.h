@@ -33,6 +33,7 @@ struct RenderFigures {
     std::vector<ExtractedLight> extracted_lights; // as the turned environment has them
     bool planned = false;                         // drawn by a plan
     std::optional<PlanFigures> plan;              // of --budget
+    std::optional<double> instructions;           // of shading, with --count-instructions; none: not known
     std::vector<std::string> warnings;            // as they were said, or would have been without --quiet
 };
 

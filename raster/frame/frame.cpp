@@ -286,11 +286,16 @@ const TechniqueInfo& automatic_technique()
     return info;
 }
 
+const TechniqueInfo& chosen_technique()
+{
+    return technique_with(kAutomatic);
+}
+
 namespace {
 
 const TechniqueInfo& resolved(const std::string& technique)
 {
-    return technique == automatic_technique().name ? technique_with(kAutomatic) : *find_technique(technique);
+    return technique == automatic_technique().name ? chosen_technique() : *find_technique(technique);
 }
 
 } // namespace

@@ -184,7 +184,8 @@ struct TechniqueInfo {
 };
 const std::vector<TechniqueInfo>& techniques();               // from shading/models.def
 const TechniqueInfo* find_technique(const std::string& name); // accepts automatic_technique() too; null if unknown
-const TechniqueInfo& automatic_technique();                   // "auto": stands for one of techniques()
+const TechniqueInfo& automatic_technique();                   // "auto": stands for chosen_technique()
+const TechniqueInfo& chosen_technique();                      // of techniques()
 const TechniqueInfo& technique_of(const FrameDesc& desc);     // resolves "auto"
 const TechniqueInfo& technique_of(const FrameDesc& desc, std::size_t material);
 int samples_of(const FrameDesc& desc, std::size_t material);        // those of its technique

@@ -279,3 +279,29 @@ def page(bench):
         check(not browser.faults, browser.faults)
     (bench.folder / "list.txt").write_text(names)
     check("1 picture blessed" in bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0).out, names)
+
+
+@case("golden.instructions_are_counted_the_same_everywhere", budget=10)
+def instructions(bench):
+    words = ("render", "builtin:plate", "--size", "64x48", "--floor", "off", "--count-instructions", "--stats", "-", "-q")
+    count = lambda *more: json.loads(bench.run(*words, *more).expect(0).out)["shading_instructions"]
+    usual = count()
+    check(usual > 1e5 and {count("--threads", "1"), count("--isa", "scalar"), count("--tile-size", "32")} == {usual}, f"{usual}")
+    check(count("--technique", "split_isotropic") < 0.7 * usual < 0.7 * count("--samples", "64"), "more samples take no more")
+    check(abs(count("--technique", "mc", "--samples", "512") / count("--technique", "mc", "--samples", "256") - 2) < 0.1, "mc is not linear")
+    check(count("--technique", "filtered_is", "--samples", "4") is None, "the table lacks filtered_is")
+    plain = json.loads(bench.run(*(word for word in words if word != "--count-instructions")).expect(0).out)
+    check("shading_instructions" not in plain and plain["pixel_hash"] == json.loads(bench.run(*words).expect(0).out)["pixel_hash"], "counting changes pixels")
+    row = {"name": "plate", "scene": "builtin:plate", "options": ["--size", "64x48", "--floor", "off"]}
+    for limit, code, verdict in ((usual, 0, "passed"), (0.99 * usual, 1, "differs")):
+        write(bench, [{**row, "hold": {"instructions": limit}}])
+        bench.run("golden", "bless", "m.json") if code == 0 and bench.run("golden", "check", "m.json").code == 5 else None
+        done = bench.run("golden", "check", "m.json").expect(code)
+        found = results(bench)["plate"]
+        check(found["verdict"] == verdict and found["instructions"] == usual, str(found))
+        check(code == 0 or "more than" in found["reason"], found["reason"])
+    write(bench, [{**row, "options": row["options"] + ["--technique", "filtered_is"], "hold": {"instructions": 1e9}}])
+    bench.run("golden", "check", "m.json").expect(4)
+    check("lacks a technique" in results(bench)["plate"]["reason"], "a technique without a cost")
+    write(bench, [{"name": "other", "picture": "a.png", "hold": {"instructions": 1}}])
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("/rows/0/hold/instructions")
