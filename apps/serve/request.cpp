@@ -172,7 +172,9 @@ Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
     RenderArguments arguments;
     const OptionTable table = render_option_table(arguments);
     if (const auto options = json.find("options"); options != json.end() && options->is_object())
-        for (const auto& [name, value] : options->items()) {
+        for (const auto& item : options->items()) {
+            const std::string& name = item.key();
+            const Json& value = item.value();
             const auto known =
                 std::find_if(table.options().begin(), table.options().end(), [&](const Option& o) { return o.name == name; });
             if (known == table.options().end() || !is_served(*known) || !value.is_string())
