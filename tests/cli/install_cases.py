@@ -57,7 +57,7 @@ def hashes_of_turntable(bench, folder, out):
     return run.stdout.split()
 
 
-@case("install.library_is_found_and_draws_the_same")
+@case("install.library_is_found_and_draws_the_same", budget=12)
 def library(bench):
     """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
     with tempfile.TemporaryDirectory(prefix="burnish-library-") as folder:
