@@ -118,7 +118,8 @@ void judge_instructions(const std::string& stats, double limit, GoldenResult& re
     const nlohmann::json json = bytes ? nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false) : nlohmann::json();
     const auto found = json.is_object() ? json.find("shading_instructions") : json.end();
     if (!json.is_object() || found == json.end() || !found->is_number()) {
-        result.verdict = GoldenVerdict::failed, result.reason = "its instructions are not known: the table of costs lacks a technique";
+        result.verdict = GoldenVerdict::failed,
+        result.reason = "its instructions are not known: the table of costs lacks its technique, or another renderer drew it";
         return;
     }
     result.instructions = found->get<double>();

@@ -39,7 +39,7 @@ A manifest is a JSON object. "rows" lists pictures:
   {"name": "page", "command": ["node", "draw.js"], "picture": "out/page.png"}       drawn by any program
   {"name": "old", "picture": "out/old.exr"}                                         there already
 Rows may have "hold", limits in place of equal values: {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE}. "instructions": N beside
-them limits the shading of a scene, by a count that is equal on every machine. "mask" is a picture whose black pixels do not count.
+them limits the instructions for light from the environment, by a count that is equal on every machine. "mask" is a picture whose black pixels do not count.
 "keep": "hash" makes the golden a hash. Further members: "seconds" (300), "environment" (variables), "format" of
 scenes (png), "golden" (goldens/NAME.png). "defaults" holds the same members, and "options" of scenes. Paths are relative to the manifest, and
 programs run beside it.

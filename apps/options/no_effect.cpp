@@ -54,6 +54,10 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         warn("--fallback", of_filter);
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
+    if (out.backend != "tile")
+        warn("--count-instructions", of_backend);
+    if (out.counts_instructions && out.stats_file.empty())
+        out.warnings.push_back("--count-instructions has no effect without --stats");
     const bool displayed =
         std::any_of(out.outputs.begin(), out.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
     if (out.frame.frame_map == kFrameOff)

@@ -27,8 +27,8 @@ struct PixelLobes {
 // frame: drawn by desc with layers.
 PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc);
 
-// Returns the instructions that shading a frame takes, by the table and the frame's fragments: equal on every machine. Empty where the
-// table lacks a technique. frame: drawn by desc with layers and triangle ids.
+// Returns the instructions that light from the environment takes in a frame, by the table and the frame's fragments: equal on every
+// machine. Empty where the table lacks a technique. frame: drawn by desc with layers and triangle ids.
 std::optional<double> shading_instructions(const Frame& frame, const FrameDesc& desc, const DrawTables& tables);
 
 // Returns the instructions a fragment of mc with this many samples, less those of a single fetch.

@@ -2,12 +2,15 @@
 
 import json
 import os
+import pathlib
+import re
 import stat
 import xml.etree.ElementTree
 
 from browser import Browser
 from harness import case, check
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SMALL = ["--size", "64x48", "--env-size", "64", "--env-samples", "64"]
 ROWS = [{"name": "pot", "scene": "builtin:teapot"}, {"name": "plate", "scene": "builtin:plate", "hold": {"flip": 0.01}},
         {"name": "ball", "scene": "builtin:sphere", "keep": "hash"}]
@@ -287,6 +290,12 @@ def instructions(bench):
     count = lambda *more: json.loads(bench.run(*words, *more).expect(0).out)["shading_instructions"]
     usual = count()
     check(usual > 1e5 and {count("--threads", "1"), count("--isa", "scalar"), count("--tile-size", "32")} == {usual}, f"{usual}")
+    fetch = int(re.search(r"\(split_isotropic, 1, all, (\d+), 0\)", (ROOT / "apps/plan/costs.def").read_text())[1])
+    one = json.loads(bench.run(*words, "--technique", "split_isotropic").expect(0).out)
+    check(one["shading_instructions"] == fetch * one["visible_fragments"], f"{one['shading_instructions']}: not {fetch} a fragment")
+    for more in (("--backend", "reference", "--samples", "64", "--stats", "s.json"), ()):
+        done = bench.run(*words[:-3], *more).expect(0)
+        check("--count-instructions has no effect" in done.err, done.describe())
     check(count("--technique", "split_isotropic") < 0.7 * usual < 0.7 * count("--samples", "64"), "more samples take no more")
     check(abs(count("--technique", "mc", "--samples", "512") / count("--technique", "mc", "--samples", "256") - 2) < 0.1, "mc is not linear")
     check(count("--technique", "filtered_is", "--samples", "4") is None, "the table lacks filtered_is")
@@ -302,6 +311,6 @@ def instructions(bench):
         check(code == 0 or "more than" in found["reason"], found["reason"])
     write(bench, [{**row, "options": row["options"] + ["--technique", "filtered_is"], "hold": {"instructions": 1e9}}])
     bench.run("golden", "check", "m.json").expect(4)
-    check("lacks a technique" in results(bench)["plate"]["reason"], "a technique without a cost")
+    check("lacks its technique" in results(bench)["plate"]["reason"], "a technique without a cost")
     write(bench, [{"name": "other", "picture": "a.png", "hold": {"instructions": 1}}])
     bench.run("golden", "check", "m.json").expect(4).expect_one_line("/rows/0/hold/instructions")
