@@ -35,10 +35,11 @@ const char* verdict_word(const Status& verdict)
     return verdict ? "passed" : verdict.error().code == ExitCode::differ ? "differs" : "failed";
 }
 
-// Returns the reason with the option whose limit is exceeded.
-std::string reason_of(const Error& error)
+// Returns the reason with the option whose limit is exceeded, and with the file if another than the test is at fault.
+std::string reason_of(const std::string& test, const Error& error)
 {
-    return (error.place.empty() ? "" : error.place + ": ") + error.reason;
+    std::string reason = (error.place.empty() ? "" : error.place + ": ") + error.reason;
+    return error.file.empty() || error.file == test ? reason : error.file + ": " + reason;
 }
 
 Error not_finite_error(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures)
@@ -91,7 +92,7 @@ Json verdict_json(const CompareOptions& options, const Status& verdict)
     return {{"reference", options.reference},
             {"test", options.test},
             {"verdict", judged ? Json(verdict_word(verdict)) : Json()},
-            {"reason", verdict ? Json() : Json(reason_of(verdict.error()))},
+            {"reason", verdict ? Json() : Json(reason_of(options.test, verdict.error()))},
             {"limits", limits}};
 }
 
@@ -100,7 +101,7 @@ JunitCase verdict_case(const std::string& name, const Status& verdict)
     if (verdict)
         return {name, JunitCase::Outcome::passed, ""};
     const bool differs = verdict.error().code == ExitCode::differ;
-    return {name, differs ? JunitCase::Outcome::failure : JunitCase::Outcome::error, reason_of(verdict.error())};
+    return {name, differs ? JunitCase::Outcome::failure : JunitCase::Outcome::error, reason_of(name, verdict.error())};
 }
 
 std::string compare_junit(const std::vector<JunitCase>& cases)
@@ -111,7 +112,7 @@ std::string compare_junit(const std::vector<JunitCase>& cases)
 std::string verdict_html(const CompareOptions& options, const Status& verdict)
 {
     if (!verdict)
-        return fmt::format("<p class=\"verdict bad\"><strong>Fails.</strong> {}.</p>\n", escaped(reason_of(verdict.error())));
+        return fmt::format("<p class=\"verdict bad\"><strong>Fails.</strong> {}.</p>\n", escaped(reason_of(options.test, verdict.error())));
     const Json limits = limits_json(options);
     if (limits.empty())
         return "<p class=\"verdict\">No limit was given.</p>\n";

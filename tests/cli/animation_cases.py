@@ -215,7 +215,12 @@ def rows_that_do_not_match_are_refused(bench):
     def refused(code, *needles, words=("r%02d.pfm", "t%02d.pfm")):
         done = bench.run("compare", "--sequence", *words, "--json", "o.json").expect(code)
         done.expect_one_line(*needles)
-        check("o.json" not in bench.left_behind(), "a file is left")
+        if code == 2:
+            check("o.json" not in bench.left_behind(), "a file is left")
+            return
+        found = json.loads((bench.folder / "o.json").read_text())
+        check(found["verdict"] == "failed" and all(needle in found["reason"] for needle in needles), f"{found}")
+        (bench.folder / "o.json").unlink()
 
     rows(bench, lambda i: bright)
     refused(2, "REFERENCE", "a.pfm", words=("a.pfm", "t%02d.pfm"))
