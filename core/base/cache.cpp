@@ -108,7 +108,7 @@ void note_cache_use(const std::string& file)
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
 }
 
-CacheLock::CacheLock(const std::string& file, double most_seconds)
+CacheLock::CacheLock(const std::string& file, double most_seconds, void (*while_waiting)())
 {
     // One file holds all locks, each on a byte of its own: a killed holder leaves nothing behind
     const fs::path path(file);
@@ -128,6 +128,8 @@ CacheLock::CacheLock(const std::string& file, double most_seconds)
         if ((errno != EAGAIN && errno != EACCES) || std::chrono::steady_clock::now() >= end)
             return;
         waited_ = true;
+        if (while_waiting)
+            while_waiting();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     lock_.reset(opened.release());

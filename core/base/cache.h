@@ -33,7 +33,8 @@ void prune_cache(const std::string& folder, std::uint64_t limit, const std::stri
 // written, or on a file system without locks.
 class CacheLock {
   public:
-    CacheLock(const std::string& file, double most_seconds);
+    // while_waiting: called fifty times a second meanwhile; it may throw to end the wait.
+    CacheLock(const std::string& file, double most_seconds, void (*while_waiting)() = nullptr);
     bool waited() const { return waited_; } // the file may have appeared meanwhile
     bool held() const { return static_cast<bool>(lock_); }
 

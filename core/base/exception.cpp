@@ -16,6 +16,8 @@ Error error_of_exception(Error error)
     } catch (const std::bad_alloc&) {
         error.code = ExitCode::bad_input, error.reason = "out of memory";
         return error;
+    } catch (const Stopped&) {
+        return Error{ExitCode::stopped, "", "", "stopped"};
     } catch (const std::system_error& thrown) {
         reason = printable(first_line(thrown.what()));
         if (thrown.code() == std::errc::resource_unavailable_try_again) {

@@ -19,6 +19,7 @@ enum class ExitCode : int {
     output_failed = 7,  // an output could not be written (disk full, no permission)
     internal = 70,      // a fault in the program itself (EX_SOFTWARE of sysexits.h)
     unavailable = 77,   // the backend is absent: skipped
+    stopped = 130,      // stopped by the caller or by Ctrl-C
 };
 
 struct Error {

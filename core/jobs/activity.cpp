@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/jobs/control.h"
 #include "core/jobs/jobs.h"
 
 namespace burnish {
@@ -120,6 +121,7 @@ Activity::Activity(std::string what) : Activity(std::move(what), nullptr) {}
 
 Activity::Activity(std::string what, std::function<void()> say)
 {
+    report_activity(what);
     Board& b = board();
     const std::lock_guard lock(b.mutex);
     id_ = b.next_id++;
@@ -150,6 +152,15 @@ void Activity::tell(bool on)
 void Activity::restart_interval()
 {
     board().said_ns = Trace::now_ns();
+}
+
+std::string Activity::innermost()
+{
+    Board& b = board();
+    const std::lock_guard lock(b.mutex);
+    const auto mine = std::find_if(b.entries.rbegin(), b.entries.rend(),
+                                   [](const Entry& e) { return pthread_equal(e.thread, pthread_self()) != 0; });
+    return mine == b.entries.rend() ? "" : mine->what;
 }
 
 std::uint64_t Activity::interval_ns()

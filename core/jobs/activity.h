@@ -22,6 +22,7 @@ class Activity {
     static void tell(bool on);          // turns lines on or off; off at first, because a library is silent
     static void restart_interval();     // another report has just appeared: restarts the interval
     static std::uint64_t interval_ns(); // between lines where stderr is no terminal
+    static std::string innermost();     // the name of the calling thread's last activity, or ""
 
   private:
     std::uint64_t id_;

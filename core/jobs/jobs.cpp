@@ -21,6 +21,7 @@
 #include <oneapi/tbb/task_arena.h>
 #endif
 
+#include "core/jobs/control.h"
 #include "core/jobs/cores.h"
 #include "core/jobs/pool.h"
 #include "core/jobs/threads.h"
@@ -179,6 +180,15 @@ bool Jobs::by_onetbb() const
 }
 
 void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const
+{
+    ControlledWork work(ControlledWork::Kind::loop, "", count);
+    if (work.on())
+        run(count, [&](std::size_t index, int worker) { work.run(body, index, worker); });
+    else
+        run(count, body);
+}
+
+void Jobs::run(std::size_t count, const std::function<void(std::size_t, int)>& body) const
 {
     if (impl_->threads == 1) {
         for (std::size_t i = 0; i < count; ++i)

@@ -16,10 +16,13 @@ class Jobs {
     ~Jobs();
     int threads() const;
     bool by_onetbb() const; // false: the process's own pool, or the caller alone
-    // Calls body(index, worker) for index in [0, count). worker in [0, threads()) only selects scratch memory.
+    // Calls body(index, worker) for index in [0, count). worker in [0, threads()) only selects scratch memory. Throws Stopped where the
+    // caller's work is to stop (core/jobs/control.h).
     void parallel_for(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
 
   private:
+    void run(std::size_t count, const std::function<void(std::size_t, int)>& body) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
@@ -50,7 +53,8 @@ class TraceSpan {
     std::uint64_t begin_;
 };
 
-// A progress bar where stderr is a terminal, else lines at the progress interval. Thread-safe.
+// A progress bar where stderr is a terminal, else lines at the progress interval; silent if quiet. Steps also go to the control of the
+// thread that makes the object (core/jobs/control.h). Thread-safe.
 class Progress {
   public:
     Progress(std::string label, std::size_t total, bool quiet);

@@ -12,6 +12,7 @@
 
 #include "core/base/text.h"
 #include "core/jobs/activity.h"
+#include "core/jobs/control.h"
 #include "core/jobs/jobs.h"
 
 namespace burnish {
@@ -46,7 +47,8 @@ std::size_t terminal_columns()
 struct Progress::Impl {
     std::string label;
     std::size_t total = 0;
-    bool terminal = false;
+    bool shown = true, terminal = false;
+    std::optional<ControlledWork> control;
     std::uint64_t begin_ns = 0, period_ns = kRedrawNs;
     std::atomic<std::uint64_t> first_ns{0}; // time of the first of many steps, 0 before that step
     std::atomic<std::size_t> first_done{0}; // work of that step, excluded from the estimate
@@ -93,11 +95,13 @@ struct Progress::Impl {
 
 Progress::Progress(std::string label, std::size_t total, bool quiet)
 {
-    if (quiet)
-        return;
     impl_ = std::make_unique<Impl>();
     impl_->label = printable(label);
     impl_->total = total;
+    impl_->shown = !quiet;
+    impl_->control.emplace(ControlledWork::Kind::count, impl_->label, total);
+    if (quiet)
+        return;
     impl_->terminal = isatty(STDERR_FILENO) != 0;
     impl_->period_ns = impl_->terminal ? kRedrawNs : Activity::interval_ns();
     impl_->begin_ns = Trace::now_ns();
@@ -111,8 +115,6 @@ Progress::Progress(std::string label, std::size_t total, bool quiet)
 
 Progress::~Progress()
 {
-    if (!impl_)
-        return;
     impl_->activity.reset();
     if (impl_->drawn == 0)
         return;
@@ -122,7 +124,8 @@ Progress::~Progress()
 
 void Progress::step(std::size_t n)
 {
-    if (!impl_)
+    impl_->control->step(n);
+    if (!impl_->shown)
         return;
     impl_->done.fetch_add(n, std::memory_order_relaxed);
     const std::uint64_t now = Trace::now_ns();

@@ -158,7 +158,8 @@ namespace ltc {
 struct ShadingTables;
 }
 class PhongFiles;
-struct SceneMips; // shading/bake/mip/settings.h
+struct SceneMips;   // shading/bake/mip/settings.h
+struct KeptPyramids; // raster/frame/pyramids.h
 extern const SceneMips kBoxMips;
 
 // Everything that a renderer needs. The references must outlive the renderer.
@@ -171,6 +172,7 @@ struct RenderInput {
     const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
     const PhongFiles* phong = nullptr;       // of as_mc's lobes; none: frames make their own
     const SceneMips& mips = kBoxMips;        // how levels of the scene's maps are made
+    KeptPyramids* pyramids = nullptr;        // texture pyramids of an earlier renderer of the same scene, and of this one
 };
 
 enum class Sampling { none, count, grid }; // meaning of FrameDesc::samples for a technique: unused, N samples, n x n samples

@@ -106,7 +106,7 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     return f;
 }
 
-FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input.scene, input.mips, input.tables, input.jobs)) {}
+FrameMaker::FrameMaker(const RenderInput& input) : input_(input), scene_(upload_scene(input)) {}
 
 const std::vector<std::uint16_t>& FrameMaker::ltc_texels() const
 {

@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/jobs/activity.h"
+#include "core/jobs/control.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/filter.h"
@@ -65,7 +66,7 @@ MipFile read_cached(const std::string& path)
 template <class Find> bool found_after_waiting(std::optional<CacheLock>& lock, const std::string& path, const Find& find)
 {
     const Activity activity("waiting for another process that makes these levels");
-    lock.emplace(path, kMostLockSeconds);
+    lock.emplace(path, kMostLockSeconds, check_stop);
     return find(); // another may have ended just now
 }
 

@@ -383,7 +383,8 @@ bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, 
            (!has_gains(m, mips) || levels.gained == gained_of(mips.lobe, is_metal(scene, m)));
 }
 
-MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, const Jobs& jobs, const OptimisedTexels& advance)
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, const Jobs& jobs, const OptimisedTexels& advance,
+                               const std::vector<bool>* wanted)
 {
     MaterialLevels all(scene.materials.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -396,6 +397,8 @@ MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, 
             all[i] = all[owner];
             continue;
         }
+        if (wanted && !(*wanted)[i])
+            continue;
         const MipSource source = mip_source(scene, m);
         const auto held = [](const auto& there) { return there && !there->materials.empty(); };
         const std::uint64_t hash = held(scene_mips.baked) || held(scene_mips.cached) ? source.hash(jobs) : 0; // which decodes all of it
@@ -478,6 +481,43 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
     if (key.tensor_power != 0)
         return make_texture_pyramid(anisotropy_tensor(image, key.tensor_power), texture, key.encoding);
     return make_texture_pyramid(image, texture, key.encoding);
+}
+
+void KeptPyramids::forget_material(std::int32_t material)
+{
+    std::erase_if(all, [&](const auto& kept) { return kept.first.material == material; });
+}
+
+std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
+                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, KeptPyramids* kept)
+{
+    // Take those that are kept
+    std::vector<std::shared_ptr<const TexturePyramid>> pyramids(keys.size());
+    std::vector<std::size_t> missing;
+    std::vector<bool> filtered(scene.materials.size(), false);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (kept)
+            if (const auto at = std::find_if(kept->all.begin(), kept->all.end(), [&](const auto& k) { return k.first == keys[i]; });
+                at != kept->all.end())
+                pyramids[i] = at->second;
+        if (pyramids[i])
+            continue;
+        missing.push_back(i);
+        if (keys[i].filtered)
+            filtered[static_cast<std::size_t>(keys[i].material)] = true;
+    }
+    // Make the others
+    const MaterialLevels levels = filtered_levels(scene, mips, jobs, {}, &filtered);
+    jobs.parallel_for(missing.size(), [&](std::size_t k, int) {
+        const std::size_t i = missing[k];
+        pyramids[i] = std::make_shared<const TexturePyramid>(make_pyramid(scene, mips, keys[i], levels));
+    });
+    if (!kept)
+        return pyramids;
+    kept->all.clear();
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        kept->all.emplace_back(keys[i], pyramids[i]);
+    return pyramids;
 }
 
 } // namespace burnish

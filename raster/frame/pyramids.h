@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/jobs/jobs.h"
@@ -52,7 +53,9 @@ void bind_textures(const Scene& scene, const SceneMips& mips, std::size_t materi
 
 // Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
-MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const OptimisedTexels& advance = {});
+// wanted: by material, whether its own levels are made; null: all.
+MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const OptimisedTexels& advance = {},
+                               const std::vector<bool>* wanted = nullptr);
 bool is_metal(const Scene& scene, const Material& material); // more than half of it
 
 // Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
@@ -66,6 +69,15 @@ MipSource mip_source(const Scene& scene, const Material& material);
 // Whether levels that were baked beforehand are of these maps and filters.
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material,
           const MaterialMips& mips);
+
+// Pyramids that renderers of one scene hand on. A key's pyramid depends on its material's fields, if it has one, and on the scene's images.
+struct KeptPyramids {
+    std::vector<std::pair<PyramidKey, std::shared_ptr<const TexturePyramid>>> all;
+    void forget_material(std::int32_t material); // call after a change to its fields
+};
+// Returns the pyramids of the keys. Makes those that are not kept, in parallel, and keeps exactly these.
+std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
+                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, KeptPyramids* kept);
 
 TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels);
 

@@ -230,22 +230,23 @@ void add_light_pictures(const Scene& scene, const Jobs& jobs, SceneTables& s)
             l.picture = static_cast<int>(s.pyramids.size() + static_cast<std::size_t>(at - used.begin()));
         }
     for (LightPicture& picture : pictures)
-        s.pyramids.push_back(std::move(picture.differences));
+        s.pyramids.push_back(std::make_shared<const TexturePyramid>(std::move(picture.differences)));
 }
 
 } // namespace
 
-SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs)
+SceneTables upload_scene(const RenderInput& input)
 {
+    const Scene& scene = input.scene;
+    const SceneMips& mips = input.mips;
+    const DrawTables& tables = input.tables;
+    const Jobs& jobs = input.jobs;
     SceneTables s;
-    const std::vector<PyramidKey> keys = used_pyramids(scene, mips);
-    s.pyramids.resize(keys.size());
-    const MaterialLevels levels = filtered_levels(scene, mips, jobs);
-    jobs.parallel_for(keys.size(), [&](std::size_t i, int) { s.pyramids[i] = make_pyramid(scene, mips, keys[i], levels); });
+    s.pyramids = make_pyramids(scene, mips, used_pyramids(scene, mips), jobs, input.pyramids);
     s.area_lights = area_light_records(tables);
     add_light_pictures(scene, jobs, s);
-    for (const TexturePyramid& p : s.pyramids)
-        s.textures.push_back(texture_params(p));
+    for (const auto& p : s.pyramids)
+        s.textures.push_back(texture_params(*p));
     s.materials = material_records(scene, mips, false);
     if (mips.frames_override)
         s.overridden = material_records(scene, mips, true);

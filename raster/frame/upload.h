@@ -11,7 +11,7 @@
 namespace burnish {
 
 struct SceneTables { // owns the data that the records point to
-    std::vector<TexturePyramid> pyramids;
+    std::vector<std::shared_ptr<const TexturePyramid>> pyramids;
     std::vector<TextureParams> textures;
     std::vector<MaterialRecord> materials;
     std::vector<MaterialRecord> overridden; // for frames that override(): with other textures
@@ -28,7 +28,8 @@ std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // pictures are texture indices of the scene
 
 // Builds the texture pyramids that materials use in the frames that `mips` allows, and the pictures of area lights, in parallel.
-SceneTables upload_scene(const Scene& scene, const SceneMips& mips, const DrawTables& tables, const Jobs& jobs);
+// Pyramids that input.pyramids keeps are taken from there.
+SceneTables upload_scene(const RenderInput& input);
 
 // Returns true if the frame tilts any material's lobes against their surfaces.
 bool tilts(const Scene& scene, const FrameDesc& desc);

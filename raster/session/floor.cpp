@@ -13,6 +13,7 @@
 #include "core/base/cache.h"
 #include "core/base/hash.h"
 #include "core/jobs/activity.h"
+#include "core/jobs/control.h"
 #include "core/jobs/jobs.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/draw_tables.h"
@@ -182,7 +183,7 @@ class SkyFinder {
         std::optional<CacheLock> lock; // until the visibility is kept
         {
             const Activity activity("waiting for another process that finds contact shadows");
-            lock.emplace(path, kMostLockSeconds);
+            lock.emplace(path, kMostLockSeconds, check_stop);
         }
         if (std::optional<std::vector<float>> made = read_kept_visibility(path, hash, seers.size()))
             return std::move(*made);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/exception.h"
 #include "core/jobs/activity.h"
 #include "core/scene/check_scene.h"
 #include "core/scene/directional_roughness.h"
@@ -13,7 +12,9 @@
 #include "core/scene/heights.h"
 #include "core/scene/origin.h"
 #include "raster/frame/mip_files.h"
+#include "raster/frame/pyramids.h"
 #include "raster/session/check_parts.h"
+#include "raster/session/guarded.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/bake/ltc/shipped.h"
 #include "shading/bake/tables/phong_files.h"
@@ -21,17 +22,8 @@
 namespace burnish {
 namespace {
 
-// Returns the result of `body`. Turns an exception into an Error.
-template <class Body> auto guarded(const std::string& what, const Body& body) -> decltype(body())
-{
-    try {
-        return body();
-    } catch (...) {
-        return error_of_exception(Error{ExitCode::internal, what, "", "internal error"});
-    }
-}
-
-Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const SessionOptions& options)
+// Opens a device where options gives none, and keeps it there for later renderers.
+Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, SessionOptions& options)
 {
     const std::vector<Isa>& known = program_isas();
     if (std::find(known.begin(), known.end(), options.isa) == known.end() || !isa_available(options.isa))
@@ -43,13 +35,12 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, const 
         return make_reference_renderer(input, reference);
     }
     case Backend::vulkan: {
-        std::shared_ptr<VulkanDevice> device = options.device;
-        if (!device) {
+        if (!options.device) {
             Result<std::shared_ptr<VulkanDevice>> opened = open_vulkan_device(options.vulkan);
             BN_TRY(opened);
-            device = std::move(*opened);
+            options.device = std::move(*opened);
         }
-        return make_vulkan_renderer(input, device);
+        return make_vulkan_renderer(input, options.device);
     }
     case Backend::tile:
         break;
@@ -124,6 +115,7 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
             BN_TRY(read);
             baked = std::move(*read);
         }
+        data->asked = asked;
         data->mips = asked_mips(asked, data->scene.materials.size());
         data->mips.baked = std::move(baked);
         BN_TRY(lay_directional_roughness(data->scene, limits, name));
@@ -210,6 +202,12 @@ Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs)
 
 Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 {
+    return make_with(std::move(parts), options, nullptr);
+}
+
+// pyramids: of an earlier renderer of the scene, or null.
+Result<Session> Session::make_with(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids)
+{
     if (!parts.scene || !parts.environment)
         return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene"};
     if (options.backend != Backend::reference && parts.environment->irradiance.texels.empty())
@@ -231,9 +229,13 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
             darken_vertices(turned, parts.scene->visibility);
             parts.turned = std::make_shared<const DrawTables>(std::move(turned));
         }
-        Result<std::unique_ptr<Renderer>> renderer = make_renderer(parts.input(), options);
+        if (!pyramids)
+            pyramids = std::make_shared<KeptPyramids>();
+        RenderInput input = parts.input();
+        input.pyramids = pyramids.get();
+        Result<std::unique_ptr<Renderer>> renderer = make_renderer(input, options);
         BN_TRY(renderer);
-        return Session(std::move(parts), std::move(*renderer));
+        return Session(std::move(parts), std::move(options), std::move(pyramids), std::move(*renderer));
     });
 }
 

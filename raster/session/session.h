@@ -9,6 +9,7 @@
 // any number of sessions and threads may share them. One thread at a time may use a session. Sessions in different threads are independent
 // and draw the same bits as a session alone.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -40,6 +41,7 @@ struct SceneData { // a scene and its draw tables
     DrawTables tables;
     SceneMips mips;                // how levels of its maps are made, and those that were made beforehand
     Column<float> visibility = {}; // of the sky from the tables' first vertices, which it darkens; empty: none (lay_floor())
+    MipSettings asked = {};        // what mips were made by
 };
 
 // "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
@@ -103,6 +105,15 @@ struct OpenOptions {
     Limits limits;
 };
 
+// Changes to a scene between frames, by indices into its tables.
+struct SceneChanges {
+    std::vector<std::pair<std::int32_t, glm::mat4>> nodes = {};         // Node::local
+    std::vector<std::pair<std::int32_t, Material>> materials = {};      // with other factors and the same maps
+    std::vector<std::pair<std::int32_t, std::int32_t>> primitives = {}; // Primitive::material
+    std::vector<std::pair<std::int32_t, Light>> lights = {};            // punctual lights
+    std::shared_ptr<const Environment> environment = {};                // null: stays
+};
+
 class Session {
   public:
     // Loads the scene, loads or bakes the environment or finds it in the cache, and makes the renderer. An empty environment means
@@ -117,7 +128,7 @@ class Session {
     Session& operator=(Session&& other)
     {
         renderer_ = std::move(other.renderer_); // first, because the renderer refers to the parts
-        parts_ = std::move(other.parts_);
+        parts_ = std::move(other.parts_), options_ = std::move(other.options_), pyramids_ = std::move(other.pyramids_);
         return *this;
     }
 
@@ -129,6 +140,12 @@ class Session {
     // Draws a frame like render(), but returns pixels that are NaN or Inf too, for callers that show these.
     Result<Frame> render_any(const FrameDesc& desc, Frame recycled = {});
 
+    // Changes the scene for the following frames. Texture levels, tables and the bake of the environment stay; draw tables are made anew.
+    // Frames have the bits of a new session of the changed scene with the same origin. Copies the scene first where others share it. A
+    // failure changes nothing. Errors: ExitCode::bad_input with the place ("/nodes/7/local"); usage where a change belongs to a new
+    // session: other maps, levels made beforehand, a node or material above a floor.
+    Status change(SceneChanges changes);
+
     const SessionParts& parts() const { return parts_; }
     const Scene& scene() const { return parts_.scene->scene; }
     const DrawTables& tables() const { return parts_.scene->tables; }
@@ -138,8 +155,15 @@ class Session {
     View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }
 
   private:
-    Session(SessionParts parts, std::unique_ptr<Renderer> renderer) : parts_(std::move(parts)), renderer_(std::move(renderer)) {}
+    Session(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids, std::unique_ptr<Renderer> renderer)
+        : parts_(std::move(parts)), options_(std::move(options)), pyramids_(std::move(pyramids)), renderer_(std::move(renderer))
+    {
+    }
+    static Result<Session> make_with(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids);
+
     SessionParts parts_;
+    SessionOptions options_;
+    std::shared_ptr<KeptPyramids> pyramids_; // of this session's renderers alone
     std::unique_ptr<Renderer> renderer_; // refers to parts_' contents, which stay in place when a session moves
 };
 

@@ -50,8 +50,8 @@ GpuScene::GpuScene(Context& context, const RenderInput& input)
     const std::vector<std::uint16_t>& ltc = maker_.ltc_texels();
     texels_.push_back(
         make_filled_buffer(context, ltc.data(), ltc.size() * sizeof(std::uint16_t), VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT));
-    for (const TexturePyramid& p : maker_.scene().pyramids)
-        texels_.push_back(texel_page(context, p.texels));
+    for (const auto& p : maker_.scene().pyramids)
+        texels_.push_back(texel_page(context, p->texels));
     for (std::size_t i = 0; i < kBehindTextures; ++i) // filled later
         texels_.emplace_back(context, 0, Buffer::Place::device, VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
     upload_pages(context);

@@ -27,8 +27,8 @@ NativeImages::NativeImages(Context& context, VkDescriptorSetLayout layout, const
     for (const CubeMap* cube :
          {&specular, &input.environment.irradiance, has_box_ ? &scene.mip_env() : &specular, &input.environment.picture()})
         cubes_.push_back(upload(cube->texels.data(), cube->offset, cube->size, cube->size, 6));
-    for (const TexturePyramid& p : scene.tables().pyramids)
-        textures_.push_back(upload(p.texels.data(), {p.offset, p.offset + p.levels}, p.width, p.height, 1));
+    for (const auto& p : scene.tables().pyramids)
+        textures_.push_back(upload(p->texels.data(), {p->offset, p->offset + p->levels}, p->width, p->height, 1));
     make_sets(layout, scene);
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/hash.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/activity.h"
+#include "core/jobs/control.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/simd/dispatch.h"
@@ -235,7 +236,7 @@ Result<Environment> bake_environment(const Image& equirect, const std::string& n
         cached = read_environment_cache(path, hash, options.cube_size, levels);
     if (!path.empty() && !cached && !options.picture_only) {
         const Activity activity("waiting for another bake of " + name);
-        lock.emplace(path, kMostLockSeconds);
+        lock.emplace(path, kMostLockSeconds, check_stop);
         cached = read_environment_cache(path, hash, options.cube_size, levels); // another may have ended just now
     }
     if (cached) {

@@ -1,0 +1,161 @@
+// Changes to a session's scene between frames.
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <utility>
+
+#include "core/jobs/activity.h"
+#include "core/scene/check_scene.h"
+#include "raster/frame/mip_files.h"
+#include "raster/frame/pyramids.h"
+#include "raster/session/guarded.h"
+#include "raster/session/session.h"
+
+namespace burnish {
+namespace {
+
+// Swaps each change with the scene's own value, from the first to the last or backwards. A second swap in the other order restores the
+// scene.
+void swap_in(Scene& scene, SceneChanges& changes, bool backwards)
+{
+    const auto swap_all = [&](auto& list, const auto& swap_one) {
+        if (backwards)
+            std::for_each(list.rbegin(), list.rend(), swap_one);
+        else
+            std::for_each(list.begin(), list.end(), swap_one);
+    };
+    const auto at = [](std::int32_t index) { return static_cast<std::size_t>(index); };
+    swap_all(changes.nodes, [&](auto& c) { std::swap(scene.nodes[at(c.first)].local, c.second); });
+    swap_all(changes.materials, [&](auto& c) { std::swap(scene.materials[at(c.first)], c.second); });
+    swap_all(changes.primitives, [&](auto& c) { std::swap(scene.primitives[at(c.first)].material, c.second); });
+    swap_all(changes.lights, [&](auto& c) { std::swap(scene.lights[at(c.first)], c.second); });
+}
+
+bool same_map(const TextureRef& a, const TextureRef& b)
+{
+    return a.texture == b.texture && a.uv_set == b.uv_set && a.uv_transform == b.uv_transform;
+}
+
+// Returns the first map that differs between the materials, or null.
+const char* differing_map(const Material& a, const Material& b)
+{
+#define BN_TEXTURE(name, path)                                                                                                             \
+    if (!same_map(a.name, b.name))                                                                                                         \
+        return #name;
+#include "core/scene/material.def"
+    return nullptr;
+}
+
+Status check_changes(const SceneData& data, const SceneChanges& changes)
+{
+    const Scene& scene = data.scene;
+    const auto wrong = [&](ExitCode code, std::string place, std::string reason) {
+        return Error{code, data.name, std::move(place), std::move(reason)};
+    };
+    // Indices
+    const auto check = [&](const char* table, const auto& list, std::size_t size) -> Status {
+        for (const auto& change : list)
+            if (change.first < 0 || static_cast<std::size_t>(change.first) >= size)
+                return wrong(ExitCode::bad_input, fmt::format("/{}/{}", table, change.first), fmt::format("the scene has {}", size));
+        return {};
+    };
+    BN_TRY(check("nodes", changes.nodes, scene.nodes.size()));
+    BN_TRY(check("materials", changes.materials, scene.materials.size()));
+    BN_TRY(check("primitives", changes.primitives, scene.primitives.size()));
+    BN_TRY(check("lights", changes.lights, scene.lights.size()));
+    // Changes that need a new session
+    const bool of_surfaces = !changes.nodes.empty() || !changes.materials.empty() || !changes.primitives.empty();
+    if (of_surfaces && std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.stage; }))
+        return wrong(ExitCode::usage, "", "the floor's contact shadows belong to the scene as it was opened: open it without a floor");
+    if (!changes.materials.empty() && data.mips.baked)
+        return wrong(ExitCode::usage, "/materials", "their levels were made beforehand, for the materials as they were opened");
+    for (const auto& [index, material] : changes.materials)
+        if (const char* map = differing_map(material, scene.materials[static_cast<std::size_t>(index)]))
+            return wrong(ExitCode::usage, fmt::format("/materials/{}/{}", index, map), "maps stay as they were opened; factors may change");
+    return {};
+}
+
+// Changes of a scene that are undone at the object's end, unless stay() is called.
+class Applied {
+  public:
+    Applied(SceneData& data, SceneChanges& changes) : data_(data), changes_(changes), mips_(data.mips)
+    {
+        for (const auto& [index, local] : changes.nodes)
+            beyond_.push_back(std::exchange(data.scene.nodes[static_cast<std::size_t>(index)].local_beyond, glm::dvec3(0.0)));
+        swap_in(data.scene, changes, false);
+        tables_ = std::move(data.tables);
+    }
+    ~Applied()
+    {
+        if (stays_)
+            return;
+        swap_in(data_.scene, changes_, true);
+        for (std::size_t i = beyond_.size(); i-- > 0;)
+            data_.scene.nodes[static_cast<std::size_t>(changes_.nodes[i].first)].local_beyond = beyond_[i];
+        update_world(data_.scene);
+        data_.tables = std::move(tables_), data_.mips = std::move(mips_);
+    }
+    Applied(const Applied&) = delete;
+    Applied& operator=(const Applied&) = delete;
+    void stay() { stays_ = true; }
+
+  private:
+    SceneData& data_;
+    SceneChanges& changes_;
+    std::vector<glm::dvec3> beyond_; // the nodes' old Node::local_beyond
+    DrawTables tables_;
+    SceneMips mips_;
+    bool stays_ = false;
+};
+
+// Makes everything that depends on the scene's tables.
+Status settle(SceneData& data, bool materials_changed)
+{
+    Limits any; // file readers have already applied their limits
+    any.image_side = std::numeric_limits<int>::max(), any.texture_bytes = std::numeric_limits<std::uint64_t>::max();
+    update_world(data.scene);
+    BN_TRY(check_scene(data.scene, any, data.name));
+    data.tables = make_draw_tables(data.scene);
+    BN_TRY(check_draw_range(data.scene, data.tables, data.name));
+    if (!materials_changed)
+        return {};
+    SceneMips mips = asked_mips(data.asked, data.scene.materials.size());
+    mips.materials.resize(data.scene.materials.size());
+    mips.cached = data.mips.cached;
+    BN_TRY(settle_nets(data.scene, mips, data.asked, any));
+    data.mips = std::move(mips);
+    return {};
+}
+
+} // namespace
+
+Status Session::change(SceneChanges changes)
+{
+    return guarded(parts_.scene->name, [&]() -> Status {
+        const Activity activity("changing the scene");
+        BN_TRY(check_changes(*parts_.scene, changes));
+        SessionParts parts = parts_;
+        if (changes.environment)
+            parts.environment = changes.environment;
+        auto kept = std::make_shared<KeptPyramids>(*pyramids_);
+        for (auto& [index, material] : changes.materials) {
+            const Material& old = parts.scene->scene.materials[static_cast<std::size_t>(index)];
+            material.emitter = old.emitter, material.heights = old.heights; // these belong to area lights and maps
+            kept->forget_material(index);
+        }
+        const bool shared = parts_.scene.use_count() > 2; // by others than parts_ and parts
+        // Scene data are objects that were not made const (make_scene_data())
+        const auto data = shared ? std::make_shared<SceneData>(*parts_.scene) : std::const_pointer_cast<SceneData>(parts.scene);
+        parts.scene = data;
+        Applied applied(*data, changes);
+        BN_TRY(settle(*data, !changes.materials.empty()));
+        Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
+        BN_TRY(next);
+        *this = std::move(*next);
+        applied.stay();
+        return {};
+    });
+}
+
+} // namespace burnish
