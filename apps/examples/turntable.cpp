@@ -36,22 +36,14 @@ int main(int argc, char** argv)
             return fails(written.error());
         std::printf("%016llx\n", static_cast<unsigned long long>(pixel_hash(frame->color)));
     }
-    // Turn the first node with a mesh: a scene of its own, with the other parts shared
-    Scene turned = session->scene();
-    for (Node& node : turned.nodes)
-        if (node.mesh != kNone) {
-            node.local = glm::rotate(node.local, glm::radians(40.0f), glm::vec3(0, 1, 0));
-            break;
-        }
-    SessionParts parts = session->parts();
-    const auto made = make_scene_data("turned", std::move(turned), open.limits);
-    if (!made)
-        return fails(made.error());
-    parts.scene = *made;
-    Result<Session> second = Session::make(std::move(parts));
-    if (!second)
-        return fails(second.error());
-    const Result<Frame> frame = second->render(desc);
+    // Turn the first node with a mesh. Textures and environment stay
+    SceneChanges changes;
+    for (std::size_t i = 0; i < session->scene().nodes.size() && changes.nodes.empty(); ++i)
+        if (const Node& node = session->scene().nodes[i]; node.mesh != kNone)
+            changes.nodes.emplace_back(static_cast<std::int32_t>(i), glm::rotate(node.local, glm::radians(40.0f), glm::vec3(0, 1, 0)));
+    if (const Status changed = session->change(changes); !changed)
+        return fails(changed.error());
+    const Result<Frame> frame = session->render(desc);
     if (!frame)
         return fails(frame.error());
     std::printf("%016llx\n", static_cast<unsigned long long>(pixel_hash(frame->color)));

@@ -108,6 +108,13 @@ def factors():
                     for _, name, path in lines_of("core/scene/material.def", "BN_FLAG")]
 
 
+def light_factors():
+    """Returns [(name, type, default, (), meaning)] of the lights' keywords."""
+    units = {"intensity": "candela, or lux of directional lights", "range": "metres", "inner_cone": "radians", "outer_cone": "radians"}
+    return [(name, f"{KINDS[kind]} | None", "None", (), ". ".join(filter(None, (gltf_place(path), units.get(name)))))
+            for kind, name, _, path, *_ in lines_of("core/scene/light.def", "BN_LIGHT_FACTOR")]
+
+
 def gltf_place(path):
     return f"glTF: {path[1:].replace('extensions/', '')}"
 
@@ -138,8 +145,12 @@ def stub(burnish):
     for function in ("load", "meshes", "render", "reference"):
         parts[function.upper()] = [entry for entry in every if function in entry[3]]
     parts["FACTORS"] = factors()
-    for place, indent in (("LOAD", 4), ("MESHES", 4), ("RENDER", 8), ("REFERENCE", 8), ("FACTORS", 8)):
+    parts["LIGHT"], parts["MESHES8"] = light_factors(), parts["MESHES"]
+    parts["MATERIAL"] = [(name, f"{shown} | None", "None") for name, shown, *_ in parts["FACTORS"]]
+    for place, indent in (("LOAD", 4), ("MESHES", 4), ("RENDER", 8), ("REFERENCE", 8), ("FACTORS", 8), ("LIGHT", 8)):
         parts[place + "_MEANINGS"] = meanings(parts[place], " " * indent)
+    for place, indent in (("LOAD", 4), ("MESHES", 4), ("RENDER", 8), ("REFERENCE", 8), ("FACTORS", 8), ("LIGHT", 8), ("MATERIAL", 8),
+                          ("MESHES8", 8)):
         parts[place] = signature(parts[place], " " * indent)
     return re.sub(r"^ *@(\w+)@\n|@(\w+)@", lambda at: parts[at[1] or at[2]], (HERE / "stub.in").read_text(), flags=re.M)
 

@@ -243,7 +243,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         out.color = with_coverage(out.color, last.triangle_ids, last.through);
     if (!options.aov.empty())
         out.layered = with_layers(out.color, last, session.tables(), options.aov);
-    out.parts = std::move(last.parts);
+    out.parts = std::move(last.parts), out.profile = std::move(last.profile);
     out.figures = std::move(figures);
     return out;
 }

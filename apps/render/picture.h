@@ -20,6 +20,7 @@ struct Rendered {
     NamedChannels layered;        // with --aov: `color` and the layers
     Image shown;                  // with --show: the false colours
     std::optional<RiskMap> risks; // with --risks
+    FrameProfile profile;         // of the last frame, if asked for
     RenderFigures figures;
 };
 

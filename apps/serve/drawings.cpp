@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <system_error>
 #include <thread>
 
 #include "apps/cli/report.h"
 #include "apps/options/scene_view.h"
+#include "core/jobs/control.h"
 
 namespace burnish {
 namespace {
@@ -27,27 +29,32 @@ std::filesystem::file_time_type time_of(const std::string& path)
     return failed ? std::filesystem::file_time_type::min() : time;
 }
 
-// Sets a flag once nobody waits for the picture. Ends with the object.
+// Stops the picture once nobody waits for it. Ends with the object.
 class Lookout {
   public:
-    Lookout(const std::function<bool()>& gone, std::atomic<bool>& stop)
+    Lookout(const std::function<bool()>& gone, std::stop_source& stop)
         : thread_([this, gone, &stop] {
-              while (!ended_ && !stop) {
+              std::unique_lock lock(mutex_);
+              while (!changed_.wait_for(lock, kPause, [&] { return ended_; }))
                   if (gone && gone())
-                      stop = true;
-                  std::this_thread::sleep_for(kPause);
-              }
+                      stop.request_stop();
           })
     {
     }
     ~Lookout()
     {
-        ended_ = true;
+        {
+            const std::lock_guard lock(mutex_);
+            ended_ = true;
+        }
+        changed_.notify_one();
         thread_.join();
     }
 
   private:
-    std::atomic<bool> ended_ = false;
+    std::mutex mutex_{};
+    std::condition_variable changed_{};
+    bool ended_ = false; // under mutex_
     std::thread thread_;
 };
 
@@ -101,13 +108,13 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     return made;
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request, const std::atomic<bool>& stop)
+Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request, const std::stop_token& stop)
 {
     auto drawn = std::make_shared<Drawn>();
     RenderArguments arguments;
     Result<RenderOptions> options = render_options_of(request, limits_, threads_, arguments);
     BN_TRY(options);
-    options->reference.stop = &stop;
+    options->frame.profile = request.reference_samples == 0;
     Result<Prepared> made = prepared(request, *options);
     BN_TRY(made);
     Session& session = *made->session;
@@ -116,54 +123,57 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     options->outputs = {"picture.png"}; // whose edges need the pixels' samples
     FrameDesc desc = options->frame;
     desc.view = view->view;
+    const Controlled controlled({stop, {}}); // not above: what sessions prepare serves later pictures too
     Result<Rendered> rendered = render_frames(*options, desc, session, made->figures);
-    BN_TRY(rendered);
-    if (rendered->figures.frame.sampling.stopped)
+    if (!rendered && rendered.error().code == ExitCode::stopped)
         return overtaken();
+    BN_TRY(rendered);
     drawn->warnings = made->warnings;
     drawn->warnings.insert(drawn->warnings.begin(), options->warnings.begin(), options->warnings.end());
     const DrawTables& tables = session.tables();
     drawn->view = view->view, drawn->origin = session.scene().origin;
     drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));
     drawn->radius = std::max(0.5f * glm::length(tables.bounds_max - tables.bounds_min), 1e-20f);
-    options->reference.stop = nullptr;
     drawn->options = std::move(*options), drawn->rendered = std::move(*rendered);
     return std::shared_ptr<const Drawn>(drawn);
 }
 
-void Drawings::stop_references()
+void Drawings::stop_older(bool passing)
 {
-    for (std::atomic<bool>* stop : references_)
-        *stop = true;
+    for (Running* running : running_)
+        if (running->reference || (passing && running->passing))
+            running->stop.request_stop();
 }
 
 void Drawings::stop()
 {
     const std::lock_guard lock(kept_);
     ending_ = true;
-    stop_references();
+    for (Running* running : running_)
+        running->stop.request_stop();
 }
 
 Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, const Call& call)
 {
     const bool reference = request.reference_samples > 0;
     const std::uint64_t mine = call.passing ? ++latest_ : 0;
-    std::atomic<bool> stop = false;
+    Running running{{}, reference, call.passing};
     {
         const std::lock_guard lock(kept_);
-        stop_references(); // of older requests
-        references_.push_back(&stop);
-        stop = ending_;
+        stop_older(call.passing);
+        running_.push_back(&running);
+        if (ending_)
+            running.stop.request_stop();
     }
     struct Leave {
         Drawings& of;
-        std::atomic<bool>* stop;
+        Running* running;
         ~Leave()
         {
             const std::lock_guard lock(of.kept_);
-            of.references_.remove(stop);
+            of.running_.remove(running);
         }
-    } leave{*this, &stop};
+    } leave{*this, &running};
     const std::lock_guard drawing(reference ? reference_ : tile_);
     if ((call.passing && mine != latest_) || (call.gone && call.gone()))
         return overtaken();
@@ -178,11 +188,9 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
             }
     }
     Result<std::shared_ptr<const Drawn>> drawn = std::shared_ptr<const Drawn>();
-    if (reference) {
-        const Lookout lookout(call.gone, stop);
-        drawn = draw_now(request, stop);
-    } else {
-        drawn = draw_now(request, stop);
+    {
+        const Lookout lookout(call.gone, running.stop);
+        drawn = draw_now(request, running.stop.get_token());
     }
     BN_TRY(drawn);
     const std::lock_guard lock(kept_);

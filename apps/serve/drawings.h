@@ -7,6 +7,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,13 +34,14 @@ class Drawings {
         bool passing = false;       // left out where a later passing request waits
         std::function<bool()> gone; // true once nobody waits for the picture
     };
-    // Draws, or returns a kept picture. Any thread may call it; one tile picture and one reference are drawn at a time. References stop
-    // where another request comes, or nobody waits: an error of ExitCode::differ. Other errors are those of `burnish render`.
+    // Draws, or returns a kept picture. Any thread may call it; one tile picture and one reference are drawn at a time. A picture stops
+    // where nobody waits, a reference where another request comes, and a passing picture where another passing request comes: an error of
+    // ExitCode::differ. Other errors are those of `burnish render`.
     Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request, const Call& call);
 
     // Forgets everything if a file that was read has changed since. Returns how often that happened.
     std::uint64_t look_for_changes();
-    void stop(); // ends references; later ones stop at once
+    void stop(); // ends all pictures; later ones stop at once
 
   private:
     struct Prepared {
@@ -48,11 +50,15 @@ class Drawings {
         RenderFigures figures;
         std::vector<std::string> warnings;
     };
+    struct Running {
+        std::stop_source stop;
+        bool reference, passing;
+    };
     using Time = std::filesystem::file_time_type;
     Result<Prepared> prepared(const DrawRequest& request, const RenderOptions& options);
-    Result<std::shared_ptr<const Drawn>> draw_now(const DrawRequest& request, const std::atomic<bool>& stop);
+    Result<std::shared_ptr<const Drawn>> draw_now(const DrawRequest& request, const std::stop_token& stop);
     void note_file(const std::string& path, Time time);
-    void stop_references();
+    void stop_older(bool passing);
 
     Limits limits_;
     int threads_ = 0;
@@ -62,7 +68,7 @@ class Drawings {
     std::list<Prepared> sessions_;                                             // the latest first
     std::list<std::pair<DrawRequest, std::shared_ptr<const Drawn>>> pictures_; // the latest first
     std::vector<std::pair<std::string, Time>> files_;                          // that sessions were made from
-    std::list<std::atomic<bool>*> references_;                                 // flags that stop those waiting or drawn
+    std::list<Running*> running_;                                              // waiting, or drawn now
     std::uint64_t changes_ = 0;
     bool ending_ = false;
 };

@@ -46,6 +46,16 @@ Image shown_picture(const Drawn& drawn)
                                         : drawn.rendered.shown;
 }
 
+// Returns the names and times of the frame's stages, milliseconds summed over threads. Stages without work are left out.
+Json stages_json(const FrameProfile& profile)
+{
+    Json stages = Json::array();
+    for (std::size_t i = 0; i < profile.stage_ns.size(); ++i)
+        if (profile.stage_ns[i] > 0)
+            stages.push_back({{"name", kFrameStageNames[i]}, {"ms", static_cast<double>(profile.stage_ns[i]) * 1e-6}});
+    return stages;
+}
+
 Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<std::string>& further)
 {
     const RenderFigures& f = drawn.rendered.figures;
@@ -59,6 +69,7 @@ Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<s
             {"load_ms", f.load_ms},
             {"environment_ms", f.bake_ms},
             {"prepare_ms", f.prepare_ms},
+            {"stages", stages_json(drawn.rendered.profile)},
             {"samples", f.frame.sampling.samples},
             {"nan_pixels", f.nan_pixels},
             {"centre", vec3(drawn.centre)},
@@ -182,8 +193,8 @@ class Pages {
         return picture(response, shown_picture(**drawn), info_of(*request, **drawn, setting_.limit_words));
     }
 
-    // Draws both pictures, and answers with HDR-FLIP's error map of the second.
-    Status difference(const Json& json, const HttpRequest& asked, HttpResponse& response)
+    // Draws both pictures. Returns HDR-FLIP of the second.
+    Result<FlipResult> flip_of(const Json& json, const HttpRequest& asked)
     {
         std::shared_ptr<const Drawn> both[2];
         for (int i = 0; i < 2; ++i) {
@@ -200,11 +211,19 @@ class Pages {
         if (not_finite_pixels(a, b))
             return Error{ExitCode::not_finite, "", "", "pixels are NaN or Inf"};
         const Jobs jobs(setting_.threads);
-        const FlipResult flip = flip_hdr(a, b, FlipOptions(), jobs);
-        const ErrorSummary summary = summarise_errors(flip.error);
-        return picture(response, magma_map(flip.error), {{"flip_mean", summary.mean}, {"flip_p99", summary.p99}});
+        return flip_hdr(a, b, FlipOptions(), jobs);
     }
 
+    // Answers with the error map of the second picture.
+    Status difference(const Json& json, const HttpRequest& asked, HttpResponse& response)
+    {
+        const Result<FlipResult> flip = flip_of(json, asked);
+        BN_TRY(flip);
+        const ErrorSummary summary = summarise_errors(flip->error);
+        return picture(response, magma_map(flip->error), {{"flip_mean", summary.mean}, {"flip_p99", summary.p99}});
+    }
+
+    // Saves a picture, a reference, or the error map of two pictures: as colours in .png, as FLIP in .exr.
     Status save(const Json& json, const HttpRequest& asked, HttpResponse& response)
     {
         if (setting_.output_folder.empty())
@@ -214,17 +233,31 @@ class Pages {
             extension = *given == ".exr" ? ".exr" : *given == ".png" ? ".png" : "";
         if (extension.empty())
             return usage_error("extension", "is neither .png nor .exr");
+        if (json.contains("test")) {
+            const Result<FlipResult> flip = flip_of(json, asked);
+            BN_TRY(flip);
+            return save_as(extension, response, [&](const std::string& path) {
+                return write_image(path, extension == ".png" ? magma_map(flip->error) : flip->error);
+            });
+        }
         const Result<DrawRequest> request = draw_request_of(json, lists_);
         BN_TRY(request);
         const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
         BN_TRY(drawn);
+        return save_as(extension, response,
+                       [&](const std::string& path) { return write_rendered(path, (*drawn)->rendered, (*drawn)->options); });
+    }
+
+    // Calls write(path) with the folder's next free name.
+    template <class Write> Status save_as(const std::string& extension, HttpResponse& response, const Write& write)
+    {
         const std::lock_guard lock(saving_);
         std::error_code ignored;
         for (int number = 1; number <= 9999; ++number) {
             const std::string path = (fs::path(setting_.output_folder) / fmt::format("picture-{:04d}{}", number, extension)).string();
             if (fs::exists(fs::symlink_status(path, ignored)))
                 continue;
-            BN_TRY(write_rendered(path, (*drawn)->rendered, (*drawn)->options));
+            BN_TRY(write(path));
             answer(response, {{"path", path}});
             return {};
         }

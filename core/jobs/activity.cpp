@@ -158,8 +158,8 @@ std::string Activity::innermost()
 {
     Board& b = board();
     const std::lock_guard lock(b.mutex);
-    const auto mine = std::find_if(b.entries.rbegin(), b.entries.rend(),
-                                   [](const Entry& e) { return pthread_equal(e.thread, pthread_self()) != 0; });
+    const auto mine =
+        std::find_if(b.entries.rbegin(), b.entries.rend(), [](const Entry& e) { return pthread_equal(e.thread, pthread_self()) != 0; });
     return mine == b.entries.rend() ? "" : mine->what;
 }
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define BURNISH_API_VERSION 1 /* grows when functions or members are added; what is there keeps its meaning */
+#define BURNISH_API_VERSION 2 /* grows when functions or members are added; what is there keeps its meaning */
 
 typedef struct burnish_session burnish_session; /* a scene under an environment, prepared for drawing */
 typedef struct burnish_frame burnish_frame;     /* a picture and its layers */
@@ -32,6 +32,7 @@ const char* burnish_error(void);   /* the last failure in this thread, one line;
 const char* burnish_option_name(int index); /* options of burnish_open, burnish_render and burnish_reference */
 const char* burnish_option_help(int index);
 const char* burnish_material_name(int index); /* options of materials */
+const char* burnish_light_name(int index);    /* options of lights */
 const char* burnish_technique_name(int index);
 const char* burnish_technique_help(int index);
 
@@ -39,6 +40,14 @@ const char* burnish_technique_help(int index);
  * unknown is refused here, a value out of range where the options are used. Options that a function does not read are ignored there. */
 int burnish_options_make(burnish_options** out);
 int burnish_options_set(burnish_options* options, const char* name, const char* value);
+/* Called about ten times a second by the calling thread while burnish_open, burnish_open_meshes, burnish_render, burnish_reference or
+ * burnish_set_environment works with these options. work: its name. done: the share of its current step, 0 to 1; -1 where unknown. Another
+ * value than 0 stops the work with 130. NULL: none. */
+typedef int (*burnish_progress)(void* user, const char* work, double done);
+int burnish_options_progress(burnish_options* options, burnish_progress progress, void* user);
+/* A picture as environment, where a function gets these options and NULL as environment: equirectangular, 3 floats a pixel by rows from
+ * the top, linear Rec.709 radiance. The pixels are copied. NULL: none. */
+int burnish_options_environment(burnish_options* options, const float* pixels, int width, int height);
 void burnish_options_free(burnish_options* options);
 
 /* Sessions. scene: path of a .gltf, .glb or .obj file, or "builtin:NAME". environment: path, or "builtin:NAME"; NULL: the scene's own
@@ -59,9 +68,22 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
                         burnish_session** out);
 void burnish_close(burnish_session* session);
 
+/* Changes between pictures. Everything that does not depend on them stays: textures, environment, tables. Pictures then have the bits of a
+ * new session of the changed scene. A failure changes nothing. Mesh i of burnish_open_meshes has node i and material i. */
+int burnish_find_node(const burnish_session* session, const char* name); /* its index; -1: none */
+int burnish_find_material(const burnish_session* session, const char* name);
+/* matrix: 16, column by column, to the parent's space. Scenes with a floor refuse it. */
+int burnish_set_node(burnish_session* session, int node, const float* matrix);
+/* factors: by names of burnish_material_name; others stay as they are. Scenes with a floor refuse it. */
+int burnish_set_material(burnish_session* session, int material, const burnish_options* factors);
+/* factors: by names of burnish_light_name, of a point, spot or directional light; others stay as they are. */
+int burnish_set_light(burnish_session* session, int light, const burnish_options* factors);
+/* environment and options: as those of burnish_open. */
+int burnish_set_environment(burnish_session* session, const char* environment, const burnish_options* options);
+
 /* Pictures. */
 int burnish_render(burnish_session* session, const burnish_options* options, burnish_frame** out);
-/* Called about ten times a second by the calling thread. Another value than 0 stops the work with 130. */
+/* Called like burnish_progress. */
 typedef int (*burnish_poll)(void* user);
 /* The Monte Carlo reference of the same frame; "samples" are those of a pixel. poll may be NULL. */
 int burnish_reference(burnish_session* session, const burnish_options* options, burnish_poll poll, void* user, burnish_frame** out);

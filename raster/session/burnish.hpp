@@ -3,6 +3,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/jobs/control.h"
 #include "core/scene/add_mesh.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/gltf.h"

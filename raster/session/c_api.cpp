@@ -1,9 +1,7 @@
 // The C interface: each function catches everything and keeps the error of its thread.
-#include <atomic>
-#include <chrono>
 #include <cstring>
 #include <exception>
-#include <thread>
+#include <functional>
 
 #include "core/base/exception.h"
 #include "core/base/version.h"
@@ -14,6 +12,7 @@
 #include "raster/frame/layers.h"
 #include "raster/session/burnish.h"
 #include "raster/session/c_options.h"
+#include "raster/session/told.h"
 
 struct burnish_session {
     burnish::Session session;
@@ -29,8 +28,6 @@ struct burnish_frame {
 
 namespace burnish {
 namespace {
-
-constexpr int kStopped = 130;
 
 std::string& last_error()
 {
@@ -91,14 +88,26 @@ Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene
     return added ? Status() : Status(added.error());
 }
 
+// Loads the environment that is named, else that of the options' picture, else the scene's default one.
+Result<std::shared_ptr<const Environment>> environment_of(const burnish_options* options, const CSettings& settings,
+                                                          const char* environment, const SceneData& scene, const Jobs& jobs)
+{
+    if (environment || !options || options->environment.empty())
+        return load_shared_environment(environment ? environment : usual_environment(scene), settings.open.environment,
+                                       settings.open.limits, jobs);
+    Result<Environment> baked = bake_environment(options->environment, "environment", settings.open.environment, jobs);
+    BN_TRY(baked);
+    return std::make_shared<const Environment>(std::move(*baked));
+}
+
 // Makes the session of a loaded scene.
-Status finish_open(const CSettings& settings, std::shared_ptr<const SceneData> scene, const char* environment, burnish_session** out)
+Status finish_open(const burnish_options* options, const CSettings& settings, std::shared_ptr<const SceneData> scene,
+                   const char* environment, burnish_session** out)
 {
     SessionParts parts;
     parts.jobs = std::make_shared<const Jobs>(settings.open.threads);
     parts.scene = std::move(scene);
-    const std::string light = environment ? environment : usual_environment(*parts.scene);
-    const auto loaded = load_shared_environment(light, settings.open.environment, settings.open.limits, *parts.jobs);
+    const auto loaded = environment_of(options, settings, environment, *parts.scene, *parts.jobs);
     BN_TRY(loaded);
     parts.environment = *loaded;
     Result<Session> session = Session::make(std::move(parts));
@@ -141,32 +150,11 @@ Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
     return desc;
 }
 
-// Renders by the reference in a thread of its own, and polls.
-Result<Frame> render_polled(Session& reference, const FrameDesc& desc, std::atomic<bool>& stop, burnish_poll poll, void* user)
+std::function<int(const char*, double)> teller(const burnish_options* options)
 {
-    if (!poll)
-        return reference.render_any(desc);
-    std::optional<Result<Frame>> done;
-    std::atomic<bool> ended = false;
-    std::thread worker([&] {
-        done = reference.render_any(desc); // throws nothing
-        ended = true;
-    });
-    std::exception_ptr thrown; // by a caller in C++
-    while (!ended) {
-        try {
-            if (!stop && poll(user) != 0)
-                stop = true;
-        } catch (...) {
-            thrown = std::current_exception(), stop = true;
-        }
-        for (int i = 0; i < 20 && !ended; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    worker.join();
-    if (thrown)
-        std::rethrow_exception(thrown);
-    return std::move(*done);
+    if (!options || !options->progress)
+        return nullptr;
+    return [options](const char* work, double done) { return options->progress(options->user, work, done); };
 }
 
 Status check_exposure(float exposure_ev)
@@ -217,6 +205,11 @@ const char* burnish_material_name(int index)
     return text_at(c_material_options(), index);
 }
 
+const char* burnish_light_name(int index)
+{
+    return text_at(c_light_options(), index);
+}
+
 const char* burnish_technique_name(int index)
 {
     return index >= 0 && static_cast<std::size_t>(index) < techniques().size() ? techniques()[static_cast<std::size_t>(index)].name
@@ -248,11 +241,39 @@ int burnish_options_set(burnish_options* options, const char* name, const char* 
         bool found = false;
         for (const COption& option : c_options())
             found = found || option.name == known;
-        for (const std::string& option : c_material_options())
-            found = found || option == known;
+        for (const std::vector<std::string>* list : {&c_material_options(), &c_light_options()})
+            found = found || std::find(list->begin(), list->end(), known) != list->end();
         if (!found)
             return usage(name, "is no option");
         options->values[known] = value;
+        return {};
+    });
+}
+
+int burnish_options_progress(burnish_options* options, burnish_progress progress, void* user)
+{
+    return guarded_call([&]() -> Status {
+        if (!options)
+            return usage("options", "is NULL");
+        options->progress = progress, options->user = user;
+        return {};
+    });
+}
+
+int burnish_options_environment(burnish_options* options, const float* pixels, int width, int height)
+{
+    return guarded_call([&]() -> Status {
+        if (!options)
+            return usage("options", "is NULL");
+        constexpr int kMostSide = 1 << 16;
+        if (pixels && (width < 1 || height < 1 || width > kMostSide || height > kMostSide))
+            return usage(width < 1 || width > kMostSide ? "width" : "height", "does not lie in 1..65536");
+        Image image;
+        if (pixels) {
+            image = make_image(width, height, 3, PixelType::f32);
+            std::memcpy(image.bytes.data(), pixels, image.bytes.size());
+        }
+        options->environment = std::move(image);
         return {};
     });
 }
@@ -269,9 +290,11 @@ int burnish_open(const char* scene, const char* environment, const burnish_optio
             return usage(scene ? "out" : "scene", "is NULL");
         const Result<CSettings> settings = settings_of(options);
         BN_TRY(settings);
-        const auto loaded = load_scene_data(scene, settings->open.limits, {}, {}, {}, {}, settings->floor);
-        BN_TRY(loaded);
-        return finish_open(*settings, *loaded, environment, out);
+        return run_told(teller(options), [&]() -> Status {
+            const auto loaded = load_scene_data(scene, settings->open.limits, {}, {}, {}, {}, settings->floor);
+            BN_TRY(loaded);
+            return finish_open(options, *settings, *loaded, environment, out);
+        });
     });
 }
 
@@ -285,18 +308,109 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
         BN_TRY(settings);
         if (settings->floor.kind != FloorKind::off)
             return usage("floor", "belongs to scenes from files");
-        Scene scene;
-        for (size_t i = 0; i < count; ++i)
-            BN_TRY(add_mesh(meshes[i], "/meshes/" + std::to_string(i), scene));
-        const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
-        BN_TRY(made);
-        return finish_open(*settings, *made, environment ? environment : "builtin:studio", out);
+        return run_told(teller(options), [&]() -> Status {
+            Scene scene;
+            for (size_t i = 0; i < count; ++i)
+                BN_TRY(add_mesh(meshes[i], "/meshes/" + std::to_string(i), scene));
+            const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
+            BN_TRY(made);
+            return finish_open(options, *settings, *made, environment, out);
+        });
     });
 }
 
 void burnish_close(burnish_session* session)
 {
     delete session;
+}
+
+namespace {
+
+// Returns the index of the first named object with the name, or -1.
+template <class T> int find_named(const std::vector<T>& list, const char* name)
+{
+    const auto at = std::find_if(list.begin(), list.end(), [&](const T& object) { return name && object.name == name; });
+    return at == list.end() ? -1 : static_cast<int>(at - list.begin());
+}
+
+// Returns an error unless the index lies in a list.
+Status check_index(const char* what, int index, std::size_t size)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < size
+               ? Status()
+               : Status(usage(what, std::to_string(index) + ": the scene has " + std::to_string(size)));
+}
+
+} // namespace
+
+int burnish_find_node(const burnish_session* session, const char* name)
+{
+    return session ? find_named(session->session.scene().nodes, name) : -1;
+}
+
+int burnish_find_material(const burnish_session* session, const char* name)
+{
+    return session ? find_named(session->session.scene().materials, name) : -1;
+}
+
+int burnish_set_node(burnish_session* session, int node, const float* matrix)
+{
+    return guarded_call([&]() -> Status {
+        if (!session || !matrix)
+            return usage(session ? "matrix" : "session", "is NULL");
+        BN_TRY(check_index("node", node, session->session.scene().nodes.size()));
+        SceneChanges changes;
+        changes.nodes.emplace_back(node, glm::mat4(1.0f));
+        for (int i = 0; i < 16; ++i)
+            changes.nodes[0].second[i / 4][i % 4] = matrix[i];
+        return session->session.change(std::move(changes));
+    });
+}
+
+int burnish_set_material(burnish_session* session, int material, const burnish_options* factors)
+{
+    return guarded_call([&]() -> Status {
+        if (!session)
+            return usage("session", "is NULL");
+        const std::vector<Material>& materials = session->session.scene().materials;
+        BN_TRY(check_index("material", material, materials.size()));
+        SceneChanges changes;
+        changes.materials.emplace_back(material, materials[static_cast<std::size_t>(material)]);
+        BN_TRY(set_material(changes.materials[0].second, factors));
+        return session->session.change(std::move(changes));
+    });
+}
+
+int burnish_set_light(burnish_session* session, int light, const burnish_options* factors)
+{
+    return guarded_call([&]() -> Status {
+        if (!session)
+            return usage("session", "is NULL");
+        const std::vector<Light>& lights = session->session.scene().lights;
+        BN_TRY(check_index("light", light, lights.size()));
+        SceneChanges changes;
+        changes.lights.emplace_back(light, lights[static_cast<std::size_t>(light)]);
+        BN_TRY(set_light(changes.lights[0].second, factors));
+        return session->session.change(std::move(changes));
+    });
+}
+
+int burnish_set_environment(burnish_session* session, const char* environment, const burnish_options* options)
+{
+    return guarded_call([&]() -> Status {
+        if (!session)
+            return usage("session", "is NULL");
+        const Result<CSettings> settings = settings_of(options);
+        BN_TRY(settings);
+        return run_told(teller(options), [&]() -> Status {
+            const SessionParts& parts = session->session.parts();
+            const auto loaded = environment_of(options, *settings, environment, *parts.scene, *parts.jobs);
+            BN_TRY(loaded);
+            SceneChanges changes;
+            changes.environment = *loaded;
+            return session->session.change(std::move(changes));
+        });
+    });
 }
 
 int burnish_render(burnish_session* session, const burnish_options* options, burnish_frame** out)
@@ -308,7 +422,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
         BN_TRY(settings);
         const Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
-        Result<Frame> frame = session->session.render(*desc);
+        Result<Frame> frame = run_told(teller(options), [&] { return session->session.render(*desc); });
         BN_TRY(frame);
         *out = make_frame(std::move(*frame), settings->layers, session->session.tables());
         return {};
@@ -317,8 +431,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
 
 int burnish_reference(burnish_session* session, const burnish_options* options, burnish_poll poll, void* user, burnish_frame** out)
 {
-    bool stopped = false;
-    const int code = guarded_call([&]() -> Status {
+    return guarded_call([&]() -> Status {
         if (!session || !out)
             return usage(session ? "out" : "session", "is NULL");
         Result<CSettings> settings = settings_of(options);
@@ -327,24 +440,23 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return usage("layers", "the reference has none");
         if (settings->samples_given)
             settings->reference.samples = static_cast<std::uint64_t>(std::max(1, settings->desc.samples));
-        std::atomic<bool> stop = false;
-        settings->reference.stop = &stop;
         settings->desc.technique = "mc", settings->desc.samples = 1;
         const Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
         SessionOptions as;
         as.backend = Backend::reference, as.reference = settings->reference;
-        Result<Session> reference = Session::make(session->session.parts(), as);
-        BN_TRY(reference);
-        Result<Frame> frame = render_polled(*reference, *desc, stop, poll, user);
+        std::function<int(const char*, double)> tell = teller(options);
+        if (poll)
+            tell = [poll, user, also = tell](const char* work, double done) { return poll(user) != 0 || (also && also(work, done) != 0); };
+        Result<Frame> frame = run_told(tell, [&]() -> Result<Frame> {
+            Result<Session> reference = Session::make(session->session.parts(), as);
+            BN_TRY(reference);
+            return reference->render_any(*desc);
+        });
         BN_TRY(frame);
-        stopped = frame->stats.sampling.stopped;
-        if (stopped)
-            return usage("", "stopped by the caller");
         *out = make_frame(std::move(*frame), {}, session->session.tables());
         return {};
     });
-    return stopped ? kStopped : code;
 }
 
 int burnish_frame_width(const burnish_frame* frame)

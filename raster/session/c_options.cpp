@@ -256,6 +256,15 @@ const std::vector<std::string>& c_material_options()
     return names;
 }
 
+const std::vector<std::string>& c_light_options()
+{
+    static const std::vector<std::string> names = {
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) #name,
+#include "core/scene/light.def"
+    };
+    return names;
+}
+
 std::string c_name(const std::string& name)
 {
     std::string out = name;
@@ -321,6 +330,22 @@ Status set_material(Material& to, const burnish_options* options)
     if (name == #flag)                                                                                                                     \
         set = put(value, to.flag);
 #include "core/scene/material.def"
+        if (!set)
+            return Error{ExitCode::usage, "", name, set.error().reason};
+    }
+    return {};
+}
+
+Status set_light(Light& to, const burnish_options* options)
+{
+    if (!options)
+        return {};
+    for (const auto& [name, value] : options->values) {
+        Status set = wrong("is no option of lights");
+#define BN_LIGHT_FACTOR(kind, factor, fallback, path, least, most)                                                                         \
+    if (name == #factor)                                                                                                                   \
+        set = put(value, to.factor);
+#include "core/scene/light.def"
         if (!set)
             return Error{ExitCode::usage, "", name, set.error().reason};
     }

@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "raster/session/burnish.h"
 #include "raster/session/session.h"
 
 struct burnish_options {
     std::map<std::string, std::string> values; // by name, with '_'
+    burnish_progress progress = nullptr;
+    void* user = nullptr;         // of progress
+    burnish::Image environment{}; // equirectangular, f32; empty: none
 };
 
 namespace burnish {
@@ -33,6 +37,7 @@ struct COption {
 };
 const std::vector<COption>& c_options();
 const std::vector<std::string>& c_material_options();
+const std::vector<std::string>& c_light_options();
 
 // Returns the name with '_' in place of '-'.
 std::string c_name(const std::string& name);
@@ -43,6 +48,7 @@ std::string c_words(const std::string& text);
 // Errors: ExitCode::usage with the option's name as place.
 Result<CSettings> settings_of(const burnish_options* options);
 Status set_material(Material& to, const burnish_options* options);
+Status set_light(Light& to, const burnish_options* options);
 
 // Returns the view of the settings: eye, else a camera, else the whole scene.
 Result<View> view_of(const CSettings& settings, const Session& session);

@@ -164,7 +164,7 @@ class Session {
     SessionParts parts_;
     SessionOptions options_;
     std::shared_ptr<KeptPyramids> pyramids_; // of this session's renderers alone
-    std::unique_ptr<Renderer> renderer_; // refers to parts_' contents, which stay in place when a session moves
+    std::unique_ptr<Renderer> renderer_;     // refers to parts_' contents, which stay in place when a session moves
 };
 
 } // namespace burnish

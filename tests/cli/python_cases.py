@@ -139,7 +139,7 @@ assert burnish.compare(picture.pixels, picture).flip_mean == 0
 try: burnish.compare(Short(), picture)
 except ValueError: pass
 else: raise SystemExit('too few floats were taken')
-try: scene.reference(samples=10**9, {FRAME}, progress=lambda: scene.render({FRAME}))
+try: scene.reference(samples=10**9, {FRAME}, progress=lambda work, done: scene.render({FRAME}))
 except (RuntimeError, burnish.Error): pass
 else: raise SystemExit('a scene drew while it drew')
 """)

@@ -188,6 +188,23 @@ def refusals(bench):
         bench.run("serve", "--port", taken.getsockname()[1]).expect(2).expect_one_line("--port")
 
 
+@case("serve.a_picture_that_nobody_waits_for_stops", budget=20)
+def stops(bench):
+    """A later picture of the page does not wait for an earlier one."""
+    with Served(bench, "builtin:teapot") as served:
+        served.ask("/draw", wish("builtin:teapot"))  # makes the session
+        slow = wish("builtin:teapot", size=(1920, 1080), technique="mc", samples="4096")
+        answers = []
+        first = threading.Thread(target=lambda: answers.append(served.ask("/draw", slow)[0]))
+        first.start()
+        time.sleep(0.5)
+        status, headers, _ = served.ask("/draw", wish("builtin:teapot"))
+        first.join(30)
+        check(status == 200 and answers == [409], f"{status} {answers}")
+        stages = json.loads(headers["X-Burnish"])["stages"]
+        check({"shade", "coverage"} <= {stage["name"] for stage in stages} and all(stage["ms"] > 0 for stage in stages), str(stages))
+
+
 @case("serve.saves_where_it_may_and_sees_files_change", budget=10)
 def saves(bench):
     (bench.folder / "models").mkdir()
@@ -203,6 +220,10 @@ def saves(bench):
         served.ask("/save", wish("lamp.glb"))
         check(served.ask("/save", {**wish(), "extension": "/../x.png"})[0] == 400, "a name that leads elsewhere")
         check(sorted(os.listdir(bench.folder / "pictures")) == ["picture-0001.exr", "picture-0001.png", "picture-0002.png"], str(bench.left_behind()))
+        both = {"reference": wish("lamp.glb"), "test": wish("lamp.glb", roughness="0.9")}
+        check(json.loads(served.ask("/save", {**both, "extension": ".png"})[2])["path"].endswith("picture-0003.png"), "an error map")
+        check((bench.folder / "pictures/picture-0003.png").read_bytes() == served.ask("/difference", both)[2], "another error map")
+        check(served.ask("/save", {**wish("lamp.glb"), "reference_samples": 64})[0] in (200, 400), "a reference")  # 400: without Embree
         check(json.loads(served.ask("/changes")[2])["changes"] == 0, "nothing has changed")
         before = json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"]
         whole = bench.data_file("models/AnisotropyBarnLampSmall.glb").read_bytes()

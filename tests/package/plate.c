@@ -7,6 +7,12 @@ static int polls(void* count)
     return ++*(int*)count > 1; /* stops at the second call */
 }
 
+static int stops(void* user, const char* work, double done)
+{
+    (void)user, (void)done;
+    return work != NULL;
+}
+
 static int fail(const char* what, int code)
 {
     fprintf(stderr, "%s: %d: %s\n", what, code, burnish_error());
@@ -62,6 +68,39 @@ int main(void)
     printf("%s\n", burnish_error());
     if (burnish_render(NULL, NULL, &frame) != 2 || burnish_compare(NULL, NULL, 1, 1, &figures) != 2 || burnish_open(NULL, NULL, NULL, NULL) != 2)
         return fail("NULL", 0);
+    /* Changes between pictures: there and back gives the first picture's bits */
+    {
+        const float away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3f, 0, 0, 1}, home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        const float sky[2 * 4 * 3] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+        const uint64_t first = burnish_frame_hash(frame);
+        burnish_frame* moved;
+        burnish_frame* back;
+        if (burnish_options_set(options, "eye", "0,0,4") || burnish_options_set(options, "target", "0,0,0") ||
+            (code = burnish_render(session, options, &back)))
+            return fail("a view", code);
+        burnish_frame_free(frame), frame = back;
+        if ((code = burnish_set_node(session, 0, away)) || (code = burnish_render(session, options, &moved)))
+            return fail("a moved node", code);
+        if (burnish_frame_hash(moved) == burnish_frame_hash(frame) || first == burnish_frame_hash(frame))
+            return fail("the same picture", 0);
+        burnish_frame_free(moved);
+        if ((code = burnish_set_node(session, 0, home)) || (code = burnish_set_material(session, 0, material)) ||
+            (code = burnish_render(session, options, &back)) || burnish_frame_hash(back) != burnish_frame_hash(frame))
+            return fail("back again", code);
+        burnish_frame_free(back);
+        if (burnish_set_node(session, 7, home) != 2 || burnish_set_light(session, 0, NULL) != 2 || burnish_find_node(session, "none") != -1 ||
+            burnish_set_material(session, 0, options) != 2)
+            return fail("what is not there", 0);
+        if (burnish_options_environment(options, sky, 0, 2) != 2 || burnish_options_environment(options, sky, 4, 2) ||
+            (code = burnish_set_environment(session, NULL, options)) || (code = burnish_render(session, options, &back)) ||
+            burnish_frame_hash(back) == burnish_frame_hash(frame))
+            return fail("an environment in memory", code);
+        burnish_frame_free(back), burnish_options_free(options);
+        if (burnish_options_make(&options) || burnish_options_progress(options, stops, NULL) ||
+            burnish_options_set(options, "technique", "mc") || burnish_options_set(options, "samples", "4096") ||
+            (code = burnish_render(session, options, &back)) != 130)
+            return fail("a stopped picture", code);
+    }
     burnish_options_free(options);
     if (burnish_options_make(&options) || burnish_options_set(options, "samples", "1000000") || burnish_options_set(options, "width", "200") ||
         burnish_options_set(options, "height", "200"))

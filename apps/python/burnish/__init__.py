@@ -11,6 +11,7 @@ Errors are exceptions of class Error with the program's words. numpy is not need
 
 import contextlib
 import ctypes
+import operator
 import os
 import threading
 
@@ -154,40 +155,59 @@ class Scene:
             finally:
                 self._owner = None
 
-    def render(self, **keywords):
-        """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ..."""
+    def render(self, progress=None, **keywords):
+        """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ... progress: see load()."""
         frame = ctypes.c_void_p()
         with _native.Options(keywords) as given, self._alone():
-            _native.call("burnish_render", self._session, given, ctypes.byref(frame))
+            _native.call_told("burnish_render", given, progress, self._session, given, ctypes.byref(frame))
         return Picture(frame, self._caption(keywords))
 
     def reference(self, samples=1024, progress=None, **keywords):
-        """Draws a Picture by the Monte Carlo reference. progress: called without arguments about ten times a second; a true result
-        stops the work, as Ctrl-C does. Raises KeyboardInterrupt then."""
-        frame, raised = ctypes.c_void_p(), []
-
-        def poll(_):
-            try:
-                return 1 if progress and progress() else 0
-            except BaseException as error:  # goes on in the caller
-                raised.append(error)
-                return 1
-
+        """Draws a Picture by the Monte Carlo reference. progress: see load()."""
+        frame = ctypes.c_void_p()
         with _native.Options({**keywords, "samples": samples}) as given, self._alone():
-            code = library().burnish_reference(self._session, given, _native.POLL(poll), None, ctypes.byref(frame))
-        if raised:
-            raise raised[0]
-        if code == _native.STOPPED:
-            raise KeyboardInterrupt
-        _native.check(code)
+            _native.call_told("burnish_reference", given, progress, self._session, given, _native.POLL(), None, ctypes.byref(frame))
         return Picture(frame, self._caption({"technique": "reference", "samples": samples}))
+
+    def _index(self, of, find, what):
+        """Returns the index of an index or a name."""
+        if isinstance(of, str):
+            index = getattr(library(), find)(self._session, of.encode())
+            if index < 0:
+                raise KeyError(f"no {what} has the name {of!r}")
+            return index
+        return operator.index(of)
+
+    def move(self, node, matrix):
+        """Places a node, by name or index, for the pictures to come. matrix: to its parent's space, 4 rows of 4 numbers, or 16 column by
+        column. Mesh i of meshes() has node i. Scenes with a floor refuse it."""
+        with self._alone():
+            _native.call("burnish_set_node", self._session, self._index(node, "burnish_find_node", "node"), _native.matrix(matrix, "matrix"))
+
+    def set_material(self, material, **factors):
+        """Changes factors of a material, by name or index, for the pictures to come: roughness=0.2, base_color=(1, 0, 0, 1), ... Mesh i of
+        meshes() has material i. Scenes with a floor refuse it."""
+        with _native.Options(factors) as given, self._alone():
+            _native.call("burnish_set_material", self._session, self._index(material, "burnish_find_material", "material"), given)
+
+    def set_light(self, light, **factors):
+        """Changes factors of a point, spot or directional light, by index, for the pictures to come: intensity=4, color=(1, 1, 1), ..."""
+        with _native.Options(factors) as given, self._alone():
+            _native.call("burnish_set_light", self._session, operator.index(light), given)
+
+    def set_environment(self, environment=None, progress=None, **keywords):
+        """Lights the pictures to come by another environment. Arguments: see load()."""
+        with _native.Options(keywords) as given, self._alone():
+            light = _native.environment_of(environment, given)
+            _native.call_told("burnish_set_environment", given, progress, self._session, light, given)
 
 
 class Mesh:
     """A mesh of triangles for meshes().
 
     positions, normals: 3 floats a vertex, flat or nested, or arrays; coordinates: 2 floats a vertex, (0, 0) is a picture's upper left.
-    triangles: 3 vertex numbers each, counter-clockwise from the front; None: vertices in order. transform: 16 floats, column by column.
+    triangles: 3 vertex numbers each, counter-clockwise from the front; None: vertices in order. transform: 4 rows of 4 numbers, or
+    16 column by column.
     Further keywords are factors of its material: base_color=(r, g, b, a), metallic=1, roughness=0.4, anisotropy_strength=0.8, ...
     """
 
@@ -197,7 +217,7 @@ class Mesh:
         self.normals = self._of_vertices(normals, 3, "normals")
         self.coordinates = self._of_vertices(coordinates, 2, "coordinates")
         self.triangles = None if triangles is None else _native.numbers(triangles, 3, "triangles")
-        self.transform = None if transform is None else _native.floats(transform, 16, "transform")
+        self.transform = None if transform is None else _native.matrix(transform, "transform")
         self.material = material
 
     def _of_vertices(self, values, each, name):
@@ -209,17 +229,21 @@ class Mesh:
         return array
 
 
-def load(path, environment=None, **keywords):
-    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME", under a picture, or "builtin:NAME". Keywords: see options()."""
+def load(path, environment=None, progress=None, **keywords):
+    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME". Keywords: see options().
+
+    environment: a path, "builtin:NAME", or an equirectangular picture of height x width x 3 floats, linear Rec.709 radiance. None: the
+    scene's own light, else builtin:studio. progress: called with the work's name and the share of its current step that is done, -1 where
+    unknown, about ten times a second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then."""
     session = ctypes.c_void_p()
     with _native.Options(keywords) as given:
-        _native.call("burnish_open", _native.path(path), None if environment is None else _native.path(environment), given,
-                     ctypes.byref(session))
+        light = _native.environment_of(environment, given)
+        _native.call_told("burnish_open", given, progress, _native.path(path), light, given, ctypes.byref(session))
     return Scene(session, os.path.basename(os.fsdecode(path)))
 
 
-def meshes(*parts, environment=None, **keywords):
-    """Makes a scene of Mesh objects. Keywords: see options()."""
+def meshes(*parts, environment=None, progress=None, **keywords):
+    """Makes a scene of Mesh objects. Keywords: see options(). environment and progress: see load()."""
     session = ctypes.c_void_p()
     materials = [_native.Options(part.material) for part in parts]
     try:
@@ -228,8 +252,8 @@ def meshes(*parts, environment=None, **keywords):
                                0 if part.triangles is None else len(part.triangles) // 3, part.transform, material.__enter__())
             for part, material in zip(parts, materials)))
         with _native.Options(keywords) as given:
-            _native.call("burnish_open_meshes", structs, len(parts), None if environment is None else _native.path(environment), given,
-                         ctypes.byref(session))
+            light = _native.environment_of(environment, given)
+            _native.call_told("burnish_open_meshes", given, progress, structs, len(parts), light, given, ctypes.byref(session))
     finally:
         for material in materials:
             material.__exit__()

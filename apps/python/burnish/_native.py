@@ -9,9 +9,10 @@ import pathlib
 
 from . import _dlpack, _show
 
-API_VERSION = 1
+API_VERSION = 2
 USAGE, STOPPED = 2, 130  # exit codes of the program
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
+PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
 
 _loaded = None
 
@@ -68,8 +69,14 @@ def library():
     for name, result, arguments in (
             ("burnish_version", text, []), ("burnish_error", text, []), ("burnish_option_name", text, [whole]),
             ("burnish_option_help", text, [whole]), ("burnish_material_name", text, [whole]), ("burnish_technique_name", text, [whole]),
-            ("burnish_technique_help", text, [whole]), ("burnish_options_make", whole, [pointer]),
+            ("burnish_light_name", text, [whole]), ("burnish_technique_help", text, [whole]), ("burnish_options_make", whole, [pointer]),
             ("burnish_options_set", whole, [pointer, text, text]), ("burnish_options_free", None, [pointer]),
+            ("burnish_options_progress", whole, [pointer, PROGRESS, pointer]),
+            ("burnish_options_environment", whole, [pointer, pointer, whole, whole]),
+            ("burnish_find_node", whole, [pointer, text]), ("burnish_find_material", whole, [pointer, text]),
+            ("burnish_set_node", whole, [pointer, whole, ctypes.POINTER(ctypes.c_float)]),
+            ("burnish_set_material", whole, [pointer, whole, pointer]), ("burnish_set_light", whole, [pointer, whole, pointer]),
+            ("burnish_set_environment", whole, [pointer, text, pointer]),
             ("burnish_open", whole, [text, text, pointer, pointer]),
             ("burnish_open_meshes", whole, [ctypes.POINTER(MeshStruct), size, text, pointer, pointer]), ("burnish_close", None, [pointer]),
             ("burnish_render", whole, [pointer, pointer, pointer]), ("burnish_reference", whole, [pointer, pointer, POLL, pointer, pointer]),
@@ -104,11 +111,13 @@ def listed(names, helps):
 
 @functools.lru_cache(None)
 def known():
-    """Returns the names of all options and material factors."""
-    found, index = set(listed("burnish_option_name", "burnish_option_help")), 0
-    while (name := library().burnish_material_name(index)) is not None:
-        found.add(name.decode())
-        index += 1
+    """Returns the names of all options and of the factors of materials and lights."""
+    found = set(listed("burnish_option_name", "burnish_option_help"))
+    for names in (library().burnish_material_name, library().burnish_light_name):
+        index = 0
+        while (name := names(index)) is not None:
+            found.add(name.decode())
+            index += 1
     return found
 
 
@@ -161,6 +170,50 @@ class Options:
 
     def __del__(self):
         self.__exit__()
+
+
+def call_told(name, given, progress, *arguments):
+    """Calls a function that reads the options `given`, and progress(work, done) about ten times a second meanwhile. A true result and Ctrl-C
+    stop the work. Raises KeyboardInterrupt then, and an exception of progress()."""
+    raised = []
+
+    def tell(_, work, done):
+        try:
+            return 1 if progress and progress(work.decode("utf-8", "replace"), done) else 0
+        except BaseException as error:  # goes on in the caller
+            raised.append(error)
+            return 1
+
+    callback = PROGRESS(tell)
+    call("burnish_options_progress", given, callback, None)
+    code = getattr(library(), name)(*arguments)
+    if raised:
+        raise raised[0]
+    if code == STOPPED:
+        raise KeyboardInterrupt
+    check(code)
+
+
+def environment_of(of, given):
+    """Returns the environment's name for the library, or None. An array of height x width x 3 floats goes into the options `given`."""
+    if of is None or isinstance(of, (str, bytes, os.PathLike)):
+        return None if of is None else path(of)
+    pixels, width, height = picture_of(of)
+    call("burnish_options_environment", given, pixels, width, height)
+    return None
+
+
+def matrix(of, name):
+    """Returns 16 floats column by column: of 16 numbers in that order, or of 4 rows with 4 numbers each."""
+    if len(of) == 4:
+        rows = [list(flat(row)) for row in of]
+        if any(len(row) != 4 for row in rows):
+            raise ValueError(f"{name}: is neither 16 numbers nor 4 rows of 4")
+        of = [rows[row][column] for column in range(4) for row in range(4)]
+    held = floats(of, 16, name)
+    if len(held) != 16:
+        raise ValueError(f"{name}: {len(held)} numbers are not 16")
+    return held
 
 
 class Values:

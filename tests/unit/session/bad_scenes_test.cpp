@@ -8,55 +8,15 @@
 #include "core/image/io/image_io.h"
 #include "core/scene/check_scene.h"
 #include "raster/session/session.h"
+#include "tests/unit/small_scene.h"
 
 namespace burnish {
 namespace {
 
+using test::good_scene;
+using test::small_environment;
+
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-
-// A quad with a texture, a camera, a lamp and an area light.
-Scene good_scene()
-{
-    Scene s;
-    const float corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    VertexTable& v = s.vertices;
-    for (const auto& p : corners) {
-        v.px.push_back(p[0]), v.py.push_back(p[1]), v.pz.push_back(0);
-        v.nx.push_back(0), v.ny.push_back(0), v.nz.push_back(1);
-        v.u0.push_back(0.5f + 0.5f * p[0]), v.v0.push_back(0.5f - 0.5f * p[1]);
-    }
-    fill_missing_columns(s);
-    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
-        s.indices.push_back(i);
-    Primitive p;
-    p.index_count = 6, p.vertex_count = 4, p.has_uv0 = true;
-    s.primitives.push_back(p);
-    s.meshes.push_back({"quad", 0, 1});
-    s.images.push_back(make_image(4, 4, 3, PixelType::u8));
-    s.textures.push_back({"grey", 0, WrapMode::repeat, WrapMode::repeat, false});
-    s.materials.emplace_back();
-    s.materials[0].base_color_tex.texture = 0;
-    s.lights.emplace_back();
-    s.cameras.emplace_back();
-    AreaLight light;
-    light.points = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};
-    light.radiance = glm::vec3(1.0f);
-    s.area_lights.push_back(light);
-    s.nodes.resize(4);
-    s.nodes[0].mesh = s.nodes[1].light = s.nodes[2].camera = s.nodes[3].area_light = 0;
-    s.nodes[1].parent = 0;
-    return s;
-}
-
-std::shared_ptr<const Environment> small_environment()
-{
-    static const std::shared_ptr<const Environment> made = [] {
-        EnvironmentOptions options;
-        options.cube_size = 16, options.samples = 4, options.use_cache = false;
-        return *load_shared_environment("builtin:studio", options, {}, Jobs(1));
-    }();
-    return made;
-}
 
 SessionParts good_parts()
 {
@@ -201,6 +161,48 @@ const BadScene kSurfaces[] = {
     {"/images/0/type", [](Scene& s) { s.images[0].type = static_cast<PixelType>(8); }},
 };
 
+constexpr double kAny = static_cast<double>(std::numeric_limits<float>::max()); // bound in .def files: any float
+
+template <int n> float* floats_of(glm::vec<n, float>& v, int& count)
+{
+    count = n;
+    return &v[0];
+}
+float* floats_of(float& v, int& count)
+{
+    count = 1;
+    return &v;
+}
+
+struct BoundedFactor {
+    const char* table; // "/materials/0/"
+    const char* name;
+    float* (*floats)(Scene& s, int& count);
+    double least, most;
+};
+const BoundedFactor kBounded[] = {
+#define BN_FACTOR(kind, name, fallback, path, least, most)                                                                                 \
+    {"/materials/0/", #name, [](Scene& s, int& count) { return floats_of(s.materials[0].name, count); }, least, most},
+#include "core/scene/material.def"
+#define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most)                                                                           \
+    {"/lights/0/", #name, [](Scene& s, int& count) { return floats_of(s.lights[0].name, count); }, least, most},
+#include "core/scene/light.def"
+#define BN_AREA_FACTOR(kind, name, path, least, most)                                                                                      \
+    {"/area_lights/0/", #name, [](Scene& s, int& count) { return floats_of(s.area_lights[0].name, count); }, least, most},
+#include "core/scene/area_light.def"
+};
+
+// Returns values that the factor must refuse.
+std::vector<float> refused_values(const BoundedFactor& factor)
+{
+    std::vector<float> values = {kNan, kInf, -kInf};
+    if (factor.least > -kAny)
+        values.push_back(std::nextafter(static_cast<float>(factor.least), -kInf));
+    if (factor.most < kAny)
+        values.push_back(std::nextafter(static_cast<float>(factor.most), kInf));
+    return values;
+}
+
 void expect_refused(std::span<const BadScene> cases)
 {
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -280,6 +282,50 @@ TEST(bad_scenes, settings_of_mip_filters_are_checked)
     EXPECT_EQ(field_of(settings), "MipSettings::kappa");
     settings = {}, settings.brdf = 99;
     EXPECT_EQ(field_of(settings), "MipSettings::brdf");
+}
+
+// Every number of every factor, with every kind of wrong value. A number that stands for "none" may be 0.
+TEST(bad_scenes, every_number_of_every_factor_is_checked)
+{
+    int refused = 0;
+    for (const BoundedFactor& factor : kBounded) {
+        int count = 0;
+        Scene first = good_scene();
+        static_cast<void>(factor.floats(first, count));
+        for (int i = 0; i < count; ++i)
+            for (const float value : refused_values(factor)) {
+                Scene scene = good_scene();
+                factor.floats(scene, count)[i] = value;
+                if (value == 0.0f)
+                    continue;
+                SCOPED_TRACE(std::string(factor.table) + factor.name + " " + std::to_string(i) + ": " + std::to_string(value));
+                const auto data = make_scene_data("mine", std::move(scene), {});
+                ASSERT_FALSE(data);
+                EXPECT_EQ(data.error().code, ExitCode::bad_input);
+                EXPECT_EQ(data.error().place.rfind(std::string(factor.table) + factor.name, 0), 0u) << data.error().line();
+                ++refused;
+            }
+    }
+    EXPECT_GE(refused, 200);
+}
+
+// Every place of every column of vertices.
+TEST(bad_scenes, every_number_of_every_column_is_checked)
+{
+    const std::pair<const char*, Column<float> VertexTable::*> columns[] = {
+        {"px", &VertexTable::px}, {"py", &VertexTable::py}, {"pz", &VertexTable::pz}, {"nx", &VertexTable::nx}, {"ny", &VertexTable::ny},
+        {"nz", &VertexTable::nz}, {"tx", &VertexTable::tx}, {"ty", &VertexTable::ty}, {"tz", &VertexTable::tz}, {"tw", &VertexTable::tw},
+        {"u0", &VertexTable::u0}, {"v0", &VertexTable::v0}, {"u1", &VertexTable::u1}, {"v1", &VertexTable::v1}, {"cr", &VertexTable::cr},
+        {"cg", &VertexTable::cg}, {"cb", &VertexTable::cb}, {"ca", &VertexTable::ca}};
+    for (const auto& [name, column] : columns)
+        for (std::size_t vertex = 0; vertex < 4; ++vertex)
+            for (const float value : {kNan, kInf, -kInf}) {
+                Scene scene = good_scene();
+                (scene.vertices.*column)[vertex] = value;
+                const auto data = make_scene_data("mine", std::move(scene), {});
+                ASSERT_FALSE(data) << name << " " << vertex;
+                EXPECT_EQ(data.error().place, std::string("/vertices/") + name + "/" + std::to_string(vertex)) << value;
+            }
 }
 
 TEST(bad_scenes, limits_hold_in_memory)
