@@ -10,6 +10,7 @@
 #include <span>
 
 #include "core/base/check.h"
+#include "core/jobs/control.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/frame_record.h"
 #include "raster/frame/pixel_parts.h"
@@ -360,12 +361,15 @@ void TileRenderer::draw_tiles(const FrameParams& f, Tiles which, bool parts_want
     const std::size_t others = order.size() - alone, threads = static_cast<std::size_t>(input_.jobs.threads());
     const std::size_t few = std::clamp<std::size_t>(others / (16 * threads), 1, 16), pieces = alone + (others + few - 1) / few;
     std::atomic<std::size_t> next = 0;
+    ControlledWork progress(ControlledWork::Kind::count, "", pieces);
     input_.jobs.parallel_for(threads, [&](std::size_t, int worker) {
         for (std::size_t piece = next++; piece < pieces; piece = next++) {
+            check_stop();
             const std::size_t begin = piece < alone ? piece : alone + (piece - alone) * few;
             const std::size_t end = piece < alone ? begin + 1 : std::min(begin + few, order.size());
             for (std::size_t i = begin; i < end; ++i)
                 draw(order[i], worker);
+            progress.step(1);
         }
     });
     // Merge the workers' results

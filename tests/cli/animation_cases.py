@@ -219,7 +219,7 @@ def rows_that_do_not_match_are_refused(bench):
             check("o.json" not in bench.left_behind(), "a file is left")
             return
         found = json.loads((bench.folder / "o.json").read_text())
-        check(found["verdict"] == "failed" and all(needle in found["reason"] for needle in needles), f"{found}")
+        check(found["verdict"] == "failed" and all(needle in found["test"] + found["reason"] for needle in needles), f"{found}")
         (bench.folder / "o.json").unlink()
 
     rows(bench, lambda i: bright)

@@ -1,12 +1,13 @@
 """The Python package: changes between pictures, environments from arrays, progress and stops."""
 
 import signal
+import struct
 import subprocess
 import sys
 import time
 
 from harness import case, check
-from python_cases import FRAME, KEYWORDS, environment, python, pythons
+from python_cases import FRAME, KEYWORDS, SMALL, environment, hash_of, python, pythons
 
 SQUARE = """
 square = dict(positions=[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], triangles=[(0, 1, 2), (0, 2, 3)],
@@ -56,7 +57,7 @@ refused(burnish.Error, 'absent.hdr', lambda: scene.set_environment('absent.hdr')
 @case("python.lights_and_names_of_files_change", budget=10)
 def named(bench):
     python(bench, f"""
-scene = burnish.load('builtin:lights', {KEYWORDS})
+scene = burnish.load({str(bench.data_file("models/Lights.glb"))!r}, {KEYWORDS})
 first = scene.render({FRAME}).hash
 scene.set_light(0, intensity=0)
 dark = scene.render({FRAME}).hash
@@ -70,27 +71,27 @@ else: raise SystemExit('a scene with a floor moved')
 
 @case("python.environments_are_arrays", budget=10)
 def arrays(bench):
+    width, height = 64, 32
+    rows = [[(0.2 + 0.01 * x, 0.3, 0.02 * y) for x in range(width)] for y in range(height)]
+    (bench.folder / "sky.pfm").write_bytes(b"PF\n%d %d\n-1.0\n" % (width, height) +
+                                           b"".join(struct.pack("<3f", *p) for row in reversed(rows) for p in row))
+    expected = hash_of(bench, "builtin:plate", "--env", "sky.pfm", *SMALL)
     for program in pythons():
-        python(bench, SQUARE + f"""
-import struct
-width, height = 64, 32
-sky = [[(0.2 + 0.01 * x, 0.3, 0.02 * y) for x in range(width)] for y in range(height)]
-with open('sky.pfm', 'wb') as file: # rows from the bottom
-    file.write(b'PF\\n%d %d\\n-1.0\\n' % (width, height) + b''.join(struct.pack('<3f', *p) for row in reversed(sky) for p in row))
+        python(bench, f"""
+sky = [[(0.2 + 0.01 * x, 0.3, 0.02 * y) for x in range({width})] for y in range({height})]
 class Array: # without numpy
-    shape = (height, width, 3)
+    shape = ({height}, {width}, 3)
     def tolist(self): return sky
 sources = [Array()]
 try:
     import numpy
     sources += [numpy.array(sky), numpy.array(sky, 'f4'), numpy.asfortranarray(sky)]
 except ImportError: pass
-expected = burnish.load('builtin:plate', 'sky.pfm', {KEYWORDS}).render({FRAME}).hash
 for source in sources:
-    assert burnish.load('builtin:plate', source, {KEYWORDS}).render({FRAME}).hash == expected
-    scene = burnish.meshes(burnish.Mesh(**square), environment='builtin:studio', {KEYWORDS})
+    assert burnish.load('builtin:plate', source, {KEYWORDS}).render({FRAME}).hash == '{expected}'
+    scene = burnish.load('builtin:plate', 'builtin:sky', {KEYWORDS})
     scene.set_environment(source, {KEYWORDS})
-    assert scene.render({FRAME}).hash == burnish.meshes(burnish.Mesh(**square), environment='sky.pfm', {KEYWORDS}).render({FRAME}).hash
+    assert scene.render({FRAME}).hash == '{expected}'
 sky[3][5] = (float('nan'), 0, 0)
 burnish.load('builtin:plate', Array(), {KEYWORDS}) # repaired, as those of files
 for wrong in ([[1, 2, 3]], 7, (0.1, 0.2, 0.3)):

@@ -14,7 +14,7 @@ from python_cases import FRAME, KEYWORDS, ROOT, environment, library, python, py
 
 PACKAGE, EXAMPLES = ROOT / "apps/python/burnish", ROOT / "apps/examples/python"
 STUB = PACKAGE / "__init__.pyi"
-FUNCTIONS = {"load": (None, "load"), "meshes": (None, "meshes"), "render": ("Scene", "render"), "reference": ("Scene", "reference"), "Mesh": ("Mesh", "__init__")}
+FUNCTIONS = {"load": (None, "load"), "meshes": (None, "meshes"), "render": ("Scene", "render"), "reference": ("Scene", "reference"), "Mesh": ("Mesh", "__init__"), "set_material": ("Scene", "set_material"), "set_light": ("Scene", "set_light")}
 
 
 def keywords_of(function):
@@ -37,11 +37,13 @@ def stubs(bench):
     """apps/python/make_stubs.py rewrites them."""
     made = run(bench, ROOT / "apps/python/make_stubs.py", "-o", "-").stdout
     check(made == STUB.read_text(), "apps/python/burnish/__init__.pyi differs from the text of apps/python/make_stubs.py")
-    named = set().union(*(keywords_of(name) for name in FUNCTIONS if name != "Mesh")) | {"samples"}
+    named = set().union(*(keywords_of(name) for name in FUNCTIONS if name != "Mesh" and not name.startswith("set_"))) | {"samples"}
     listed = python(bench, "print(*burnish.options()); print(*burnish._native.known() - set(burnish.options()))").stdout.splitlines()
-    check(named - {"environment"} == set(listed[0].split()), f"the stubs and burnish.options() differ by {named ^ set(listed[0].split())}")
-    check(set(listed[1].split()) <= set(keywords_of("Mesh")), "a factor of materials is missing")
-    for name in named - {"environment"}:
+    named -= {"environment", "progress"}
+    check(named == set(listed[0].split()), f"the stubs and burnish.options() differ by {named ^ set(listed[0].split())}")
+    factors = set(keywords_of("Mesh")) | set(keywords_of("set_light"))
+    check(set(listed[1].split()) <= factors and set(keywords_of("set_material")) == set(keywords_of("Mesh")), "a factor is missing")
+    for name in named:
         check(re.search(rf"^ +{name}: [^=\n]*[^\s,]\.?$", made, re.M), f"{name} has no meaning")
     check("FrameDesc" not in made and "{}" not in made, "a name that users do not know")
 
@@ -49,7 +51,7 @@ def stubs(bench):
 @case("python.stubs_have_the_defaults_of_the_library", budget=10)
 def defaults(bench):
     """The picture with every default written out is the picture without keywords, and each name of a choice is taken."""
-    given = {name: "dict(" + ", ".join(f"{k}={d}" for k, (_, d) in keywords_of(name).items() if k not in ("width", "height", "env_size", "env_samples", "environment")) + ")" for name in FUNCTIONS}
+    given = {name: "dict(" + ", ".join(f"{k}={d}" for k, (_, d) in keywords_of(name).items() if k not in ("width", "height", "env_size", "env_samples", "environment", "progress")) + ")" for name in FUNCTIONS if not name.startswith("set_")}
     choices = {k: ast.literal_eval("[" + t[len("Literal[") : -1] + "]") for k, (t, _) in keywords_of("render").items() if t.startswith("Literal[")}
     done = python(bench, f"""
 square = dict(positions=[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], triangles=[(0, 1, 2), (0, 2, 3)], coordinates=[0, 1, 1, 1, 1, 0, 0, 0])

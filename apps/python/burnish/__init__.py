@@ -157,16 +157,17 @@ class Scene:
 
     def render(self, progress=None, **keywords):
         """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ... progress: see load()."""
-        frame = ctypes.c_void_p()
+        frame, free = ctypes.c_void_p(), library().burnish_frame_free
         with _native.Options(keywords) as given, self._alone():
-            _native.call_told("burnish_render", given, progress, self._session, given, ctypes.byref(frame))
+            _native.call_told("burnish_render", given, progress, self._session, given, ctypes.byref(frame), undo=lambda: free(frame))
         return Picture(frame, self._caption(keywords))
 
     def reference(self, samples=1024, progress=None, **keywords):
         """Draws a Picture by the Monte Carlo reference. progress: see load()."""
-        frame = ctypes.c_void_p()
+        frame, free = ctypes.c_void_p(), library().burnish_frame_free
         with _native.Options({**keywords, "samples": samples}) as given, self._alone():
-            _native.call_told("burnish_reference", given, progress, self._session, given, _native.POLL(), None, ctypes.byref(frame))
+            _native.call_told("burnish_reference", given, progress, self._session, given, _native.POLL(), None, ctypes.byref(frame),
+                              undo=lambda: free(frame))
         return Picture(frame, self._caption({"technique": "reference", "samples": samples}))
 
     def _index(self, of, find, what):
@@ -238,7 +239,8 @@ def load(path, environment=None, progress=None, **keywords):
     session = ctypes.c_void_p()
     with _native.Options(keywords) as given:
         light = _native.environment_of(environment, given)
-        _native.call_told("burnish_open", given, progress, _native.path(path), light, given, ctypes.byref(session))
+        _native.call_told("burnish_open", given, progress, _native.path(path), light, given, ctypes.byref(session),
+                          undo=lambda: library().burnish_close(session))
     return Scene(session, os.path.basename(os.fsdecode(path)))
 
 
@@ -253,7 +255,8 @@ def meshes(*parts, environment=None, progress=None, **keywords):
             for part, material in zip(parts, materials)))
         with _native.Options(keywords) as given:
             light = _native.environment_of(environment, given)
-            _native.call_told("burnish_open_meshes", given, progress, structs, len(parts), light, given, ctypes.byref(session))
+            _native.call_told("burnish_open_meshes", given, progress, structs, len(parts), light, given, ctypes.byref(session),
+                              undo=lambda: library().burnish_close(session))
     finally:
         for material in materials:
             material.__exit__()

@@ -21,6 +21,9 @@ class Floats(Protocol):
     def shape(self) -> tuple[int, ...]: ...
     def __iter__(self) -> Any: ...
 
+Progress = Callable[[str, float], object]
+Environment = "Path | Picture | Values | Floats | None"
+
 class Error(Exception):
     """A failure. `code`: exit code of the program burnish for it."""
 
@@ -80,6 +83,7 @@ class Scene:
     name: str
     def render(
         self,
+        progress: Progress | None = None,
         *,
         width: int = 1280,
         height: int = 720,
@@ -121,6 +125,7 @@ class Scene:
     ) -> Picture:
         """Draws a Picture.
 
+        progress: See load().
         width: Pixels.
         height: Pixels.
         msaa: Samples a pixel: 1, 2, 4, 8 or 16.
@@ -163,7 +168,7 @@ class Scene:
     def reference(
         self,
         samples: int = 1024,
-        progress: Callable[[], object] | None = None,
+        progress: Progress | None = None,
         *,
         width: int = 1280,
         height: int = 720,
@@ -196,10 +201,10 @@ class Scene:
         energy_compensation: bool = False,
         seed: int = 0,
     ) -> Picture:
-        """Draws a Picture by the Monte Carlo reference. Raises KeyboardInterrupt where progress() is true or Ctrl-C is pressed.
+        """Draws a Picture by the Monte Carlo reference.
 
         samples: Samples a pixel, 1 or more.
-        progress: Called about ten times a second.
+        progress: See load().
         width: Pixels.
         height: Pixels.
         roughness: Overrides the roughness of every material, 0 to 1.
@@ -231,6 +236,107 @@ class Scene:
         energy_compensation: Return the light that rough lobes lose between microfacets.
         seed: Seed of random numbers; in as_mc it turns the samples by pixel, except at 0. 0 to 2147483647.
         """
+    def move(self, node: int | str, matrix: Any) -> None:
+        """Places a node, by index or name. matrix: to its parent's space, 4 rows of 4 numbers, or 16 column by column."""
+    def set_material(
+        self,
+        material: int | str,
+        *,
+        base_color: Vector4 | None = None,
+        metallic: float | None = None,
+        roughness: float | None = None,
+        normal_scale: float | None = None,
+        occlusion_strength: float | None = None,
+        emissive: Vector3 | None = None,
+        emissive_strength: float | None = None,
+        ior: float | None = None,
+        specular: float | None = None,
+        specular_color: Vector3 | None = None,
+        anisotropy_strength: float | None = None,
+        anisotropy_rotation: float | None = None,
+        transmission: float | None = None,
+        thickness: float | None = None,
+        attenuation_distance: float | None = None,
+        attenuation_color: Vector3 | None = None,
+        clearcoat: float | None = None,
+        clearcoat_roughness: float | None = None,
+        clearcoat_normal_scale: float | None = None,
+        conductor_eta: Vector3 | None = None,
+        conductor_k: Vector3 | None = None,
+        tilt: Vector2 | None = None,
+        tilt_scale: float | None = None,
+        height_scale: float | None = None,
+        alpha_cutoff: float | None = None,
+        double_sided: bool | None = None,
+        unlit: bool | None = None,
+        lean: bool | None = None,
+    ) -> None:
+        """Changes factors of a material, by index or name. None: as it is.
+
+        base_color: 0 to 1. glTF: pbrMetallicRoughness/baseColorFactor.
+        metallic: 0 to 1. glTF: pbrMetallicRoughness/metallicFactor.
+        roughness: 0 to 1. glTF: pbrMetallicRoughness/roughnessFactor. Perceptual, alpha = roughness^2.
+        normal_scale: any number. glTF: normalTexture/scale.
+        occlusion_strength: 0 to 1. glTF: occlusionTexture/strength.
+        emissive: 0 to 1. glTF: emissiveFactor. Cd/m^2 up to exposure, times emissive_strength.
+        emissive_strength: 0 or more. glTF: KHR_materials_emissive_strength/emissiveStrength.
+        ior: 0 or more. glTF: KHR_materials_ior/ior.
+        specular: 0 to 1. glTF: KHR_materials_specular/specularFactor.
+        specular_color: 0 or more. glTF: KHR_materials_specular/specularColorFactor.
+        anisotropy_strength: 0 to 1. glTF: KHR_materials_anisotropy/anisotropyStrength.
+        anisotropy_rotation: any number. glTF: KHR_materials_anisotropy/anisotropyRotation. Radians, counter-clockwise from the tangent.
+        transmission: 0 to 1. glTF: KHR_materials_transmission/transmissionFactor. Transmitted share of the light that is not reflected,
+            times base_color.
+        thickness: 0 or more. glTF: KHR_materials_volume/thicknessFactor. Of the body below the surface, metres in the mesh's own space; 0:
+            the mesh tells. Bodies are closed meshes; open ones are thin.
+        attenuation_distance: 0 or more. glTF: KHR_materials_volume/attenuationDistance.
+        attenuation_color: 0 to 1. glTF: KHR_materials_volume/attenuationColor. The light's share left after attenuation_distance (metres,
+            world space; 0: infinite) inside a body.
+        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
+        clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
+        clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
+        conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
+        conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
+        tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.
+        tilt_scale: any number. glTF: extras/burnish/tiltTexture/scale. Multiplies the slopes in the tilt texture.
+        height_scale: 0 to 1000. glTF: extras/burnish/heightTexture/scale. Depth of height 0 below height 1, in lengths of texture
+            coordinates. One such length is the square root of the area under a unit square of coordinates.
+        alpha_cutoff: 0 or more. glTF: alphaCutoff.
+        double_sided: glTF: doubleSided.
+        unlit: glTF: KHR_materials_unlit.
+        lean: glTF: extras/burnish/lean.
+        """
+    def set_light(
+        self,
+        light: int,
+        *,
+        color: Vector3 | None = None,
+        intensity: float | None = None,
+        range: float | None = None,
+        inner_cone: float | None = None,
+        outer_cone: float | None = None,
+    ) -> None:
+        """Changes factors of a point, spot or directional light, by index. None: as it is.
+
+        color: glTF: color.
+        intensity: glTF: intensity. candela, or lux of directional lights.
+        range: glTF: range. metres.
+        inner_cone: glTF: spot/innerConeAngle. radians.
+        outer_cone: glTF: spot/outerConeAngle. radians.
+        """
+    def set_environment(
+        self,
+        environment: Environment = None,
+        progress: Progress | None = None,
+        *,
+        threads: int = 0,
+        env_size: int = 512,
+        env_samples: int = 1024,
+        env_rotation: float = 0.0,
+        env_exposure: float = 0.0,
+        cache: bool = True,
+    ) -> None:
+        """Lights the pictures to come by another environment. Arguments: see load()."""
     def _repr_png_(self) -> bytes: ...
     def _repr_html_(self) -> str: ...
 
@@ -278,7 +384,7 @@ class Mesh:
         """Makes a mesh.
 
         positions, normals: 3 floats a vertex. coordinates: 2 floats a vertex, (0, 0) is the upper left.
-        triangles: 3 vertices each, counter-clockwise from the front. transform: 16 floats, column by column.
+        triangles: 3 vertices each, counter-clockwise from the front. transform: 4 rows of 4 numbers, or 16 column by column.
         base_color: 0 to 1. glTF: pbrMetallicRoughness/baseColorFactor.
         metallic: 0 to 1. glTF: pbrMetallicRoughness/metallicFactor.
         roughness: 0 to 1. glTF: pbrMetallicRoughness/roughnessFactor. Perceptual, alpha = roughness^2.
@@ -337,7 +443,8 @@ def options() -> dict[str, str]:
 
 def load(
     path: Path,
-    environment: Path | None = None,
+    environment: Environment = None,
+    progress: Progress | None = None,
     *,
     threads: int = 0,
     floor: Literal["off", "shadow", "stage"] = "off",
@@ -349,6 +456,10 @@ def load(
 ) -> Scene:
     """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME".
 
+    environment: A path, "builtin:NAME", or an equirectangular picture of height x width x 3 floats, linear Rec.709 radiance.
+        None: the scene's own light, else builtin:studio.
+    progress: Called with the work's name and the share of its current step that is done, -1 where unknown, about ten times a
+        second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then.
     threads: Worker threads; 0: all cores.
     floor: Floor below the scene: off, shadow or stage.
     env_size: Texels along an edge of the environment's cube map.
@@ -360,7 +471,8 @@ def load(
 
 def meshes(
     *parts: Mesh,
-    environment: Path | None = None,
+    environment: Environment = None,
+    progress: Progress | None = None,
     threads: int = 0,
     env_size: int = 512,
     env_samples: int = 1024,
@@ -368,7 +480,7 @@ def meshes(
     env_exposure: float = 0.0,
     cache: bool = True,
 ) -> Scene:
-    """Makes a scene of meshes.
+    """Makes a scene of meshes. environment and progress: see load().
 
     threads: Worker threads; 0: all cores.
     env_size: Texels along an edge of the environment's cube map.

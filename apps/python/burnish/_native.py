@@ -1,11 +1,14 @@
 """The C interface (burnish.h) by ctypes. ctypes releases the interpreter's lock during calls."""
 
 import array
+import contextlib
 import ctypes
 import ctypes.util
 import functools
 import os
 import pathlib
+import signal
+import threading
 
 from . import _dlpack, _show
 
@@ -172,22 +175,39 @@ class Options:
         self.__exit__()
 
 
-def call_told(name, given, progress, *arguments):
+@contextlib.contextmanager
+def _noted_interrupts(raised):
+    """Notes Ctrl-C in the list instead of raising: an exception at a callback's first line would be lost. Leaves a script's own handler."""
+    mine = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if mine:
+        signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        if mine:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def call_told(name, given, progress, *arguments, undo=None):
     """Calls a function that reads the options `given`, and progress(work, done) about ten times a second meanwhile. A true result and Ctrl-C
-    stop the work. Raises KeyboardInterrupt then, and an exception of progress()."""
+    stop the work. Raises KeyboardInterrupt then, and an exception of progress(); calls undo() before where the function had ended well."""
     raised = []
 
     def tell(_, work, done):
         try:
-            return 1 if progress and progress(work.decode("utf-8", "replace"), done) else 0
+            if not raised and progress and progress(work.decode("utf-8", "replace"), done):
+                raised.append(KeyboardInterrupt())
         except BaseException as error:  # goes on in the caller
             raised.append(error)
-            return 1
+        return len(raised)
 
     callback = PROGRESS(tell)
     call("burnish_options_progress", given, callback, None)
-    code = getattr(library(), name)(*arguments)
+    with _noted_interrupts(raised):
+        code = getattr(library(), name)(*arguments)
     if raised:
+        if code == 0 and undo:
+            undo()
         raise raised[0]
     if code == STOPPED:
         raise KeyboardInterrupt

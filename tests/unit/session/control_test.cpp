@@ -29,13 +29,18 @@ FrameDesc long_frame(const Session& session)
     return d;
 }
 
+std::stop_token requested_stop()
+{
+    const auto stop = std::make_unique<std::stop_source>(); // g++ 12 warns of a local one
+    stop->request_stop();
+    return stop->get_token();
+}
+
 TEST(control, stops_an_open_before_and_within)
 {
     for (const int threads : {1, 2}) {
-        std::stop_source stop;
-        stop.request_stop();
         {
-            const Controlled controlled({stop.get_token(), {}});
+            const Controlled controlled({requested_stop(), {}});
             const Result<Session> refused = Session::open("builtin:teapot", "builtin:studio", open_options(threads));
             ASSERT_FALSE(refused);
             EXPECT_EQ(refused.error().code, ExitCode::stopped);
@@ -118,9 +123,7 @@ TEST(control, makes_errors_of_exceptions)
 
 TEST(control, belongs_to_its_thread)
 {
-    std::stop_source stop;
-    stop.request_stop();
-    const Controlled controlled({stop.get_token(), {}});
+    const Controlled controlled({requested_stop(), {}});
     bool opened = false;
     std::thread other([&] { opened = static_cast<bool>(Session::open("builtin:plate", "builtin:studio", open_options(2))); });
     other.join();
