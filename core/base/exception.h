@@ -12,7 +12,8 @@ struct Stopped : std::exception {
 };
 
 // Returns the error of the exception that a catch block handles. Too little memory and a refused thread are ExitCode::bad_input with a
-// reason of their own. Work that its caller stops is ExitCode::stopped. Any other exception keeps `error`, and its first line follows error.reason.
+// reason of their own. Work that its caller stops is ExitCode::stopped. Any other exception keeps `error`, and its first line follows
+// error.reason.
 Error error_of_exception(Error error);
 
 } // namespace burnish

@@ -158,7 +158,7 @@ namespace ltc {
 struct ShadingTables;
 }
 class PhongFiles;
-struct SceneMips;   // shading/bake/mip/settings.h
+struct SceneMips;    // shading/bake/mip/settings.h
 struct KeptPyramids; // raster/frame/pyramids.h
 extern const SceneMips kBoxMips;
 
