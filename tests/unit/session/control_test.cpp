@@ -23,8 +23,8 @@ OpenOptions open_options(int threads)
 FrameDesc long_frame(const Session& session)
 {
     FrameDesc d;
-    d.width = 256, d.height = 192;
-    d.technique = "mc", d.samples = 256;
+    d.width = 512, d.height = 384;
+    d.technique = "mc", d.samples = 1024;
     d.view = session.framed(d.width, d.height);
     return d;
 }
@@ -74,7 +74,7 @@ TEST(control, stops_a_frame_and_the_next_one_is_whole)
         {
             std::stop_source stop;
             const Controlled controlled({stop.get_token(), [&](const std::string& work, double done) {
-                                             EXPECT_EQ(work, "drawing 256x192");
+                                             EXPECT_EQ(work, "drawing 512x384");
                                              if (done > 0.0)
                                                  last = done, stop.request_stop();
                                          }});
@@ -95,7 +95,7 @@ TEST(control, hears_of_shares_that_grow_and_changes_no_bits)
     Result<Session> session = Session::open("builtin:teapot", "builtin:studio", open_options(2));
     ASSERT_TRUE(session);
     FrameDesc desc = long_frame(*session);
-    desc.samples = 64;
+    desc.samples = 32;
     const Result<Frame> alone = session->render(desc);
     ASSERT_TRUE(alone);
     std::vector<double> shares;
