@@ -9,6 +9,7 @@
 #include "apps/cli/report.h"
 #include "apps/options/scene_view.h"
 #include "core/jobs/control.h"
+#include "raster/session/guarded.h"
 
 namespace burnish {
 namespace {
@@ -115,7 +116,13 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     Result<RenderOptions> options = render_options_of(request, limits_, threads_, arguments);
     BN_TRY(options);
     options->frame.profile = request.reference_samples == 0;
-    Result<Prepared> made = prepared(request, *options);
+    Result<Prepared> made = Error{};
+    {
+        const Controlled controlled({end_.get_token(), {}}); // what sessions prepare serves later pictures too
+        made = prepared(request, *options);
+    }
+    if (!made && made.error().code == ExitCode::stopped)
+        return overtaken();
     BN_TRY(made);
     Session& session = *made->session;
     const Result<ChosenView> view = choose_view(*options, session.scene(), session.tables());
@@ -123,8 +130,8 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     options->outputs = {"picture.png"}; // whose edges need the pixels' samples
     FrameDesc desc = options->frame;
     desc.view = view->view;
-    const Controlled controlled({stop, {}}); // not above: what sessions prepare serves later pictures too
-    Result<Rendered> rendered = render_frames(*options, desc, session, made->figures);
+    const Controlled controlled({stop, {}});
+    Result<Rendered> rendered = guarded(request.scene, [&] { return render_frames(*options, desc, session, made->figures); });
     if (!rendered && rendered.error().code == ExitCode::stopped)
         return overtaken();
     BN_TRY(rendered);
@@ -149,6 +156,7 @@ void Drawings::stop()
 {
     const std::lock_guard lock(kept_);
     ending_ = true;
+    end_.request_stop();
     for (Running* running : running_)
         running->stop.request_stop();
 }

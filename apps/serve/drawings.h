@@ -62,6 +62,7 @@ class Drawings {
 
     Limits limits_;
     int threads_ = 0;
+    std::stop_source end_;
     std::mutex tile_, reference_, kept_;
     std::atomic<std::uint64_t> latest_ = 0; // of passing requests
     // Under kept_:

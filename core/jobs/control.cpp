@@ -34,8 +34,10 @@ void report(ControlState& state, const std::string& name, double done)
     if (now < due || !state.next_ns.compare_exchange_strong(due, now + kReportNs))
         return; // too early, or another thread reports
     const std::unique_lock lock(state.reporting, std::try_to_lock);
-    if (lock)
-        state.control.progress(name, done);
+    if (!lock)
+        return;
+    const Controlled none(Control{}); // work of the function itself is not controlled
+    state.control.progress(name, done);
 }
 
 } // namespace
@@ -55,6 +57,11 @@ void check_stop()
 {
     if (state_here && state_here->control.stop.stop_requested())
         throw Stopped();
+}
+
+std::stop_token stop_here()
+{
+    return state_here ? state_here->control.stop : std::stop_token();
 }
 
 void report_activity(const std::string& name)

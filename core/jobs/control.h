@@ -19,6 +19,7 @@ struct Control {
     std::stop_token stop = {};
     // Gets the work's name and the share of its current step that is done, [0,1], or -1 where the share is unknown. Any thread may call it,
     // one at a time, at most about ten times a second. It must not use the session that works. An exception ends the work as an Error.
+    // Steps of libraries, such as decoding one picture, tell nothing and stop at their end.
     std::function<void(const std::string& work, double done)> progress = {};
 };
 
@@ -39,7 +40,8 @@ class Controlled {
     bool outer_in_loop_;
 };
 
-void check_stop(); // throws Stopped if the calling thread's work is to stop
+void check_stop();           // throws Stopped if the calling thread's work is to stop
+std::stop_token stop_here(); // the calling thread's token, for work in threads of other libraries
 
 // Below: for loops and progress reports.
 

@@ -182,13 +182,13 @@ bool Jobs::by_onetbb() const
 void Jobs::parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) const
 {
     ControlledWork work(ControlledWork::Kind::loop, "", count);
-    if (work.on())
-        run(count, [&](std::size_t index, int worker) { work.run(body, index, worker); });
-    else
-        run(count, body);
+    if (!work.on())
+        return parallel_for_whole(count, body);
+    parallel_for_whole(count, [&](std::size_t index, int worker) { work.run(body, index, worker); });
+    check_stop(); // an exception in an outer loop may have cut this one short
 }
 
-void Jobs::run(std::size_t count, const std::function<void(std::size_t, int)>& body) const
+void Jobs::parallel_for_whole(std::size_t count, const std::function<void(std::size_t, int)>& body) const
 {
     if (impl_->threads == 1) {
         for (std::size_t i = 0; i < count; ++i)

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/jobs/control.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/draw_clusters.h"
 #include "core/scene/tangents.h"
@@ -236,6 +237,7 @@ DrawTables make_draw_tables(const Scene& scene, const glm::dmat4* motion)
 {
     DrawTables out;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        check_stop();
         const Node& node = scene.nodes[i];
         const glm::mat4 world = motion ? glm::mat4(*motion * glm::dmat4(node.world)) : node.world;
         // Place the node's lights

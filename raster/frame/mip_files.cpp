@@ -64,20 +64,29 @@ mipnet::Lobe lobe_of_model(int brdf)
     return std::string(model.name) == "ashikhmin_shirley" ? mipnet::Lobe::ashikhmin_shirley : mipnet::Lobe::beckmann;
 }
 
-Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits)
+Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits, const std::vector<bool>* only)
 {
-    for (MaterialMips& of : mips.materials)
-        of.lobe = lobe_of_model(asked.brdf);
+    const auto wanted = [&](std::size_t i) { return !only || (*only)[i]; };
+    for (std::size_t i = 0; i < mips.materials.size(); ++i)
+        if (wanted(i))
+            mips.materials[i].lobe = lobe_of_model(asked.brdf);
     const Jobs jobs(asked.threads);
     if (!takes_net(asked.filter)) {
         if (asked.use_cache && !mips.baked)
             cache_mips(scene, mips, jobs);
         return {};
     }
-    const Result<std::shared_ptr<const mipnet::Weights>> net = net_of(asked, limits);
+    std::shared_ptr<const mipnet::Weights> held; // by materials that stay as they are
+    for (std::size_t i = 0; i < mips.materials.size(); ++i)
+        if (!wanted(i) && mips.materials[i].net)
+            held = mips.materials[i].net;
+    const Result<std::shared_ptr<const mipnet::Weights>> net =
+        held ? Result<std::shared_ptr<const mipnet::Weights>>(held) : net_of(asked, limits);
     BN_TRY(net);
     std::vector<std::optional<mipnet::Comparison>> found(scene.materials.size());
     jobs.parallel_for(found.size(), [&](std::size_t i, int) {
+        if (!wanted(i))
+            return;
         const Material& m = scene.materials[i];
         MaterialMips& of = mips.materials[i];
         of.net = *net;

@@ -1,6 +1,7 @@
 // Inputs of mip filters besides maps: levels from `burnish bake mip` and nets. Warnings for maps that a filter leaves alone.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
@@ -17,7 +18,8 @@ void warn_of_unfiltered(Scene& scene, const SceneMips& mips); // a line for each
 // Gives materials their nets, of asked.net or the program's. Of filter mipnet, unless asked.fallback is off, those for which it is
 // worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning
 // says so.
-Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits);
+// only: by material, which ones; null: all.
+Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits, const std::vector<bool>* only = nullptr);
 
 // Reads asked.pyramid. Where no filter was asked for, it is the file's.
 Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limits& limits);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/jobs/control.h"
 #include "core/jobs/cores.h"
 #include "core/jobs/threads.h"
 
@@ -143,8 +144,14 @@ Result<std::unique_ptr<RayScene>> EmbreeScene::make(const Scene& scene, const Dr
         self->in_the_way_ = new_scene();
     for (const unsigned part : {kSurfaces, kOpenLights})
         BN_TRY(self->add_part(tables, part));
-    rtcCommitScene(self->seen_);
-    rtcCommitScene(self->in_the_way_);
+    std::stop_token stop = stop_here();
+    for (const RTCScene built : {self->seen_, self->in_the_way_}) {
+        rtcSetSceneProgressMonitorFunction(
+            built, [](void* token, double) { return !static_cast<std::stop_token*>(token)->stop_requested(); }, &stop);
+        rtcCommitScene(built);
+        rtcSetSceneProgressMonitorFunction(built, nullptr, nullptr);
+        check_stop();
+    }
     if (const RTCError code = rtcGetDeviceError(self->device_); code != RTC_ERROR_NONE)
         return error_of(code, "build its tree over the scene");
     return std::unique_ptr<RayScene>(std::move(self));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/jobs/control.h"
 #include "core/simd/cpu.h"
 #include "raster/frame/frame_record.h"
 #include "raster/rays/ray_tree.h"
@@ -187,7 +188,8 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     }
     std::uint32_t done = least_passes(a);
     stats.samples_before = done * pass_samples();
-    Progress progress("passes", passes > done ? passes - done : 0, options_.quiet);
+    const std::size_t slices = (a.passes.size() + kBlocksInSlice - 1) / kBlocksInSlice; // of a pass
+    Progress progress("passes", passes > done ? (passes - done) * slices : 0, options_.quiet);
     Clock::time_point written = Clock::now();
     // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
     // costs an intermediate checkpoint, not the picture.
@@ -197,18 +199,25 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
                mean_relative_error(a) <= options_.target_error;
     };
-    while (done < passes && !good_enough() && !stopped()) {
-        const std::uint32_t before = done, until = std::min(passes, done - done % round + round);
+    const auto run_round = [&] {
+        const std::uint32_t until = std::min(passes, done - done % round + round);
         const TraceSpan round_span("passes");
         for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
             advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
+            progress.step(until - done);
             if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
                 static_cast<void>(static_cast<bool>(write())); // the last write decides
                 written = Clock::now();
             }
         }
         done = least_passes(a);
-        progress.step(done - before);
+    };
+    try {
+        while (done < passes && !good_enough() && !stopped())
+            run_round();
+    } catch (const Stopped&) {
+        static_cast<void>(static_cast<bool>(write())); // so that a later run goes on from here
+        throw;
     }
     stats.stopped = stopped() && done < passes;
     // Write the last checkpoint

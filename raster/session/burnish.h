@@ -40,9 +40,9 @@ const char* burnish_technique_help(int index);
  * unknown is refused here, a value out of range where the options are used. Options that a function does not read are ignored there. */
 int burnish_options_make(burnish_options** out);
 int burnish_options_set(burnish_options* options, const char* name, const char* value);
-/* Called about ten times a second by the calling thread while burnish_open, burnish_open_meshes, burnish_render, burnish_reference or
- * burnish_set_environment works with these options. work: its name. done: the share of its current step, 0 to 1; -1 where unknown. Another
- * value than 0 stops the work with 130. NULL: none. */
+/* Called about ten times a second by the calling thread while burnish_open, burnish_open_meshes, burnish_render, burnish_reference,
+ * burnish_set_environment or burnish_set_material works with these options. work: its name. done: the share of its current step, 0 to 1; -1
+ * where unknown. Another value than 0 stops the work with 130, unless the work has just ended. NULL: none. */
 typedef int (*burnish_progress)(void* user, const char* work, double done);
 int burnish_options_progress(burnish_options* options, burnish_progress progress, void* user);
 /* A picture as environment, where a function gets these options and NULL as environment: equirectangular, 3 floats a pixel by rows from
@@ -55,7 +55,7 @@ void burnish_options_free(burnish_options* options);
 int burnish_open(const char* scene, const char* environment, const burnish_options* options, burnish_session** out);
 
 typedef struct burnish_mesh {
-    size_t size;               /* sizeof(burnish_mesh) */
+    size_t size;               /* sizeof(burnish_mesh), the same for all of an array */
     const float* positions;    /* 3 a vertex, metres */
     const float* normals;      /* 3 a vertex; NULL: smooth ones are made */
     const float* coordinates;  /* 2 a vertex, (0,0) is the picture's upper left; NULL: none */
@@ -72,6 +72,7 @@ void burnish_close(burnish_session* session);
  * new session of the changed scene. A failure changes nothing. Mesh i of burnish_open_meshes has node i and material i. */
 int burnish_find_node(const burnish_session* session, const char* name); /* its index; -1: none */
 int burnish_find_material(const burnish_session* session, const char* name);
+int burnish_find_light(const burnish_session* session, const char* name);
 /* matrix: 16, column by column, to the parent's space. Scenes with a floor refuse it. */
 int burnish_set_node(burnish_session* session, int node, const float* matrix);
 /* factors: by names of burnish_material_name; others stay as they are. Scenes with a floor refuse it. */

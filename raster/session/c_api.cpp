@@ -8,6 +8,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "core/jobs/activity.h"
 #include "core/scene/add_mesh.h"
 #include "raster/frame/layers.h"
 #include "raster/session/burnish.h"
@@ -304,14 +305,21 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
     return guarded_call([&]() -> Status {
         if (!meshes || count == 0 || !out)
             return usage(out ? "meshes" : "out", "is NULL");
+        if (meshes->size < sizeof(burnish_mesh) || meshes->size % alignof(burnish_mesh) != 0)
+            return usage("/meshes/0/size", "is not the size of burnish_mesh");
         const Result<CSettings> settings = settings_of(options);
         BN_TRY(settings);
         if (settings->floor.kind != FloorKind::off)
             return usage("floor", "belongs to scenes from files");
         return run_told(teller(options), [&]() -> Status {
+            const Activity activity("reading meshes");
             Scene scene;
-            for (size_t i = 0; i < count; ++i)
-                BN_TRY(add_mesh(meshes[i], "/meshes/" + std::to_string(i), scene));
+            for (size_t i = 0; i < count; ++i) {
+                check_stop();
+                const auto* const mesh =
+                    reinterpret_cast<const char*>(meshes) + i * meshes->size; // callers of a later version have larger ones
+                BN_TRY(add_mesh(*reinterpret_cast<const burnish_mesh*>(mesh), "/meshes/" + std::to_string(i), scene));
+            }
             const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
             BN_TRY(made);
             return finish_open(options, *settings, *made, environment, out);
@@ -353,6 +361,11 @@ int burnish_find_material(const burnish_session* session, const char* name)
     return session ? find_named(session->session.scene().materials, name) : -1;
 }
 
+int burnish_find_light(const burnish_session* session, const char* name)
+{
+    return session ? find_named(session->session.scene().lights, name) : -1;
+}
+
 int burnish_set_node(burnish_session* session, int node, const float* matrix)
 {
     return guarded_call([&]() -> Status {
@@ -377,7 +390,7 @@ int burnish_set_material(burnish_session* session, int material, const burnish_o
         SceneChanges changes;
         changes.materials.emplace_back(material, materials[static_cast<std::size_t>(material)]);
         BN_TRY(set_material(changes.materials[0].second, factors));
-        return session->session.change(std::move(changes));
+        return run_told(teller(factors), [&] { return session->session.change(std::move(changes)); });
     });
 }
 
@@ -451,7 +464,7 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
         Result<Frame> frame = run_told(tell, [&]() -> Result<Frame> {
             Result<Session> reference = Session::make(session->session.parts(), as);
             BN_TRY(reference);
-            return reference->render_any(*desc);
+            return reference->render(*desc);
         });
         BN_TRY(frame);
         *out = make_frame(std::move(*frame), {}, session->session.tables());

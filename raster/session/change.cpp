@@ -1,6 +1,6 @@
 // Changes to a session's scene between frames.
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <fmt/format.h>
 #include <limits>
 #include <utility>
@@ -47,12 +47,33 @@ const char* differing_map(const Material& a, const Material& b)
     return nullptr;
 }
 
+// Returns by node whether the node or one below has an area light, or a mesh that shows one.
+std::vector<bool> with_area_lights(const Scene& scene)
+{
+    const auto shows_light = [&](const Mesh& mesh) {
+        for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
+            if (scene.materials[static_cast<std::size_t>(scene.primitives[mesh.first_primitive + k].material)].emitter != kNoEmitter)
+                return true;
+        return false;
+    };
+    std::vector<bool> lit(scene.nodes.size(), false);
+    for (std::size_t i = lit.size(); i-- > 0;) { // children come after their parents
+        const Node& node = scene.nodes[i];
+        lit[i] =
+            lit[i] || node.area_light != kNone || (node.mesh != kNone && shows_light(scene.meshes[static_cast<std::size_t>(node.mesh)]));
+        if (lit[i] && node.parent != kNone)
+            lit[static_cast<std::size_t>(node.parent)] = true;
+    }
+    return lit;
+}
+
 Status check_changes(const SceneData& data, const SceneChanges& changes)
 {
     const Scene& scene = data.scene;
     const auto wrong = [&](ExitCode code, std::string place, std::string reason) {
         return Error{code, data.name, std::move(place), std::move(reason)};
     };
+    const auto material_of = [&](std::int32_t index) -> const Material& { return scene.materials[static_cast<std::size_t>(index)]; };
     // Indices
     const auto check = [&](const char* table, const auto& list, std::size_t size) -> Status {
         for (const auto& change : list)
@@ -71,18 +92,41 @@ Status check_changes(const SceneData& data, const SceneChanges& changes)
     if (!changes.materials.empty() && data.mips.baked)
         return wrong(ExitCode::usage, "/materials", "their levels were made beforehand, for the materials as they were opened");
     for (const auto& [index, material] : changes.materials)
-        if (const char* map = differing_map(material, scene.materials[static_cast<std::size_t>(index)]))
+        if (const char* map = differing_map(material, material_of(index)))
             return wrong(ExitCode::usage, fmt::format("/materials/{}/{}", index, map), "maps stay as they were opened; factors may change");
+    for (const auto& [index, light] : changes.lights)
+        if (!data.visibility.empty() && light.type != scene.lights[static_cast<std::size_t>(index)].type)
+            return wrong(ExitCode::usage, fmt::format("/lights/{}/type", index), "the floor's contact shadows depend on it");
+    // The shapes that show area lights stay in place
+    const char* const kShape = "an area light's shape stays as it was opened: make a new session";
+    const std::vector<bool> lit = with_area_lights(scene);
+    for (const auto& [index, local] : changes.nodes)
+        if (lit[static_cast<std::size_t>(index)])
+            return wrong(ExitCode::usage, fmt::format("/nodes/{}", index), kShape);
+    for (const auto& [index, material] : changes.materials)
+        if (material_of(index).emitter != kNoEmitter)
+            return wrong(ExitCode::usage, fmt::format("/materials/{}", index), kShape);
+    for (const auto& [index, material] : changes.primitives) {
+        const bool known = material >= 0 && static_cast<std::size_t>(material) < scene.materials.size(); // else check_scene() says so
+        if (material_of(scene.primitives[static_cast<std::size_t>(index)].material).emitter != kNoEmitter ||
+            (known && material_of(material).emitter != kNoEmitter))
+            return wrong(ExitCode::usage, fmt::format("/primitives/{}/material", index), kShape);
+    }
     return {};
 }
 
-// Changes of a scene that are undone at the object's end, unless stay() is called.
+// Changes of a scene that are undone at the object's end, unless stay() is called. Undoing allocates nothing.
 class Applied {
   public:
-    Applied(SceneData& data, SceneChanges& changes) : data_(data), changes_(changes), mips_(data.mips)
+    Applied(SceneData& data, SceneChanges& changes)
+        : data_(data), changes_(changes), mips_(data.mips), warnings_(data.scene.warnings.size())
     {
+        for (const Node& node : data.scene.nodes)
+            worlds_.push_back(node.world);
         for (const auto& [index, local] : changes.nodes)
-            beyond_.push_back(std::exchange(data.scene.nodes[static_cast<std::size_t>(index)].local_beyond, glm::dvec3(0.0)));
+            beyond_.push_back(data.scene.nodes[static_cast<std::size_t>(index)].local_beyond);
+        for (const auto& [index, local] : changes.nodes)
+            data.scene.nodes[static_cast<std::size_t>(index)].local_beyond = glm::dvec3(0.0);
         swap_in(data.scene, changes, false);
         tables_ = std::move(data.tables);
     }
@@ -90,42 +134,58 @@ class Applied {
     {
         if (stays_)
             return;
-        swap_in(data_.scene, changes_, true);
-        for (std::size_t i = beyond_.size(); i-- > 0;)
-            data_.scene.nodes[static_cast<std::size_t>(changes_.nodes[i].first)].local_beyond = beyond_[i];
-        update_world(data_.scene);
+        Scene& scene = data_.scene;
+        swap_in(scene, changes_, true);
+        for (std::size_t i = 0; i < beyond_.size(); ++i)
+            scene.nodes[static_cast<std::size_t>(changes_.nodes[i].first)].local_beyond = beyond_[i];
+        for (std::size_t i = 0; i < worlds_.size(); ++i)
+            scene.nodes[i].world = worlds_[i];
+        scene.warnings.erase(scene.warnings.begin() + static_cast<std::ptrdiff_t>(warnings_), scene.warnings.end());
         data_.tables = std::move(tables_), data_.mips = std::move(mips_);
     }
     Applied(const Applied&) = delete;
     Applied& operator=(const Applied&) = delete;
-    void stay() { stays_ = true; }
+    // Keeps the changes. Warnings that the scene had already are dropped.
+    void stay()
+    {
+        stays_ = true;
+        std::vector<std::string>& all = data_.scene.warnings;
+        const auto fresh = all.begin() + static_cast<std::ptrdiff_t>(warnings_);
+        all.erase(std::remove_if(fresh, all.end(), [&](const std::string& text) { return std::find(all.begin(), fresh, text) != fresh; }),
+                  all.end());
+    }
 
   private:
     SceneData& data_;
     SceneChanges& changes_;
-    std::vector<glm::dvec3> beyond_; // the nodes' old Node::local_beyond
-    DrawTables tables_;
+    std::vector<glm::mat4> worlds_;  // of all nodes
+    std::vector<glm::dvec3> beyond_; // Node::local_beyond of the changed nodes
+    DrawTables tables_{};
     SceneMips mips_;
+    std::size_t warnings_;
     bool stays_ = false;
 };
 
 // Makes everything that depends on the scene's tables.
-Status settle(SceneData& data, bool materials_changed)
+Status settle(SceneData& data, const SceneChanges& changes)
 {
     Limits any; // file readers have already applied their limits
     any.image_side = std::numeric_limits<int>::max(), any.texture_bytes = std::numeric_limits<std::uint64_t>::max();
     update_world(data.scene);
     BN_TRY(check_scene(data.scene, any, data.name));
     data.tables = make_draw_tables(data.scene);
+    darken_vertices(data.tables, data.visibility);
     BN_TRY(check_draw_range(data.scene, data.tables, data.name));
-    if (!materials_changed)
+    if (changes.materials.empty())
         return {};
-    SceneMips mips = asked_mips(data.asked, data.scene.materials.size());
-    mips.materials.resize(data.scene.materials.size());
-    mips.cached = data.mips.cached;
-    BN_TRY(settle_nets(data.scene, mips, data.asked, any));
-    data.mips = std::move(mips);
-    return {};
+    SceneMips asked = asked_mips(data.asked, data.scene.materials.size());
+    asked.materials.resize(data.scene.materials.size());
+    std::vector<bool> changed(data.scene.materials.size(), false);
+    for (const auto& [index, material] : changes.materials) {
+        const auto i = static_cast<std::size_t>(index);
+        changed[i] = true, data.mips.materials[i] = asked.materials[i];
+    }
+    return settle_nets(data.scene, data.mips, data.asked, any, &changed);
 }
 
 } // namespace
@@ -139,17 +199,24 @@ Status Session::change(SceneChanges changes)
         if (changes.environment)
             parts.environment = changes.environment;
         auto kept = std::make_shared<KeptPyramids>(*pyramids_);
+        if (changes.nodes.empty() && changes.materials.empty() && changes.primitives.empty() && changes.lights.empty()) {
+            Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
+            BN_TRY(next);
+            *this = std::move(*next);
+            return {};
+        }
         for (auto& [index, material] : changes.materials) {
             const Material& old = parts.scene->scene.materials[static_cast<std::size_t>(index)];
             material.emitter = old.emitter, material.heights = old.heights; // these belong to area lights and maps
             kept->forget_material(index);
         }
-        const bool shared = parts_.scene.use_count() > 2; // by others than parts_ and parts
+        const bool shared = parts_.scene.use_count() > 2;    // by others than parts_ and parts
+        std::atomic_thread_fence(std::memory_order_acquire); // other threads' last reads come before
         // Scene data are objects that were not made const (make_scene_data())
         const auto data = shared ? std::make_shared<SceneData>(*parts_.scene) : std::const_pointer_cast<SceneData>(parts.scene);
         parts.scene = data;
         Applied applied(*data, changes);
-        BN_TRY(settle(*data, !changes.materials.empty()));
+        BN_TRY(settle(*data, changes));
         Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
         BN_TRY(next);
         *this = std::move(*next);

@@ -100,6 +100,22 @@ Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings&
     return data.mips.baked ? check_mips(data.scene, data.mips, given.pyramid) : Status();
 }
 
+// Refuses nodes that draw a mesh without triangles.
+Status check_meshes_drawn(const Scene& scene, const std::string& name)
+{
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].mesh == kNone)
+            continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)];
+        std::uint64_t indices = 0;
+        for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
+            indices += scene.primitives[mesh.first_primitive + k].index_count;
+        if (indices == 0)
+            return Error{ExitCode::bad_input, name, fmt::format("/nodes/{}/mesh", i), "has no triangles"};
+    }
+    return {};
+}
+
 Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& name, Scene scene, const Limits& limits,
                                                            const MipSettings& given, const FloorSettings& floor = {})
 {
@@ -149,7 +165,11 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
         update_world(scene);
         BN_TRY(check_scene(scene, limits, name));
         BN_TRY(check_mip_settings(mips));
-        return make_settled_data(name, std::move(scene), limits, mips);
+        BN_TRY(check_meshes_drawn(scene, name));
+        Result<std::shared_ptr<const SceneData>> data = make_settled_data(name, std::move(scene), limits, mips);
+        if (data && (*data)->tables.draws.empty())
+            return Error{ExitCode::bad_input, name, "/nodes", "draw nothing: no node has a mesh with an area"};
+        return data;
     });
 }
 

@@ -52,7 +52,7 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
                                                          const FloorSettings& floor = {});
 // From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
 // left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
-// "/primitives/0/indices/17".
+// "/primitives/0/indices/17". A mesh without triangles, and a scene that draws nothing, are faults too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits,
                                                          const MipSettings& mips = {});
 // "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.
@@ -143,7 +143,8 @@ class Session {
     // Changes the scene for the following frames. Texture levels, tables and the bake of the environment stay; draw tables are made anew.
     // Frames have the bits of a new session of the changed scene with the same origin. Copies the scene first where others share it. A
     // failure changes nothing. Errors: ExitCode::bad_input with the place ("/nodes/7/local"); usage where a change belongs to a new
-    // session: other maps, levels made beforehand, a node or material above a floor.
+    // session: other maps, levels made beforehand, a node or material above a floor, the shape of an area light. Skins stay as they were
+    // read. References into scene() and tables() see the changes.
     Status change(SceneChanges changes);
 
     const SessionParts& parts() const { return parts_; }

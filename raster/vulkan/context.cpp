@@ -380,6 +380,7 @@ VkCommandBuffer Context::begin()
 {
     auto info = vk_struct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    BN_VK(vkResetCommandBuffer(commands_, 0)); // stopped work may have left it open
     BN_VK(vkBeginCommandBuffer(commands_, &info));
     return commands_;
 }

@@ -210,9 +210,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     desc.technique = size & 2 ? "bent_normal" : "lobe_line", desc.samples = 4;
     desc.view = session->framed(desc.width, desc.height);
     const Result<Frame> frame = session->render(desc);
+    BN_CHECK(!session->tables().draws.empty());
     if (!frame)
         BN_CHECK(!frame.error().reason.empty() && frame.error().code != ExitCode::internal);
     else
         BN_CHECK_OP(frame->color.bytes.size(), ==, 17u * 11u * 3u * sizeof(float));
+    // Move a node
+    if (size < kStep)
+        return 0;
+    SceneChanges changes;
+    changes.nodes.emplace_back(data[0] % static_cast<int>(session->scene().nodes.size()), glm::mat4(1.0f));
+    std::memcpy(static_cast<void*>(&changes.nodes[0].second[data[1] % 4]), data + 4, sizeof(float));
+    const Status changed = session->change(std::move(changes));
+    BN_CHECK(changed || changed.error().code == ExitCode::bad_input || changed.error().code == ExitCode::usage);
+    const Result<Frame> again = session->render(desc);
+    BN_CHECK(again || again.error().code != ExitCode::internal);
     return 0;
 }

@@ -189,12 +189,13 @@ class Scene:
         """Changes factors of a material, by name or index, for the pictures to come: roughness=0.2, base_color=(1, 0, 0, 1), ... Mesh i of
         meshes() has material i. Scenes with a floor refuse it."""
         with _native.Options(factors) as given, self._alone():
-            _native.call("burnish_set_material", self._session, self._index(material, "burnish_find_material", "material"), given)
+            index = self._index(material, "burnish_find_material", "material")
+            _native.call_told("burnish_set_material", given, None, self._session, index, given)
 
     def set_light(self, light, **factors):
-        """Changes factors of a point, spot or directional light, by index, for the pictures to come: intensity=4, color=(1, 1, 1), ..."""
+        """Changes factors of a point, spot or directional light, by name or index, for the pictures to come: intensity=4, ..."""
         with _native.Options(factors) as given, self._alone():
-            _native.call("burnish_set_light", self._session, operator.index(light), given)
+            _native.call("burnish_set_light", self._session, self._index(light, "burnish_find_light", "light"), given)
 
     def set_environment(self, environment=None, progress=None, **keywords):
         """Lights the pictures to come by another environment. Arguments: see load()."""

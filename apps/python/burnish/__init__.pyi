@@ -1,6 +1,7 @@
 # Made by make_stubs.py from the option tables: edit stub.in and those tables.
 """Types of the package burnish. The package's own text says more."""
 
+import builtins
 import os
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, Protocol
@@ -22,7 +23,6 @@ class Floats(Protocol):
     def __iter__(self) -> Any: ...
 
 Progress = Callable[[str, float], object]
-Environment = "Path | Picture | Values | Floats | None"
 
 class Error(Exception):
     """A failure. `code`: exit code of the program burnish for it."""
@@ -48,7 +48,7 @@ class Values:
         """Returns a DLPack capsule without a copy."""
     def bytes(self) -> memoryview:
         """Returns the floats, flat."""
-    def _repr_png_(self) -> bytes: ...
+    def _repr_png_(self) -> builtins.bytes: ...
     def __getitem__(self, at: tuple[int, int]) -> tuple[float, ...]:
         """Returns the channels at (row, column)."""
 
@@ -308,7 +308,7 @@ class Scene:
         """
     def set_light(
         self,
-        light: int,
+        light: int | str,
         *,
         color: Vector3 | None = None,
         intensity: float | None = None,
@@ -316,7 +316,7 @@ class Scene:
         inner_cone: float | None = None,
         outer_cone: float | None = None,
     ) -> None:
-        """Changes factors of a point, spot or directional light, by index. None: as it is.
+        """Changes factors of a point, spot or directional light, by index or name. None: as it is.
 
         color: glTF: color.
         intensity: glTF: intensity. candela, or lux of directional lights.
@@ -326,7 +326,7 @@ class Scene:
         """
     def set_environment(
         self,
-        environment: Environment = None,
+        environment: Path | Picture | Values | Floats | None = None,
         progress: Progress | None = None,
         *,
         threads: int = 0,
@@ -443,7 +443,7 @@ def options() -> dict[str, str]:
 
 def load(
     path: Path,
-    environment: Environment = None,
+    environment: Path | Picture | Values | Floats | None = None,
     progress: Progress | None = None,
     *,
     threads: int = 0,
@@ -471,7 +471,7 @@ def load(
 
 def meshes(
     *parts: Mesh,
-    environment: Environment = None,
+    environment: Path | Picture | Values | Floats | None = None,
     progress: Progress | None = None,
     threads: int = 0,
     env_size: int = 512,

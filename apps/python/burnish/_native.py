@@ -76,7 +76,7 @@ def library():
             ("burnish_options_set", whole, [pointer, text, text]), ("burnish_options_free", None, [pointer]),
             ("burnish_options_progress", whole, [pointer, PROGRESS, pointer]),
             ("burnish_options_environment", whole, [pointer, pointer, whole, whole]),
-            ("burnish_find_node", whole, [pointer, text]), ("burnish_find_material", whole, [pointer, text]),
+            ("burnish_find_node", whole, [pointer, text]), ("burnish_find_material", whole, [pointer, text]), ("burnish_find_light", whole, [pointer, text]),
             ("burnish_set_node", whole, [pointer, whole, ctypes.POINTER(ctypes.c_float)]),
             ("burnish_set_material", whole, [pointer, whole, pointer]), ("burnish_set_light", whole, [pointer, whole, pointer]),
             ("burnish_set_environment", whole, [pointer, text, pointer]),
@@ -205,8 +205,8 @@ def call_told(name, given, progress, *arguments, undo=None):
     call("burnish_options_progress", given, callback, None)
     with _noted_interrupts(raised):
         code = getattr(library(), name)(*arguments)
-    if raised:
-        if code == 0 and undo:
+    if raised and (code != 0 or undo):  # else the work is done, and nothing can be taken back
+        if code == 0:
             undo()
         raise raised[0]
     if code == STOPPED:
@@ -227,8 +227,8 @@ def matrix(of, name):
     """Returns 16 floats column by column: of 16 numbers in that order, or of 4 rows with 4 numbers each."""
     if len(of) == 4:
         rows = [list(flat(row)) for row in of]
-        if any(len(row) != 4 for row in rows):
-            raise ValueError(f"{name}: is neither 16 numbers nor 4 rows of 4")
+        if any(len(row) != 4 for row in rows) or rows[3] != [0, 0, 0, 1]:
+            raise ValueError(f"{name}: is neither 16 numbers nor 4 rows of 4, the last of them 0, 0, 0, 1")
         of = [rows[row][column] for column in range(4) for row in range(4)]
     held = floats(of, 16, name)
     if len(held) != 16:

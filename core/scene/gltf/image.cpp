@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/image/io/image_io.h"
+#include "core/jobs/control.h"
 #include "core/scene/gltf/buffers.h"
 
 namespace burnish::gltf {
@@ -62,6 +63,8 @@ Image decode(Document& doc, int image, Bytes bytes, bool floats)
     limits.texture_bytes -= std::min(limits.texture_bytes, doc.texture_bytes);
     PictureNotes notes;
     Result<Image> decoded = decode_image(bytes.data(), bytes.size(), place, limits, &notes);
+    if (!decoded && decoded.error().code == ExitCode::stopped)
+        throw Stopped();
     if (!decoded)
         fail(place, printable(decoded.error().reason));
     for (const std::string& warning : notes.warnings)
@@ -77,6 +80,7 @@ int scene_image(Document& doc, int image, bool floats)
 {
     const auto [it, is_new] = doc.scene_images.try_emplace(image, static_cast<int>(doc.scene.images.size()));
     if (is_new) {
+        check_stop();
         std::vector<std::uint8_t> own;
         const Bytes bytes = encoded_image(doc, image, own);
         doc.scene.images.push_back(decode(doc, image, bytes, floats));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/jobs/control.h"
 #include "core/scene/gltf/accessors.h"
 #include "core/scene/gltf/compress.h"
 #include "core/scene/gltf/pose.h"
@@ -259,8 +260,10 @@ void load_meshes(Document& doc)
     for (std::size_t i = 0; i < bends.size(); ++i)
         if (doc.scene.nodes[i].mesh != kNone && !bends[i].any())
             plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = true;
-    for (std::size_t m = 0; m < plain.size(); ++m)
+    for (std::size_t m = 0; m < plain.size(); ++m) {
+        check_stop();
         doc.scene.meshes.push_back(plain[m] ? load_mesh(doc, m, {}) : Mesh{});
+    }
     load_deformed_meshes(doc, bends);
     update_world(doc.scene);
     if (doc.scene.materials.empty())

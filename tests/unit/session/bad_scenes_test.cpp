@@ -72,6 +72,12 @@ const BadScene kColumnsAndRanges[] = {
     {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 2; }},
     {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 0xffffffffu; }},
     {"/meshes/0/first_primitive", [](Scene& s) { s.meshes[0].first_primitive = 7; }},
+    // Empty
+    {"/nodes/0/mesh", [](Scene& s) { s.meshes[0].primitive_count = 0; }},
+    {"/nodes/0/mesh", [](Scene& s) { s.primitives[0].index_count = 0; }},
+    {"/nodes", [](Scene& s) { s.nodes.clear(); }},
+    {"/nodes", [](Scene& s) { s.nodes.resize(1), s.nodes[0].local *= 0.0f; }},
+    {"/nodes", [](Scene& s) { s.nodes.resize(1), s.nodes[0].mesh = kNone; }},
 };
 
 const BadScene kNodes[] = {

@@ -1,4 +1,5 @@
 // Changes between frames: the bits of a new session, and nothing changed where a change fails.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -67,12 +68,6 @@ struct Change {
 };
 const Change kChanges[] = {
     {"node", [](Scene& s) { s.nodes[0].local = turned(); }, [](const Scene&, SceneChanges& c) { c.nodes.emplace_back(0, turned()); }},
-    {"area light", [](Scene& s) { s.nodes[3].local[3].y = 0.7f; },
-     [](const Scene& s, SceneChanges& c) {
-         glm::mat4 m = s.nodes[3].local;
-         m[3].y = 0.7f;
-         c.nodes.emplace_back(3, m);
-     }},
     {"material", [](Scene& s) { s.materials[0].roughness = 0.6f, s.materials[0].anisotropy_strength = 0.7f; },
      [](const Scene& s, SceneChanges& c) {
          Material m = s.materials[0];
@@ -203,6 +198,17 @@ TEST(change, that_fails_changes_nothing)
     refused("/materials/0/base_color_tex", ExitCode::usage, c);
     c = {}, c.primitives = {{0, 5}};
     refused("/primitives/0/material", ExitCode::bad_input, c);
+    // The area light and the shape that shows it
+    const auto shape = static_cast<std::int32_t>(session->scene().materials.size() - 1);
+    ASSERT_NE(session->scene().materials.back().emitter, kNoEmitter);
+    c = {}, c.nodes = {{3, turned()}};
+    refused("/nodes/3", ExitCode::usage, c);
+    c.nodes = {{static_cast<std::int32_t>(session->scene().nodes.size() - 1), turned()}};
+    refused(("/nodes/" + std::to_string(session->scene().nodes.size() - 1)).c_str(), ExitCode::usage, c);
+    c = {}, c.materials = {{shape, session->scene().materials.back()}};
+    refused(("/materials/" + std::to_string(shape)).c_str(), ExitCode::usage, c);
+    c = {}, c.primitives = {{0, shape}};
+    refused("/primitives/0/material", ExitCode::usage, c);
     c = {}, c.lights = {{0, dark}};
     refused("/lights/0/intensity", ExitCode::bad_input, c);
 }
@@ -223,6 +229,37 @@ TEST(change, of_scenes_on_a_floor_is_refused)
     EXPECT_NE(done.error().reason.find("floor"), std::string::npos);
     changes = {}, changes.environment = small_environment();
     EXPECT_TRUE(session->change(changes));
+}
+
+// Its contact shadows stay on the vertices.
+TEST(change, of_light_above_a_floor_has_the_bits_of_a_new_session)
+{
+    FloorSettings floor;
+    floor.kind = FloorKind::shadow;
+    const auto open_on_floor = [&](const std::shared_ptr<const Environment>& environment) {
+        const auto data = load_scene_data("builtin:shaderballs", {}, {}, {}, {}, {}, floor);
+        EXPECT_TRUE(data);
+        const Column<float>& seen = (*data)->visibility;
+        EXPECT_TRUE(std::any_of(seen.begin(), seen.end(), [](float share) { return share < 1.0f; }));
+        return Session::make({*data, environment, std::make_shared<const Jobs>(1), *standard_dfg(Jobs(1))});
+    };
+    const auto drawn_pot = [](Session& s) {
+        FrameDesc d = desc_of(s);
+        d.view = s.framed(d.width, d.height);
+        const Result<Frame> frame = s.render(d);
+        EXPECT_TRUE(frame);
+        return frame ? pixel_hash(frame->color) : 0;
+    };
+    EnvironmentOptions options;
+    options.cube_size = 16, options.samples = 4, options.use_cache = false;
+    const auto sky = load_shared_environment("builtin:sky", options, {}, Jobs(1));
+    ASSERT_TRUE(sky);
+    Result<Session> changed = open_on_floor(small_environment()), fresh = open_on_floor(*sky);
+    ASSERT_TRUE(changed && fresh);
+    SceneChanges changes;
+    changes.environment = *sky;
+    ASSERT_TRUE(changed->change(changes));
+    EXPECT_EQ(drawn_pot(*changed), drawn_pot(*fresh));
 }
 
 TEST(change, reaches_the_reference)

@@ -1,5 +1,7 @@
 // Stop and progress of sessions.
 #include <atomic>
+#include <cstdio>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <mutex>
 #include <stdexcept>
@@ -119,6 +121,58 @@ TEST(control, makes_errors_of_exceptions)
     const Result<Session> ended = Session::open("builtin:teapot", "builtin:studio", open_options(2));
     ASSERT_FALSE(ended);
     EXPECT_NE(ended.error().reason.find("no more"), std::string::npos) << ended.error().line();
+}
+
+// A function of progress may draw with another session, and comparisons go on.
+TEST(control, leaves_comparisons_and_its_own_function_alone)
+{
+    Result<Session> other = Session::open("builtin:plate", "builtin:studio", open_options(2));
+    ASSERT_TRUE(other);
+    FrameDesc desc;
+    desc.width = 32, desc.height = 24, desc.view = other->framed(32, 24);
+    std::stop_source stop;
+    int calls = 0;
+    Image picture = make_image(40, 30, 3, PixelType::f32);
+    const Controlled controlled({stop.get_token(), [&](const std::string&, double) {
+                                     stop.request_stop();
+                                     EXPECT_TRUE(other->render(desc));
+                                     ++calls;
+                                 }});
+    EXPECT_FALSE(Session::open("builtin:teapot", "builtin:studio", open_options(2)));
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(pixel_figures(picture, picture, Jobs(2)).max_abs, 0.0);
+}
+
+// A stopped reference keeps its passes for a later run.
+TEST(control, of_a_reference_leaves_a_checkpoint)
+{
+    if (!reference_available())
+        GTEST_SKIP() << "built without Embree";
+    const std::string checkpoint = testing::TempDir() + "stopped.part";
+    static_cast<void>(std::remove(checkpoint.c_str()));
+    Result<Session> tile = Session::open("builtin:plate", "builtin:studio", open_options(2));
+    ASSERT_TRUE(tile);
+    SessionOptions options;
+    options.backend = Backend::reference;
+    options.reference.samples = 1u << 24, options.reference.checkpoint = checkpoint;
+    Result<Session> session = Session::make(tile->parts(), options);
+    ASSERT_TRUE(session);
+    FrameDesc desc;
+    desc.width = 64, desc.height = 48, desc.technique = "mc", desc.samples = 1, desc.view = session->framed(64, 48);
+    std::stop_source stop;
+    {
+        const Controlled controlled({stop.get_token(), [&](const std::string&, double done) {
+                                         if (done > 0.0)
+                                             stop.request_stop();
+                                     }});
+        const Result<Frame> stopped = session->render(desc);
+        ASSERT_FALSE(stopped);
+        EXPECT_EQ(stopped.error().code, ExitCode::stopped);
+    }
+    const Status readable = check_reference_checkpoint(session->parts().input(), desc, options.reference);
+    EXPECT_TRUE(readable) << readable.error().line();
+    EXPECT_GT(std::filesystem::file_size(checkpoint), 1000u);
+    std::filesystem::remove(checkpoint);
 }
 
 TEST(control, belongs_to_its_thread)
