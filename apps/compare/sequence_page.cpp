@@ -15,7 +15,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kWidth = 760.0, kHeight = 330.0, kLeft = 62.0, kRight = 590.0, kTop = 14.0, kBottom = 276.0; // px
+constexpr double kPlotWidth = 760.0, kPlotHeight = 330.0, kPlotLeft = 62.0, kPlotRight = 590.0, kPlotTop = 14.0, kPlotBottom = 276.0; // px
 constexpr double kSpotRadius = 3.0;
 
 struct FrameCurve {
@@ -27,24 +27,24 @@ constexpr FrameCurve kCurves[] = {
 // Draws errors and changes over the frames' numbers.
 Drawing plot_frames(const Json& rows)
 {
-    Drawing out(kWidth, kHeight, "chart", "FLIP by frame: error, change from the frame before, and the reference's change");
+    Drawing out(kPlotWidth, kPlotHeight, "chart", "FLIP by frame: error, change from the frame before, and the reference's change");
     double most = 1e-6;
     for (const Json& row : rows)
         for (const FrameCurve& curve : kCurves)
             most = std::max(most, row.value(curve.key, 0.0));
-    const Axis x = linear_axis(rows.front()["frame"].get<double>(), rows.back()["frame"].get<double>(), kLeft, kRight);
-    const Axis y{0.0, 1.05 * most, kBottom, kTop, true};
+    const Axis x = linear_axis(rows.front()["frame"].get<double>(), rows.back()["frame"].get<double>(), kPlotLeft, kPlotRight);
+    const Axis y{0.0, 1.05 * most, kPlotBottom, kPlotTop, true};
     for (const double value : linear_ticks(x, 9)) {
-        out.line({{x.at(value), kTop}, {x.at(value), kBottom}}, "grid");
-        out.text(x.at(value), kBottom + 18.0, "tick middle", number(value));
+        out.line({{x.at(value), kPlotTop}, {x.at(value), kPlotBottom}}, "grid");
+        out.text(x.at(value), kPlotBottom + 18.0, "tick middle", number(value));
     }
     for (const double value : linear_ticks(y, 7)) {
-        out.line({{kLeft, y.at(value)}, {kRight, y.at(value)}}, "grid");
-        out.text(kLeft - 7.0, y.at(value) + 4.5, "tick end", number(value));
+        out.line({{kPlotLeft, y.at(value)}, {kPlotRight, y.at(value)}}, "grid");
+        out.text(kPlotLeft - 7.0, y.at(value) + 4.5, "tick end", number(value));
     }
-    out.text(0.5 * (kLeft + kRight), kBottom + 40.0, "title middle", "frame");
-    out.text(14.0, 0.5 * (kTop + kBottom), "title middle", "FLIP", -90.0);
-    LabelPlacer placer(kLeft, kTop, kWidth - 2.0, kBottom);
+    out.text(0.5 * (kPlotLeft + kPlotRight), kPlotBottom + 40.0, "title middle", "frame");
+    out.text(14.0, 0.5 * (kPlotTop + kPlotBottom), "title middle", "FLIP", -90.0);
+    LabelPlacer placer(kPlotLeft, kPlotTop, kPlotWidth - 2.0, kPlotBottom);
     for (const FrameCurve& curve : kCurves) {
         Points points;
         for (const Json& row : rows)

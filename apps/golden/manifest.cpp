@@ -18,7 +18,7 @@ namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-using Value = nlohmann::ordered_json;
+using JsonValue = nlohmann::ordered_json;
 
 constexpr std::uint64_t kMostManifestBytes = 64ull << 20;
 constexpr std::size_t kMostName = 150; // bytes
@@ -29,13 +29,13 @@ struct Mistake {
     std::string place, reason;
 };
 
-const Value* member(const Value& of, const char* name)
+const JsonValue* member(const JsonValue& of, const char* name)
 {
     const auto at = of.find(name);
     return at == of.end() ? nullptr : &*at;
 }
 
-void check_members(const Value& of, const std::string& place, const std::set<std::string>& known)
+void check_members(const JsonValue& of, const std::string& place, const std::set<std::string>& known)
 {
     if (!of.is_object())
         throw Mistake{place, "is no object"};
@@ -44,9 +44,9 @@ void check_members(const Value& of, const std::string& place, const std::set<std
             throw Mistake{place + "/" + name, "is unknown; known are " + join({known.begin(), known.end()})};
 }
 
-std::string text_of(const Value& of, const char* name, const std::string& place, const std::string& fallback)
+std::string text_of(const JsonValue& of, const char* name, const std::string& place, const std::string& fallback)
 {
-    const Value* value = member(of, name);
+    const JsonValue* value = member(of, name);
     if (value && !value->is_string())
         throw Mistake{place + "/" + name, "is no text"};
     const std::string text = value ? value->get<std::string>() : fallback;
@@ -55,10 +55,10 @@ std::string text_of(const Value& of, const char* name, const std::string& place,
     return text;
 }
 
-std::vector<std::string> words_of(const Value& of, const char* name, const std::string& place)
+std::vector<std::string> words_of(const JsonValue& of, const char* name, const std::string& place)
 {
     std::vector<std::string> words;
-    const Value* value = member(of, name);
+    const JsonValue* value = member(of, name);
     if (value && !value->is_array())
         throw Mistake{place + "/" + name, "is no list of words"};
     for (std::size_t i = 0; value && i < value->size(); ++i) {
@@ -69,9 +69,9 @@ std::vector<std::string> words_of(const Value& of, const char* name, const std::
     return words;
 }
 
-std::optional<double> number_of(const Value& of, const char* name, const std::string& place, double most)
+std::optional<double> number_of(const JsonValue& of, const char* name, const std::string& place, double most)
 {
-    const Value* value = member(of, name);
+    const JsonValue* value = member(of, name);
     if (!value)
         return std::nullopt;
     if (!value->is_number() || !(value->get<double>() >= 0.0 && value->get<double>() <= most))
@@ -79,9 +79,9 @@ std::optional<double> number_of(const Value& of, const char* name, const std::st
     return value->get<double>();
 }
 
-void read_limits(const Value& of, const std::string& place, GoldenLimits& to)
+void read_limits(const JsonValue& of, const std::string& place, GoldenLimits& to)
 {
-    const Value* hold = member(of, "hold");
+    const JsonValue* hold = member(of, "hold");
     if (!hold)
         return;
     check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z", "instructions"});
@@ -90,9 +90,9 @@ void read_limits(const Value& of, const std::string& place, GoldenLimits& to)
           number_of(*hold, "instructions", place + "/hold", 1e18)};
 }
 
-void read_environment(const Value& of, const std::string& place, std::map<std::string, std::string>& to)
+void read_environment(const JsonValue& of, const std::string& place, std::map<std::string, std::string>& to)
 {
-    const Value* variables = member(of, "environment");
+    const JsonValue* variables = member(of, "environment");
     if (!variables)
         return;
     if (!variables->is_object())
@@ -112,7 +112,7 @@ struct Defaults {
 };
 
 // Reads the members that both a row and the defaults may have.
-void read_common(const Value& of, const std::string& place, std::string& format, GoldenRow& to)
+void read_common(const JsonValue& of, const std::string& place, std::string& format, GoldenRow& to)
 {
     read_limits(of, place, to.limits);
     read_environment(of, place, to.environment);
@@ -138,7 +138,7 @@ void check_name(const std::string& name, const std::string& place, std::set<std:
         throw Mistake{place + "/name", "'" + name + "' is the name of an earlier row"};
 }
 
-GoldenRow read_row(const Value& of, const std::string& place, const Defaults& defaults, std::set<std::string>& taken)
+GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults& defaults, std::set<std::string>& taken)
 {
     check_members(of, place,
                   {"name", "scene", "options", "command", "picture", "golden", "hold", "environment", "seconds", "mask", "format", "keep"});
@@ -183,17 +183,17 @@ GoldenRow read_row(const Value& of, const std::string& place, const Defaults& de
     return row;
 }
 
-GoldenManifest manifest_of(const Value& json, const std::string& folder)
+GoldenManifest manifest_of(const JsonValue& json, const std::string& folder)
 {
     check_members(json, "", {"$schema", "goldens", "defaults", "rows"});
     Defaults defaults;
     defaults.goldens = text_of(json, "goldens", "", defaults.goldens);
-    if (const Value* given = member(json, "defaults")) {
+    if (const JsonValue* given = member(json, "defaults")) {
         check_members(*given, "/defaults", {"options", "hold", "environment", "seconds", "mask", "format", "keep"});
         defaults.options = words_of(*given, "options", "/defaults");
         read_common(*given, "/defaults", defaults.format, defaults.row);
     }
-    const Value* rows = member(json, "rows");
+    const JsonValue* rows = member(json, "rows");
     if (!rows || !rows->is_array() || rows->empty())
         throw Mistake{"/rows", "is no list of rows"};
     GoldenManifest manifest;
@@ -239,10 +239,10 @@ Result<GoldenManifest> read_manifest(const std::string& path)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostManifestBytes);
     BN_TRY(bytes);
-    Value json;
+    JsonValue json;
     try {
-        json = Value::parse(bytes->begin(), bytes->end());
-    } catch (const Value::parse_error& e) {
+        json = JsonValue::parse(bytes->begin(), bytes->end());
+    } catch (const JsonValue::parse_error& e) {
         return Error{ExitCode::bad_input, path, line_and_column(*bytes, e.byte), "is no JSON here; JSON has no comments"};
     }
     try {

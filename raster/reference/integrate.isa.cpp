@@ -96,7 +96,13 @@ BN_INLINE CoatingUnderLamps coating_under_lamps(const ReferenceParams& f, const 
     CoatingUnderLamps c;
     if (!has_coating(r, at))
         return c;
-    make_coating_point(f, r.coats[at], r.x.geometric_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
+    const coating& layer = r.coats[at];
+    dfg_value albedo = {lit(1.0), lit(0.0)};
+#define BN_COATING(id, bit, strength, trait)                                                                                               \
+    if (at == (bit))                                                                                                                       \
+        albedo = id##_albedo(f, layer, coating_n_dot_v(layer, r.x.s.v));
+#include "shading/coatings.def"
+    make_coating_point(layer, albedo, r.x.geometric_axes, r.x.s.v, r.x.s.occlusion, false, c.point);
     c.lobe = bsdf_lobe_under_lights(kCoatingLobes[at], c.point.lobe, c.point.s, c.point.geometric_axes);
     return c;
 }

@@ -44,15 +44,15 @@ struct coating_light {
     real3 gloss; // the coating's own light
 };
 
-// Shades a coating. lobe: its lobe, index in shading/models.def. samples, traits: the technique's. A technique that samples lobes samples
-// the coating's too; lobe_line takes its environment light from a line of samples, others from one prefiltered fetch.
-BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe, BN_IN(material_inputs) at, BN_IN(surface_frame) axes,
-                                     BN_IN(visible_point) p, integer pixel_id, int samples, int traits)
+// Shades a coating. albedo: of its lobe; lobe: its index in shading/models.def. samples, traits: the technique's. A technique that samples
+// lobes samples the coating's too; lobe_line takes its environment light from a line of samples, others from one prefiltered fetch.
+BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(dfg_value) albedo, int lobe, BN_IN(material_inputs) at,
+                                     BN_IN(surface_frame) axes, BN_IN(visible_point) p, integer pixel_id, int samples, int traits)
 {
     shaded_point c;
     c.pixel_id = pixel_id;
     c.samples = samples;
-    make_coating_point(f, layer, axes, k_normalize3(-p.ray), at.occlusion, layer.has_surface_horizon, c);
+    make_coating_point(layer, albedo, axes, k_normalize3(-p.ray), at.occlusion, layer.has_surface_horizon, c);
     // Add environment light
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
@@ -82,8 +82,10 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, int lobe
                                          int traits)                                                                                       \
     {                                                                                                                                      \
         surface_frame axes = facing_geometric_axes(p);                                                                                     \
-        coating layer = id##_coating(f, m, at, axes, k_normalize3(-p.ray), facing_handedness(p));                                          \
-        return light_of_coating(f, layer, lobe_that_has(trait), at, axes, p, pixel_id, the_material(m).samples, traits);                   \
+        real3 v = k_normalize3(-p.ray);                                                                                                    \
+        coating layer = id##_coating(f, m, at, axes, v, facing_handedness(p));                                                             \
+        dfg_value albedo = id##_albedo(f, layer, coating_n_dot_v(layer, v));                                                               \
+        return light_of_coating(f, layer, albedo, lobe_that_has(trait), at, axes, p, pixel_id, the_material(m).samples, traits);           \
     }
 #include "shading/coatings.def"
 

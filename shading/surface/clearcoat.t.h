@@ -8,6 +8,7 @@
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
 #include "shading/surface/coating.t.h"
+#include "shading/surface/dfg.k.h"
 #include "shading/surface/material_inputs.t.h"
 #include "shading/surface/surface.k.h"
 
@@ -29,6 +30,12 @@ BN_FN void clearcoat_inputs(material_ref m, BN_IN(texture_fetches) t, BN_INOUT(m
         r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
     if (texture_used(m, kCoatNormalTex))
         r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
+}
+
+// Returns the directional albedo of the coat's lobe.
+BN_FN dfg_value clearcoat_albedo(frame_ref f, BN_IN(coating) layer, real n_dot_v)
+{
+    return ggx_coating_albedo(f, layer, n_dot_v);
 }
 
 // Returns the coat of a coated material; the parameters are explained in coating.t.h.

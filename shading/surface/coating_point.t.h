@@ -12,14 +12,14 @@
 BN_KERNELS_BEGIN
 
 // Fills c, except members that only other lobes and random numbers use. axes: the geometry's; v: to the eye, unit, world
-// space; has_surface_horizon: the frame tests the geometry's horizon.
-BN_FN void make_coating_point(frame_ref f, BN_IN(coating) layer, BN_IN(surface_frame) axes, real3 v, real occlusion,
+// space; albedo: of the coating's lobe; has_surface_horizon: the frame tests the geometry's horizon.
+BN_FN void make_coating_point(BN_IN(coating) layer, BN_IN(dfg_value) albedo, BN_IN(surface_frame) axes, real3 v, real occlusion,
                               bool has_surface_horizon, BN_INOUT(shaded_point) c)
 {
     // Set up a surface with the coating's specular part alone
     c.s.n = layer.axes.n;
     c.s.v = v;
-    c.s.n_dot_v = min(max(k_dot3(layer.axes.n, v), lit(1e-4)), lit(1.0));
+    c.s.n_dot_v = coating_n_dot_v(layer, v);
     c.s.diffuse = vec3_all(lit(0.0));
     c.s.f0 = layer.reflectance;
     c.s.f90 = layer.reflectance;
@@ -34,12 +34,8 @@ BN_FN void make_coating_point(frame_ref f, BN_IN(coating) layer, BN_IN(surface_f
     c.geometric_axes = axes;
     c.has_surface_horizon = has_surface_horizon;
     c.diffuse = false;
-    // Look up directional albedo
-    if (the_frame(f).dfg_fit != 0)
-        c.energy.dfg = dfg_fit(c.s.n_dot_v, layer.roughness);
-    else
-        c.energy.dfg = dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, c.s.n_dot_v, layer.roughness);
     // Find albedo; a coating has no energy compensation
+    c.energy.dfg = albedo;
     c.energy.albedo = albedo_of(c.s, c.energy.dfg);
     c.energy.phong_albedo = lit(-1.0);
     c.energy.own_dfg.scale = lit(1.0);

@@ -7,7 +7,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kCells = 150; // density cells along a side
+constexpr int kDensityCells = 150; // density cells along a side
 constexpr double kShades = 96.0;
 constexpr int kContourCells = 150; // along a side of the contour grid
 constexpr int kCirclePoints = 180;
@@ -48,28 +48,29 @@ PlotVec mix(const PlotVec& a, const PlotVec& b, double t)
 void draw_density(Drawing& out, const Panel& panel, Edge edge, const Density& density)
 {
     std::vector<double> values;
-    for (int row = 0; row < kCells; ++row)
-        for (int column = 0; column < kCells; ++column)
-            values.push_back(density(grid_place(panel, column + 0.5, row + 0.5, kCells)));
+    for (int row = 0; row < kDensityCells; ++row)
+        for (int column = 0; column < kDensityCells; ++column)
+            values.push_back(density(grid_place(panel, column + 0.5, row + 0.5, kDensityCells)));
     const double most = *std::max_element(values.begin(), values.end());
     if (!(most > 0.0))
         return;
-    const double side = kSide / kCells;
-    for (int row = 0; row < kCells; ++row) {
-        const double y = grid_place(panel, 0.0, row + 0.5, kCells).y;
+    const double side = kSide / kDensityCells;
+    for (int row = 0; row < kDensityCells; ++row) {
+        const double y = grid_place(panel, 0.0, row + 0.5, kDensityCells).y;
         const double reach = edge == Edge::horizon ? std::sqrt(1.0 - y * y) : panel.reach;
         const auto [least, unused] = panel.at({-reach, y});
         const double greatest = panel.at({reach, y}).first;
         const auto shade_of = [&](int column) { // in steps too small to see
-            return std::round(kShades * std::sqrt(std::max(values[static_cast<std::size_t>(row * kCells + column)], 0.0) / most)) / kShades;
+            return std::round(kShades * std::sqrt(std::max(values[static_cast<std::size_t>(row * kDensityCells + column)], 0.0) / most)) /
+                   kShades;
         };
-        for (int begin = 0, end; begin < kCells; begin = end) { // a run of cells with one shade is one rectangle
+        for (int begin = 0, end; begin < kDensityCells; begin = end) { // a run of cells with one shade is one rectangle
             const double shade = shade_of(begin);
-            for (end = begin + 1; end < kCells && shade_of(end) == shade;)
+            for (end = begin + 1; end < kDensityCells && shade_of(end) == shade;)
                 ++end;
             const double left = std::max(panel.left + side * begin, least), right = std::min(panel.left + side * end + 0.3, greatest);
             if (left < right)
-                out.rectangle(left, panel.top + side * row, right - left, side + (row + 1 < kCells ? 0.3 : 0.0), "",
+                out.rectangle(left, panel.top + side * row, right - left, side + (row + 1 < kDensityCells ? 0.3 : 0.0), "",
                               Paint{255.0 - 215.0 * shade, 255.0 - 175.0 * shade, 255.0 - 105.0 * shade});
         }
     }

@@ -12,7 +12,7 @@
 namespace burnish {
 namespace {
 
-constexpr double kBallRadius = 0.1, kBallsApart = 0.26, kGround = 0.9; // metres; kGround: half the floor's side
+constexpr double kShaderballRadius = 0.1, kBallsApart = 0.26, kGround = 0.9; // metres; kGround: half the floor's side
 constexpr int kMapSide = 512;
 constexpr int kTimes[] = {1, 4, 16};
 
@@ -184,13 +184,13 @@ Scene make_shaderballs()
             const std::uint32_t first = begin_primitive(scene, material);
             if (ball == 0) {
                 ball = first;
-                add_sphere(scene, 64, 32, kBallRadius);
+                add_sphere(scene, 64, 32, kShaderballRadius);
             } else {
                 scene.primitives[first] = scene.primitives[ball];
                 scene.primitives[first].material = material;
             }
             glm::mat4 local(1.0f);
-            local[3] = glm::vec4(static_cast<float>((column - 1) * kBallsApart), static_cast<float>(kBallRadius),
+            local[3] = glm::vec4(static_cast<float>((column - 1) * kBallsApart), static_cast<float>(kShaderballRadius),
                                  static_cast<float>((1.5 - row) * kBallsApart), 1.0f);
             const char* name = scene.materials.back().name.c_str();
             add_node(scene, name, add_mesh(scene, name, first), local);

@@ -76,7 +76,7 @@ std::uint64_t joints_of_mesh(const Document& doc, std::size_t mesh)
     return least;
 }
 
-struct Influences { // one vertex's influences so far
+struct VertexInfluences { // one vertex's influences so far
     double sum = 0.0;
     int used = 0;
     std::set<std::uint32_t> joints;
@@ -84,7 +84,7 @@ struct Influences { // one vertex's influences so far
 
 // Returns the fault in four of a vertex's influences, or "".
 std::string fault_of(const AccessorView& joints, const AccessorView& weights, std::uint64_t vertex, std::uint64_t joint_count,
-                     Influences& all)
+                     VertexInfluences& all)
 {
     for (int c = 0; c < 4; ++c) {
         const double weight = static_cast<double>(weights.number(vertex, c));
@@ -115,7 +115,7 @@ void check_influences(Document& doc, const Json& primitive, std::uint64_t joint_
                 return; // already reported
     }
     for (std::uint64_t v = 0; !joints.empty() && v < joints[0].count(); ++v) {
-        Influences all;
+        VertexInfluences all;
         for (std::size_t set = 0; set < joints.size(); ++set)
             if (const std::string reason = fault_of(joints[set], weights[set], v, joint_count, all); !reason.empty())
                 return doc.fault(place, reason);

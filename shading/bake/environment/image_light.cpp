@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-constexpr int kSubsamples = 4; // per pixel and axis
+constexpr int kFaceSubsamples = 4; // per pixel and axis
 
 float unit_value(const Image& image, std::size_t i)
 {
@@ -67,7 +67,7 @@ Image sky_of(const ImageLight& light, const Jobs& jobs)
     }
     const int width = 4 * light.size, height = 2 * light.size;
     const glm::dmat3 cube_from_world = glm::transpose(light.world_from_cube);
-    std::vector<glm::dvec2> around(static_cast<std::size_t>(width * kSubsamples)); // cosine and sine of the longitude
+    std::vector<glm::dvec2> around(static_cast<std::size_t>(width * kFaceSubsamples)); // cosine and sine of the longitude
     for (std::size_t i = 0; i < around.size(); ++i) {
         const double angle = 2.0 * kPi * ((static_cast<double>(i) + 0.5) / static_cast<double>(around.size()) - 0.5);
         around[i] = {det_cos(angle), det_sin(angle)};
@@ -75,19 +75,19 @@ Image sky_of(const ImageLight& light, const Jobs& jobs)
     Image sky = make_image(width, height, 3, PixelType::f32);
     jobs.parallel_for(static_cast<std::size_t>(height), [&](std::size_t y, int) {
         std::vector<glm::dvec3> sums(static_cast<std::size_t>(width), glm::dvec3(0.0));
-        for (int k = 0; k < kSubsamples; ++k) {
-            const double polar = kPi * (static_cast<double>(y) + (k + 0.5) / kSubsamples) / height;
+        for (int k = 0; k < kFaceSubsamples; ++k) {
+            const double polar = kPi * (static_cast<double>(y) + (k + 0.5) / kFaceSubsamples) / height;
             const double up = det_cos(polar), out = det_sin(polar);
             for (std::size_t i = 0; i < around.size(); ++i) {
                 const glm::dvec3 d = cube_from_world * glm::dvec3(out * around[i].x, up, out * around[i].y);
                 const float* texel = cube.data() + texel_at(d, light.size) * 3;
-                sums[i / kSubsamples] += glm::dvec3(texel[0], texel[1], texel[2]);
+                sums[i / kFaceSubsamples] += glm::dvec3(texel[0], texel[1], texel[2]);
             }
         }
         float* row = sky.f32() + y * static_cast<std::size_t>(width) * 3;
         for (std::size_t x = 0; x < sums.size(); ++x)
             for (int c = 0; c < 3; ++c)
-                row[x * 3 + static_cast<std::size_t>(c)] = static_cast<float>(sums[x][c] / (kSubsamples * kSubsamples));
+                row[x * 3 + static_cast<std::size_t>(c)] = static_cast<float>(sums[x][c] / (kFaceSubsamples * kFaceSubsamples));
     });
     return sky;
 }
