@@ -74,6 +74,8 @@ Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const 
     // A picture from before the run must not pass for a new one
     const std::string from = in_folder(manifest.folder, row.picture);
     if (row.kind == GoldenKind::command) {
+        std::error_code ignored; // the program says so if its folder is missing
+        fs::create_directories(fs::path(from).parent_path(), ignored);
         const FileState before = state_of(from);
         BN_TRY(run_child(run));
         const FileState after = state_of(from);

@@ -11,6 +11,9 @@
 #include <thread>
 #include <unistd.h>
 
+#include "core/base/file.h"
+#include "core/base/text.h"
+
 extern char** environ;
 
 namespace burnish {
@@ -42,6 +45,23 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts)
         pointers.push_back(text.data());
     pointers.push_back(nullptr);
     return pointers;
+}
+
+// Returns ": LINE" with the last line of a program's output, or "".
+std::string last_words(const std::string& path)
+{
+    constexpr std::uint64_t kMostBytes = 64ull << 20;
+    constexpr std::size_t kMostCharacters = 200;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
+    if (!bytes)
+        return "";
+    const std::string text(bytes->begin(), bytes->end());
+    const std::size_t end = text.find_last_not_of(" \r\n\t");
+    if (end == std::string::npos)
+        return "";
+    const std::size_t before = text.rfind('\n', end);
+    const std::string line = text.substr(before == std::string::npos ? 0 : before + 1, kMostCharacters);
+    return ": " + printable(line.substr(0, line.find_first_of("\r\n")));
 }
 
 // Waits for the child's end, or kills its group at the limit or when stopped. Returns false then.
@@ -91,14 +111,14 @@ Status run_child(const ChildRun& run)
     int status = 0;
     if (!wait_for(child, run.seconds, run.stop, status))
         return failed(run.stop && *run.stop ? run.words[0] + " was stopped"
-                                            : fmt::format("{} was stopped after {:g} seconds", run.words[0], run.seconds));
+                                            : fmt::format("{} was stopped after {:g} s", run.words[0], run.seconds));
     kill(-child, SIGKILL); // whatever it left running
     if (status == -1)
         return failed(fmt::format("{} ended, and nobody knows how", run.words[0]));
     if (WIFSIGNALED(status))
         return failed(fmt::format("{} was ended by signal {}", run.words[0], WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0)
-        return failed(fmt::format("{} ended with exit code {}", run.words[0], WEXITSTATUS(status)));
+        return failed(fmt::format("{} ended with exit code {}{}", run.words[0], WEXITSTATUS(status), last_words(run.output)));
     return {};
 }
 

@@ -299,6 +299,8 @@ int bless(const GoldenArguments& arguments, Report& report)
         for (const GoldenResult& r : *results)
             if (r.verdict == GoldenVerdict::differs || r.verdict == GoldenVerdict::missing)
                 chosen.insert(r.name);
+    if (!results->empty() && std::none_of(results->begin(), results->end(), [&](const GoldenResult& r) { return rows.contains(r.name); }))
+        return fail(Error{ExitCode::bad_input, arguments.results, "", "holds no row of the manifest: -o names the folder of its check"});
     // Check every name before the first golden changes
     const std::string source = arguments.from.empty() ? arguments.results : arguments.from;
     for (const std::string& name : chosen)

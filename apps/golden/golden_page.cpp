@@ -23,6 +23,7 @@ constexpr const char* kStyle = R"(
 .rows img { width: 100px; height: auto; display: block; border: 1px solid var(--line); }
 .differs, .failed, .missing { color: #c22; }
 @media (prefers-color-scheme: dark) { .differs, .failed, .missing { color: #f77; } }
+.command { white-space: nowrap; }
 .tiles { grid-template-columns: minmax(0, 60rem); }
 textarea { width: 100%; box-sizing: border-box; height: 6rem; }
 )";
@@ -89,7 +90,8 @@ std::string row_html(const GoldenResult& r, const std::string& folder, int wall)
         links += (links.empty() ? "" : ", ") + link(r.log, "output of its program");
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td><strong>{}</strong> <span class=\"verdict {}\">{}</span><br>{}{}{}{}</td></tr>\n",
-        can_bless ? fmt::format("<input type=\"checkbox\" class=\"bless\" aria-label=\"bless\" data-name=\"{}\">", escaped(r.name)) : "",
+        can_bless ? fmt::format("<input type=\"checkbox\" class=\"bless\" aria-label=\"bless {0}\" data-name=\"{0}\">", escaped(r.name))
+                  : "",
         thumbnail(folder + "/" + shown + ".png", "new picture"), escaped(r.name), verdict_name(r.verdict), verdict_name(r.verdict),
         escaped(r.reason), r.reason.empty() ? "" : "<br>", links,
         wall < 0 ? "" : fmt::format("{}<a href=\"#wall-{}\">compare</a>", links.empty() ? "" : ", ", wall));
@@ -143,9 +145,12 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
             "</th><th></th><th>picture</th></tr>\n" + rows + "</table>\n";
     if (counts.differs + counts.missing)
         page +=
-            "<h2>Bless</h2>\n<p>Check the rows whose new picture is right, save the list, and run <code>burnish golden bless MANIFEST "
-            "--from bless.txt</code>.</p>\n<p><a id=\"save\" download=\"bless.txt\">Save the list</a></p>\n<textarea id=\"list\" readonly "
+            "<h2>Bless</h2>\n<p>Check the rows whose new picture is right, save the list, and run <code class=\"command\">burnish golden "
+            "bless MANIFEST --from bless.txt -o RESULTS</code>. MANIFEST is that of this run, RESULTS the folder of this page; without -o "
+            "it is golden-results.</p>\n<p><a id=\"save\" download=\"bless.txt\">Save the list</a></p>\n<textarea id=\"list\" readonly "
             "aria-label=\"list of rows to bless\"></textarea>\n";
+    if (!places.empty())
+        page += "<p>Error maps show HDR-FLIP: black is 0, purple and orange lie between, light yellow is 1.</p>\n";
     const Json data = {{"subject", "New picture"}, {"other", "Golden"}, {"width", 1}, {"height", 1},
                        {"places", places},         {"rows", data_rows}};
     return page + walls +

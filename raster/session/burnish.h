@@ -73,6 +73,12 @@ void burnish_close(burnish_session* session);
 int burnish_find_node(const burnish_session* session, const char* name); /* its index; -1: none */
 int burnish_find_material(const burnish_session* session, const char* name);
 int burnish_find_light(const burnish_session* session, const char* name);
+/* Names by index; NULL past the end. They live until the session changes. */
+const char* burnish_scene_node(const burnish_session* session, int index);
+const char* burnish_scene_material(const burnish_session* session, int index);
+const char* burnish_scene_light(const burnish_session* session, int index);
+/* What was repaired or left out while the scene and its environment were read, one line each; NULL past the end. */
+const char* burnish_warning(const burnish_session* session, int index);
 /* matrix: 16, column by column, to the parent's space. Scenes with a floor refuse it. */
 int burnish_set_node(burnish_session* session, int node, const float* matrix);
 /* factors: by names of burnish_material_name; others stay as they are. Scenes with a floor refuse it. */

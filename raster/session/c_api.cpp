@@ -341,6 +341,12 @@ template <class T> int find_named(const std::vector<T>& list, const char* name)
     return at == list.end() ? -1 : static_cast<int>(at - list.begin());
 }
 
+// Returns the name at an index, or null.
+template <class T> const char* name_at(const std::vector<T>& list, int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? list[static_cast<std::size_t>(index)].name.c_str() : nullptr;
+}
+
 // Returns an error unless the index lies in a list.
 Status check_index(const char* what, int index, std::size_t size)
 {
@@ -364,6 +370,33 @@ int burnish_find_material(const burnish_session* session, const char* name)
 int burnish_find_light(const burnish_session* session, const char* name)
 {
     return session ? find_named(session->session.scene().lights, name) : -1;
+}
+
+const char* burnish_scene_node(const burnish_session* session, int index)
+{
+    return session ? name_at(session->session.scene().nodes, index) : nullptr;
+}
+
+const char* burnish_scene_material(const burnish_session* session, int index)
+{
+    return session ? name_at(session->session.scene().materials, index) : nullptr;
+}
+
+const char* burnish_scene_light(const burnish_session* session, int index)
+{
+    return session ? name_at(session->session.scene().lights, index) : nullptr;
+}
+
+const char* burnish_warning(const burnish_session* session, int index)
+{
+    if (!session || index < 0)
+        return nullptr;
+    const std::vector<std::string>& of_scene = session->session.scene().warnings;
+    const std::vector<std::string>& of_light = session->session.parts().environment->warnings;
+    const auto at = static_cast<std::size_t>(index);
+    if (at < of_scene.size())
+        return of_scene[at].c_str();
+    return at - of_scene.size() < of_light.size() ? of_light[at - of_scene.size()].c_str() : nullptr;
 }
 
 int burnish_set_node(burnish_session* session, int node, const float* matrix)

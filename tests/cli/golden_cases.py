@@ -101,20 +101,22 @@ def commands(bench):
 def failing(bench):
     (bench.folder / "old.png").write_bytes(b"")
     bad = {"ends": ["sh", "-c", "echo no >&2; exit 3"], "hangs": ["sh", "-c", "sleep 60 & sleep 60"], "dies": ["sh", "-c", "kill -9 $$"],
-           "writes nothing": ["true"], "absent": ["./no-such-program"]}
-    rows = [{"name": name, "command": words, "picture": "old.png" if name == "writes nothing" else f"{i}.png", "seconds": 0.5}
+           "writes nothing": ["true"], "into a folder": ["sh", "-c", "echo words > new/3.png; exit 0"], "absent": ["./no-such-program"]}
+    rows = [{"name": name, "command": words, "picture": "old.png" if name == "writes nothing" else "new/3.png" if name == "into a folder" else f"{i}.png", "seconds": 0.5}
             for i, (name, words) in enumerate(bad.items())]
     rows.append({"name": "no picture", "picture": "absent.png"})
     rows.append({"name": "no scene", "scene": "absent.glb"})
     write(bench, rows)
     done = bench.run("golden", "check", "m.json", "--jobs", "3", timeout=30.0).expect(4)
     reasons = {name: r["reason"] for name, r in results(bench).items()}
-    for name, words in {"ends": "exit code 3", "hangs": "stopped after 0.5 seconds", "dies": "signal 9", "writes nothing": "wrote no old.png",
-                        "absent": "cannot be started", "no picture": "absent.png", "no scene": "exit code 4"}.items():
+    for name, words in {"ends": "exit code 3: no", "hangs": "stopped after 0.5 s", "dies": "signal 9", "writes nothing": "wrote no old.png", "into a folder": "new/3.png",
+                        "absent": "cannot be started", "no picture": "absent.png", "no scene": "absent.glb"}.items():
         check(words in reasons[name], f"{name}: {reasons[name]}")
-    check(set(verdicts(bench).values()) == {"failed"} and "7 could not be made" in done.out, done.out)
+    check(set(verdicts(bench).values()) == {"failed"} and "8 could not be made" in done.out, done.out)
     check((bench.folder / "golden-results/logs/ends.txt").read_text() == "no\n", "the output of the program is not kept")
     bench.run("golden", "bless", "m.json").expect(0)  # nothing can be
+    (bench.folder / "other.json").write_text(json.dumps({"rows": [{"name": "another", "picture": "absent.png"}]}))
+    bench.run("golden", "bless", "other.json").expect(4).expect_one_line("golden-results", "no row of the manifest")
     (bench.folder / "list.txt").write_text("ends\n")
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("ends", "no new picture")
 

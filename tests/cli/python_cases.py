@@ -206,7 +206,9 @@ def from_c(bench):
     folder, compiler = library(bench).parent, shutil.which("cc") or shutil.which("gcc")
     if not compiler:
         raise Skipped("no C compiler")
-    subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", str(ROOT / "tests/package/plate.c"), "-I", str(ROOT / "raster/session"),
+    (bench.folder / "burnish").mkdir()
+    shutil.copy(ROOT / "raster/session/burnish.h", bench.folder / "burnish")  # as it is installed
+    subprocess.run([compiler, "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", str(ROOT / "tests/package/plate.c"), "-I", str(bench.folder),
                     "-L", str(folder), "-lburnish", f"-Wl,-rpath,{folder}", "-o", str(bench.folder / "plate")], check=True, timeout=120)
     done = subprocess.run([str(bench.folder / "plate")], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True, timeout=120)
     check(done.returncode == 0, f"ended with {done.returncode}: {done.stderr}")

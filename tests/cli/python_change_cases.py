@@ -62,6 +62,9 @@ first = scene.render({FRAME}).hash
 scene.set_light(0, intensity=0)
 dark = scene.render({FRAME}).hash
 assert dark != first
+assert scene.lights and scene.nodes and scene.materials and None not in scene.nodes
+named = next(name for name in scene.nodes if name)
+scene.move(named, [[1, 0, 0, 0.01], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
 floor = burnish.load('builtin:plate', floor='shadow', {KEYWORDS})
 try: floor.move(0, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
 except burnish.Error as error: assert error.code == 2 and 'floor' in str(error), str(error)
@@ -92,8 +95,14 @@ for source in sources:
     scene = burnish.load('builtin:plate', 'builtin:sky', {KEYWORDS})
     scene.set_environment(source, {KEYWORDS})
     assert scene.render({FRAME}).hash == '{expected}'
-sky[3][5] = (float('nan'), 0, 0)
-burnish.load('builtin:plate', Array(), {KEYWORDS}) # repaired, as those of files
+import warnings
+sky[3][5] = (float('nan'), 0, 0) # repaired, as those of files, and told once
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter('always')
+    scene = burnish.load('builtin:plate', Array(), {KEYWORDS})
+    assert [w.category for w in told] == [burnish.InputWarning] and 'NaN' in str(told[0].message), told
+    scene.set_environment(Array(), {KEYWORDS})
+    assert len(told) == 1, told
 for wrong in ([[1, 2, 3]], 7, (0.1, 0.2, 0.3)):
     try: burnish.load('builtin:plate', wrong, {KEYWORDS})
     except ValueError: pass

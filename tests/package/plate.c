@@ -1,5 +1,5 @@
 /* Draws a brushed plate made of arrays, through the C interface. Prints the hashes of two pictures, then the words of three errors. */
-#include <burnish.h>
+#include <burnish/burnish.h>
 #include <stdio.h>
 
 static int polls(void* count)

@@ -6,7 +6,7 @@
     picture.save("lamp.png")
 
 Colours are linear Rec.709 radiance as 32-bit floats; lengths are metres, angles degrees. Equal calls give equal bits on every machine.
-Errors are exceptions of class Error with the program's words. numpy is not needed; where it is there, `numpy.asarray(picture)` copies nothing.
+Errors of the library are exceptions of class Error with the program's words. numpy is not needed; where it is there, `numpy.asarray(picture)` copies nothing.
 """
 
 import contextlib
@@ -14,11 +14,16 @@ import ctypes
 import operator
 import os
 import threading
+import warnings
 
 from . import _native, _show
 from ._native import Error, library
 
-__all__ = ["Comparison", "Error", "Mesh", "Picture", "Scene", "compare", "load", "meshes", "options", "techniques", "version"]
+__all__ = ["Comparison", "Error", "InputWarning", "Mesh", "Picture", "Scene", "compare", "load", "meshes", "options", "techniques", "version"]
+
+
+class InputWarning(UserWarning):
+    """What was repaired or left out while a scene or an environment was read."""
 
 
 def version():
@@ -120,7 +125,30 @@ class Scene:
     def __init__(self, session, name="scene"):
         self.name = name
         self._session, self._close = session, library().burnish_close
-        self._lock, self._owner = threading.Lock(), None
+        self._lock, self._owner, self._warned = threading.Lock(), None, set()
+        self._warn(4)
+
+    def _warn(self, level):
+        """Warns once of what was repaired or left out. level: calls up to the script's own line."""
+        for text in _native.texts("burnish_warning", self._session):
+            if text not in self._warned:
+                self._warned.add(text)
+                warnings.warn(text, InputWarning, stacklevel=level)
+
+    @property
+    def nodes(self):
+        """Names of the nodes, by index."""
+        return _native.texts("burnish_scene_node", self._session)
+
+    @property
+    def materials(self):
+        """Names of the materials, by index."""
+        return _native.texts("burnish_scene_material", self._session)
+
+    @property
+    def lights(self):
+        """Names of the point, spot and directional lights, by index."""
+        return _native.texts("burnish_scene_light", self._session)
 
     def __del__(self):
         if getattr(self, "_session", None):
@@ -202,6 +230,7 @@ class Scene:
         with _native.Options(keywords) as given, self._alone():
             light = _native.environment_of(environment, given)
             _native.call_told("burnish_set_environment", given, progress, self._session, light, given)
+        self._warn(3)
 
 
 class Mesh:

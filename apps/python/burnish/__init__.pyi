@@ -30,6 +30,9 @@ class Error(Exception):
     code: int
     def __init__(self, code: int, text: str) -> None: ...
 
+class InputWarning(UserWarning):
+    """What was repaired or left out while a scene or an environment was read."""
+
 class Values:
     """Floats by rows, columns and channels, read-only."""
 
@@ -81,6 +84,15 @@ class Scene:
     """A scene under an environment."""
 
     name: str
+    @property
+    def nodes(self) -> list[str]:
+        """Names by index."""
+    @property
+    def materials(self) -> list[str]:
+        """Names by index."""
+    @property
+    def lights(self) -> list[str]:
+        """Names by index."""
     def render(
         self,
         progress: Progress | None = None,

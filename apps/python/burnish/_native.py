@@ -77,6 +77,8 @@ def library():
             ("burnish_options_progress", whole, [pointer, PROGRESS, pointer]),
             ("burnish_options_environment", whole, [pointer, pointer, whole, whole]),
             ("burnish_find_node", whole, [pointer, text]), ("burnish_find_material", whole, [pointer, text]), ("burnish_find_light", whole, [pointer, text]),
+            ("burnish_scene_node", text, [pointer, whole]), ("burnish_scene_material", text, [pointer, whole]),
+            ("burnish_scene_light", text, [pointer, whole]), ("burnish_warning", text, [pointer, whole]),
             ("burnish_set_node", whole, [pointer, whole, ctypes.POINTER(ctypes.c_float)]),
             ("burnish_set_material", whole, [pointer, whole, pointer]), ("burnish_set_light", whole, [pointer, whole, pointer]),
             ("burnish_set_environment", whole, [pointer, text, pointer]),
@@ -103,6 +105,14 @@ def call(name, *arguments):
     check(getattr(library(), name)(*arguments))
 
 
+def texts(name, *arguments):
+    """Returns the texts of a list function, which takes an index last."""
+    found = []
+    while (text := getattr(library(), name)(*arguments, len(found))) is not None:
+        found.append(text.decode("utf-8", "replace"))
+    return found
+
+
 def listed(names, helps):
     """{name: help} of two list functions."""
     found, index = {}, 0
@@ -115,13 +125,7 @@ def listed(names, helps):
 @functools.lru_cache(None)
 def known():
     """Returns the names of all options and of the factors of materials and lights."""
-    found = set(listed("burnish_option_name", "burnish_option_help"))
-    for names in (library().burnish_material_name, library().burnish_light_name):
-        index = 0
-        while (name := names(index)) is not None:
-            found.add(name.decode())
-            index += 1
-    return found
+    return {*listed("burnish_option_name", "burnish_option_help"), *texts("burnish_material_name"), *texts("burnish_light_name")}
 
 
 def path(of):
@@ -228,7 +232,7 @@ def matrix(of, name):
     if len(of) == 4:
         rows = [list(flat(row)) for row in of]
         if any(len(row) != 4 for row in rows) or rows[3] != [0, 0, 0, 1]:
-            raise ValueError(f"{name}: is neither 16 numbers nor 4 rows of 4, the last of them 0, 0, 0, 1")
+            raise ValueError(f"{name}: 4 rows have 4 numbers each, and the fourth row is 0, 0, 0, 1")
         of = [rows[row][column] for column in range(4) for row in range(4)]
     held = floats(of, 16, name)
     if len(held) != 16:
