@@ -8,7 +8,7 @@ import stat
 import xml.etree.ElementTree
 
 from browser import Browser
-from harness import case, check
+from harness import Skipped, case, check
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SMALL = ["--size", "64x48", "--env-size", "64", "--env-samples", "64"]
@@ -316,3 +316,55 @@ def instructions(bench):
     check("lacks its technique" in results(bench)["plate"]["reason"], "a technique without a cost")
     write(bench, [{"name": "other", "picture": "a.png", "hold": {"instructions": 1}}])
     bench.run("golden", "check", "m.json").expect(4).expect_one_line("/rows/0/hold/instructions")
+
+
+@case("golden.the_schema_takes_what_the_program_takes")
+def schema(bench):
+    try:
+        import jsonschema
+    except ImportError as missing:
+        raise Skipped("no Python package jsonschema") from missing
+    text = json.loads((ROOT / "apps/golden/manifest.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(text)
+    validator = jsonschema.Draft202012Validator(text)
+    page = re.search(r"```json\n(.*?)```", (ROOT / "apps/manual/ci.md").read_text(), re.S)[1]
+    for name, good in (("ci.md", page), ("the project's own", (ROOT / "tests/golden/manifest.json").read_text())):
+        check(not list(validator.iter_errors(json.loads(good))), f"{name}: {[e.message for e in validator.iter_errors(json.loads(good))]}")
+    pot = {"name": "pot", "scene": "builtin:plate"}
+    bad = [{}, {"rows": [{}]}, {"rows": [{"name": "a"}]}, {"rows": [{**pot, "picture": "a.png"}]}, {"rows": [{**pot, "seconds": -1}]},
+           {"rows": [{**pot, "format": "gif"}]}, {"rows": [{**pot, "hold": {"flop": 1}}]}, {"rows": [{**pot, "hold": {"flip": 2}}]},
+           {"rows": [pot], "extra": 1}, {"rows": [pot], "defaults": {"scene": "x"}}, {"rows": [{"name": "a", "command": ["x"]}]},
+           {"rows": [{"name": "a", "picture": "a.png", "options": ["--msaa", "1"]}]}, {"rows": [{"name": "", "picture": "a.png"}]}]
+    for manifest in bad:  # the program refuses them too
+        check(list(validator.iter_errors(manifest)), f"the schema takes {manifest}")
+        (bench.folder / "bad.json").write_text(json.dumps(manifest))
+        bench.run("golden", "check", "bad.json").expect(4)
+    # Each member of the schema is one of the program
+    rows = dict.fromkeys(text["$defs"]["row"]["properties"]), dict.fromkeys(text["properties"]["defaults"]["properties"])
+    (bench.folder / "bad.json").write_text(json.dumps({"rows": [{"name": "a", "other": 1}]}))
+    known = bench.run("golden", "check", "bad.json").expect(4).err.partition("known are ")[2]
+    check(set(re.split(r", | and ", known.strip())) == set(rows[0]), f"{known} {list(rows[0])}")
+    (bench.folder / "bad.json").write_text(json.dumps({"rows": [pot], "defaults": {"other": 1}}))
+    known = bench.run("golden", "check", "bad.json").expect(4).err.partition("known are ")[2]
+    check(set(re.split(r", | and ", known.strip())) == set(rows[1]), f"{known} {list(rows[1])}")
+
+
+@case("golden.the_workflow_of_the_manual_is_one")
+def workflow(bench):
+    try:
+        import yaml
+    except ImportError as missing:
+        raise Skipped("no Python package yaml") from missing
+    text = re.search(r"```yaml\n(.*?)```", (ROOT / "apps/manual/ci.md").read_text(), re.S)[1]
+    jobs = yaml.safe_load(text)["jobs"]
+    runs = [step["run"] for job in jobs.values() for step in job["steps"] if "run" in step]
+    shards = jobs["check"]["strategy"]["matrix"]["shard"]
+    check(jobs["page"]["needs"] == "check" and all(("uses" in step) != ("run" in step) for job in jobs.values() for step in job["steps"]), "steps")
+    # Its commands, as the steps run them
+    (bench.folder / "goldens.json").write_text(json.dumps({"rows": [{"name": name, "scene": "builtin:plate", "keep": "hash", "options": [
+        "--size", "16x16", "--env-size", "16", "--env-samples", "16", "--floor", "off"]} for name in "ab"]}))
+    for command in [run for run in runs if run.startswith("burnish")]:
+        for shard in shards if "matrix" in command else [0]:
+            words = command.replace("${{ matrix.shard }}", str(shard)).split()[1:]
+            bench.run(*words).expect(5)  # there is no golden
+    check((bench.folder / "golden-results/index.html").exists(), "no page")
