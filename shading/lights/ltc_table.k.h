@@ -1,6 +1,6 @@
 // Linearly transformed cosines (LTC) for an anisotropic GGX lobe seen from one eye, from a baked table (shading/bake/ltc).
 // Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines"; the
-// four-dimensional table: KT, Heitz, Dupuy, Narasimhan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
+// four-dimensional table: KT, Heitz, Dupuy, Narayanan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
 //
 // Ellipse frame: x and y are the axes of alpha_x and alpha_y, z is the normal. Cosine's space: the lobe is max(z, 0) / pi
 // there. The matrix M maps the cosine's space to the ellipse frame. Its inverse N maps lights the other way. The density of

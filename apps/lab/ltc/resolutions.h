@@ -1,4 +1,4 @@
-// Estimates the gain of finer LTC tables: KT, Heitz, Dupuy, Narasimhan 2022, figure 12.
+// Estimates the gain of finer LTC tables: KT, Heitz, Dupuy, Narayanan 2022, figure 12.
 #pragma once
 #include <string>
 #include <vector>

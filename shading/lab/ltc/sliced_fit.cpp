@@ -1,5 +1,5 @@
 // Minimises the sliced Wasserstein distance between samples from a lobe and from a transformed cosine, by Adam (Kingma, Ba 2015). KT,
-// Heitz, Dupuy, Narasimhan 2022, section 5. Samples and axes are lattices, not random.
+// Heitz, Dupuy, Narayanan 2022, section 4.2. Samples and axes are lattices, not random.
 #include <algorithm>
 #include <numeric>
 
