@@ -30,7 +30,7 @@ glm::vec3 colour_of_tensor(const PixelLayers& p, const View& view)
     glm::vec2 axis(glm::dot(grain, view.right), glm::dot(grain, view.up));
     const float length = std::sqrt(axis.x * axis.x + axis.y * axis.y);
     axis = length > 1e-4f ? axis / length : glm::vec2(1.0f, 0.0f);
-    const float alpha = p.roughness[0] * p.roughness[0], wide = alpha * (1.0f + p.anisotropy[0]), narrow = alpha * (1.0f - p.anisotropy[0]);
+    const float alpha = p.roughness * p.roughness, wide = alpha * (1.0f + p.anisotropy), narrow = alpha * (1.0f - p.anisotropy);
     const float xx = wide * axis.x * axis.x + narrow * axis.y * axis.y, yy = wide * axis.y * axis.y + narrow * axis.x * axis.x;
     const float xy = (wide - narrow) * axis.x * axis.y;
     return {std::sqrt(xx), std::sqrt(yy), 0.5f + 0.5f * xy / std::sqrt(std::max(xx * yy, 1e-20f))};
@@ -43,9 +43,9 @@ Image false_colour(Shown what, const Frame& frame, const View& view)
     Image to = make_image(frame.color.width, frame.color.height, 3, PixelType::u8);
     for (std::size_t i = 0; i < frame.layers.size(); ++i) {
         const PixelLayers& p = frame.layers[i];
-        if (p.depth[0] == 0.0f)
+        if (p.depth == 0.0f)
             continue;
-        const glm::vec3 colour = what == Shown::lod      ? colour_of_level(p.lod[0])
+        const glm::vec3 colour = what == Shown::lod      ? colour_of_level(p.lod)
                                  : what == Shown::tensor ? colour_of_tensor(p, view)
                                                          : glm::vec3(0.5f) + 0.5f * glm::vec3(p.normal[0], p.normal[1], p.normal[2]);
         for (int c = 0; c < 3; ++c)

@@ -65,10 +65,10 @@ PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc)
                   y = static_cast<int>(p / static_cast<std::size_t>(desc.width));
         const glm::vec3 v = to_eye(desc.view, desc.width, desc.height, x, y), n(at.normal[0], at.normal[1], at.normal[2]),
                         t(at.tangent[0], at.tangent[1], at.tangent[2]);
-        const float alpha = at.roughness[0] * at.roughness[0], root2 = 1.41421356f;
+        const float alpha = at.roughness * at.roughness, root2 = 1.41421356f;
         lobes.of[p] = {{glm::dot(v, t), glm::dot(v, glm::cross(n, t)), glm::dot(v, n)},
-                       alpha * (1.0f + at.anisotropy[0]) / root2,
-                       alpha * (1.0f - at.anisotropy[0]) / root2};
+                       alpha * (1.0f + at.anisotropy) / root2,
+                       alpha * (1.0f - at.anisotropy) / root2};
     }
     return lobes;
 }

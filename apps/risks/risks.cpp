@@ -112,8 +112,8 @@ float luminance_of(const float* rgb)
 
 RiskInputs at_pixel(RiskInputs i, const PixelLayers& at)
 {
-    const float alpha = at.roughness[0] * at.roughness[0];
-    i.along = alpha * (1.0f + at.anisotropy[0]), i.across = alpha * (1.0f - at.anisotropy[0]);
+    const float alpha = at.roughness * at.roughness;
+    i.along = alpha * (1.0f + at.anisotropy), i.across = alpha * (1.0f - at.anisotropy);
     return i;
 }
 
@@ -218,9 +218,9 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
 {
     const auto wanted = [&](Change change) { return (asked >> static_cast<unsigned>(change) & 1u) != 0; };
     const glm::vec3 n(at.normal[0], at.normal[1], at.normal[2]), u(at.tangent[0], at.tangent[1], at.tangent[2]), w = glm::cross(n, u);
-    const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness[0];
+    const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness;
     const float away = 1.0f - i.n_dot_v, away2 = away * away, fresnel = f0 + (1.0f - f0) * away2 * away2 * away;
-    const float other = luminance * (1.0f - at.metalness[0]) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
+    const float other = luminance * (1.0f - at.metalness) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
     // Slopes of GGX along one axis, density (1 + t^2)^-1.5: medians of five equal parts.
     constexpr float kPlaces[] = {-1.3333f, -0.4364f, 0.0f, 0.4364f, 1.3333f};
     const float narrow = narrow_of(i), round = round_of(i);

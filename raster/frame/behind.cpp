@@ -96,7 +96,7 @@ BehindPicture make_behind_picture(const Frame& frame, const Jobs& jobs)
             const auto covered = samples - static_cast<std::size_t>(std::count(ids, ids + samples, kNoTriangle));
             std::copy_n(frame.color.f32() + 3 * p, 3, levels[0].texels.data() + 4 * p);
             levels[0].texels[4 * p + 3] = static_cast<float>(covered) / static_cast<float>(samples);
-            const float z = frame.layers[p].depth[0];
+            const float z = frame.layers[p].depth;
             depth.texels[4 * p] = z > 0.0f ? 1.0f / z : 0.0f;
         }
     });

@@ -126,8 +126,14 @@ inline constexpr int kVertexWords = 8;
 // Layers of the surface at a pixel's central sample, the nearest to its centre (central_sample()). All 0 if the sample shows no triangle.
 // Values come from the (pixel, triangle) pair, at the point where the pair is shaded. A blended surface counts if its alpha exceeds a
 // half.
+template <int words> struct LayerValue {
+    using value = float[words];
+};
+template <> struct LayerValue<1> {
+    using value = float;
+};
 struct PixelLayers {
-#define BN_LAYER(type, words, name, channels) float name[words];
+#define BN_LAYER(type, words, name, channels) LayerValue<words>::value name;
 #include "shading/layers.def"
 };
 static_assert(sizeof(PixelLayers) == kLayerWords * sizeof(float));
@@ -213,6 +219,9 @@ bool reads(const std::string& technique, const ParameterInfo& parameter);       
 glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& parameter);    // angles: both, in degrees; else the value twice
 std::vector<std::string> choices_of(const ParameterInfo& parameter);               // names by number; empty unless a choice
 void set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value); // value in [least, most]
+// Sets a parameter by its option's name and a text: set_parameter(desc, "brdf", "beckmann"), "tilt" to "10,0" (degrees), flags to "true".
+// Errors: ExitCode::usage with the name as place.
+Status set_parameter(FrameDesc& desc, const std::string& name, const std::string& value);
 
 struct AreaWayInfo { // a method for area lights
     const char* name;

@@ -23,7 +23,7 @@ struct Guide { // geometry of a pixel
 Guide guide_of(const PixelLayers& layers, const View& v, int x, int y, int width, int height)
 {
     Guide g;
-    const double depth = static_cast<double>(layers.depth[0]);
+    const double depth = static_cast<double>(layers.depth);
     g.normal = {layers.normal[0], layers.normal[1], layers.normal[2]};
     g.seen = glm::dot(g.normal, g.normal) > 0.0 && std::isfinite(depth);
     if (!g.seen)

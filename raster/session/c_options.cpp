@@ -108,39 +108,6 @@ std::vector<std::string> words_of(const std::string& text)
     return words;
 }
 
-// Sets a parameter of techniques (shading/models.def).
-Status set_technique_parameter(FrameDesc& desc, const ParameterInfo& parameter, const std::string& text)
-{
-    if (parameter.angles) {
-        glm::vec2 degrees(0.0f);
-        BN_TRY(put(text, degrees));
-        desc.*parameter.angles = glm::radians(degrees);
-        return {};
-    }
-    const std::vector<std::string> names = choices_of(parameter);
-    if (const auto at = std::find(names.begin(), names.end(), text); at != names.end()) {
-        set_parameter(desc, parameter, static_cast<double>(at - names.begin()));
-        return {};
-    }
-    if (!names.empty()) {
-        std::string known;
-        for (const std::string& name : names)
-            known += (known.empty() ? "" : ", ") + name;
-        return wrong("'" + text + "' is none of " + known);
-    }
-    float value = 0.0f;
-    if (parameter.flag) {
-        bool on = false;
-        BN_TRY(put(text, on));
-        value = on ? 1.0f : 0.0f;
-    } else
-        BN_TRY(put(text, value));
-    if (!(static_cast<double>(value) >= parameter.least && static_cast<double>(value) <= parameter.most))
-        return wrong("'" + text + "' is out of range");
-    set_parameter(desc, parameter, static_cast<double>(value));
-    return {};
-}
-
 Status set_floor(CSettings& to, const std::string& text)
 {
     const std::pair<const char*, FloorKind> kinds[] = {{"off", FloorKind::off}, {"shadow", FloorKind::shadow}, {"stage", FloorKind::stage}};
@@ -307,7 +274,7 @@ Result<CSettings> settings_of(const burnish_options* options)
         else
             for (const ParameterInfo& p : parameters())
                 if (c_name(p.option) == option.name)
-                    set = set_technique_parameter(settings.desc, p, at->second);
+                    set = set_parameter(settings.desc, p.option, at->second);
         if (!set)
             return Error{ExitCode::usage, "", option.name, set.error().reason};
     }

@@ -142,7 +142,7 @@ struct WorkerScratch {
                 .output_ids = frame.triangle_ids.empty() ? nullptr : frame.triangle_ids.data(),
                 .output_depths = frame.stages.depths.empty() ? nullptr : frame.stages.depths.data(),
                 .output_pairs = frame.stages.pairs.empty() ? nullptr : frame.stages.pairs.data(),
-                .output_layers = frame.layers.empty() ? nullptr : frame.layers.data()->depth,
+                .output_layers = frame.layers.empty() ? nullptr : &frame.layers.data()->depth,
                 .clock = nullptr,
                 .peel = nullptr};
     }

@@ -221,7 +221,7 @@ TEST(blend, layers_show_a_surface_whose_alpha_is_above_a_half)
     d.layers = true;
     const auto depth = [&](float alpha) {
         const Frame f = Stage(sheets_of({{0.2f, kBlue, AlphaMode::opaque}, {0.6f, {1, 1, 1, alpha}}}, 1.0f), 0.0f).render(d, best_isa());
-        return f.layers.data()[12 * kWidth + 12].depth[0];
+        return f.layers.data()[12 * kWidth + 12].depth;
     };
     EXPECT_NEAR(depth(0.4f), 0.8f, 1e-5f);
     EXPECT_NEAR(depth(0.6f), 0.4f, 1e-5f);

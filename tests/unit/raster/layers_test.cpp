@@ -48,7 +48,7 @@ TEST(layers, are_those_of_a_plate)
                 const auto central = static_cast<std::size_t>(central_sample(standard_samples(msaa)));
                 const std::uint32_t id = f.triangle_ids[static_cast<std::size_t>((y * kLayersSide + x) * msaa) + central];
                 if (id == kNoTriangle) {
-                    EXPECT_EQ(p.depth[0], 0.0f);
+                    EXPECT_EQ(p.depth, 0.0f);
                     EXPECT_EQ(p.normal[2], 0.0f);
                     continue;
                 }
@@ -57,7 +57,7 @@ TEST(layers, are_those_of_a_plate)
                 EXPECT_NEAR(p.tangent[0], std::cos(0.5f), 1e-5f);
                 EXPECT_NEAR(p.tangent[1], std::sin(0.5f), 1e-5f);
                 EXPECT_FLOAT_EQ(p.albedo[1], 0.5f);
-                EXPECT_NEAR(p.roughness[0], 0.7f, 1e-5f); // widths mix(.25, 1, .64) and .25
+                EXPECT_NEAR(p.roughness, 0.7f, 1e-5f); // widths mix(.25, 1, .64) and .25
                 const auto whole = [&](int s) { return f.triangle_ids[static_cast<std::size_t>((y * kLayersSide + x) * msaa + s)] == id; };
                 bool centred = true; // shaded at the centre
                 for (int s = 0; s < msaa; ++s)
@@ -66,7 +66,7 @@ TEST(layers, are_those_of_a_plate)
                             up = 1.0f - (static_cast<float>(y) + 0.5f) / (kLayersSide / 2);
                 const glm::vec3 ray = d.view.forward + d.view.right * (across * d.view.tan_half_x) + d.view.up * (up * d.view.tan_half_y);
                 if (centred) {
-                    EXPECT_NEAR(p.depth[0], -2.0f / ray.z, 1e-4f) << x << " " << y; // the ray's length along the view is 1
+                    EXPECT_NEAR(p.depth, -2.0f / ray.z, 1e-4f) << x << " " << y; // the ray's length along the view is 1
                 }
             }
         EXPECT_GT(seen, 400);
@@ -115,7 +115,7 @@ TEST(layers, stay_in_the_world_where_the_environment_is_turned)
         EXPECT_NEAR(a.normal[i], b.normal[i], 1e-5f);
         EXPECT_NEAR(a.tangent[i], b.tangent[i], 1e-5f);
     }
-    EXPECT_NEAR(a.depth[0], b.depth[0], 1e-5f);
+    EXPECT_NEAR(a.depth, b.depth, 1e-5f);
 }
 
 TEST(layers, are_channels_with_numbers_that_count_from_one)
@@ -130,7 +130,7 @@ TEST(layers, are_channels_with_numbers_that_count_from_one)
     EXPECT_TRUE(std::isinf(corner[4]));
     EXPECT_EQ(corner[5], 0.0f);
     EXPECT_EQ(middle[3], 1.0f);
-    EXPECT_EQ(middle[4], middle_of(f).depth[0]);
+    EXPECT_EQ(middle[4], middle_of(f).depth);
     EXPECT_EQ(middle[5], 1.0f);
     EXPECT_EQ(std::memcmp(middle, f.color.f32() + 3 * (kLayersSide / 2 * kLayersSide + kLayersSide / 2), 3 * sizeof(float)), 0);
 }

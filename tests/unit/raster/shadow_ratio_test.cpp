@@ -19,7 +19,7 @@ Column<PixelLayers> layers_of_plane(Edge edge)
     Column<PixelLayers> layers(kRatioSide * kRatioSide);
     for (std::size_t i = 0; i < kRatioSide * kRatioSide; ++i) {
         const bool right = i % kRatioSide >= kRatioSide / 2;
-        layers.data()[i].depth[0] = right && edge == Edge::step ? 1.0f : 2.0f;
+        layers.data()[i].depth = right && edge == Edge::step ? 1.0f : 2.0f;
         layers.data()[i].normal[right && edge == Edge::ridge ? 1 : 2] = 1.0f;
     }
     return layers;

@@ -34,7 +34,7 @@ FrameDesc seen_from_above()
 
 float roughness_in_the_middle(const Frame& f)
 {
-    return f.layers[kAaSide / 2 * kAaSide + kAaSide / 2].roughness[0];
+    return f.layers[kAaSide / 2 * kAaSide + kAaSide / 2].roughness;
 }
 
 TEST(specular_aa, lobes_grow_by_the_covariance_of_a_pixel)

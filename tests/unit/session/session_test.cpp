@@ -1,4 +1,5 @@
 // Sessions: equal bits alone, side by side and in threads; errors instead of exceptions.
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -165,6 +166,37 @@ TEST(session, says_what_is_wrong)
     const Result<Frame> frame = session->render(wrong);
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ExitCode::usage);
+}
+
+TEST(session, options_of_techniques_go_by_name)
+{
+    Result<Session> session = Session::open("builtin:plate", "builtin:studio", small_open());
+    ASSERT_TRUE(session);
+    FrameDesc desc = small_frame(*session, "mc"), named = desc;
+    desc.brdf = 1, desc.energy_compensation = true, desc.seed = 7;
+    const std::string model = choices_of(
+        *std::find_if(parameters().begin(), parameters().end(), [](const ParameterInfo& p) { return p.option == std::string("brdf"); }))[1];
+    for (const auto& [name, value] : {std::pair<std::string, std::string>{"brdf", model}, {"energy-compensation", "true"}, {"seed", "7"}})
+        ASSERT_TRUE(set_parameter(named, name, value)) << name;
+    EXPECT_EQ(named.brdf, desc.brdf);
+    EXPECT_EQ(named.energy_compensation, desc.energy_compensation);
+    EXPECT_EQ(named.seed, desc.seed);
+    ASSERT_TRUE(set_parameter(named, "tilt", "10,-5"));
+    EXPECT_NEAR(named.tilt_rad.y, -0.0872665f, 1e-6f);
+    for (const auto& [name, value] : {std::pair<std::string, std::string>{"brdf", "none"},
+                                      {"brdf", "1"},
+                                      {"bdrf", model},
+                                      {"tilt", "10"},
+                                      {"tilt", "10,99"},
+                                      {"energy-compensation", "2"},
+                                      {"seed", "x"},
+                                      {"seed", "-1"},
+                                      {"seed", "nan"}}) {
+        const Status refused = set_parameter(named, name, value);
+        ASSERT_FALSE(refused) << name << " " << value;
+        EXPECT_EQ(refused.error().place, name);
+        EXPECT_EQ(refused.error().code, ExitCode::usage);
+    }
 }
 
 TEST(session, takes_the_other_renderers)
