@@ -84,8 +84,8 @@ def rows(bench):
         if name.endswith(".svg"):
             xml.dom.minidom.parse(str(bench.folder / "r" / name))
     # Two things that render says too: the same errors come of the same pictures.
-    bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
-    bench.run("render", "builtin:spheres", *TINY[:8], "--roughness", "0.2", "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
+    bench.run("render", "builtin:spheres", *TINY[:8], "--floor", "off", "--roughness", "0.2", "--technique", "bent_normal", "-o", "t.exr", "-q").expect(0)
+    bench.run("render", "builtin:spheres", *TINY[:8], "--floor", "off", "--roughness", "0.2", "--backend", "reference", "--samples", "64", "-o", "ref.exr", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)
     mine = next(row for row in found if row["technique"] == "bent_normal" and row["env"] == "builtin:studio")
     for name in ("flip_mean", "flip_p99", "rel_mse", "max_abs"):
@@ -98,7 +98,7 @@ def chart_patterns(bench):
     words = ("builtin:sphere", "--env", "builtin:studio", "--size", "120x90", "--msaa", "4", "--env-size", "64", "--env-samples", "32")
     bench.run("chart", *words, "--techniques", "lobe_line", "--sweep", "samples=4,36", "--sweep", "roughness=0.4", "--sweep", "anisotropy=0.8", "--reference-samples", "512", "--runs", "1", "-o", "r").expect(0)
     mine = {row["settings"]["samples"]: row for row in rows_of(bench, "r")}
-    words = ("render", *words, "--roughness", "0.4", "--anisotropy", "0.8", "--no-background", "-q", "-o")
+    words = ("render", *words, "--floor", "off", "--roughness", "0.4", "--anisotropy", "0.8", "--no-background", "-q", "-o")
     bench.run(*words, "ref.exr", "--backend", "reference", "--samples", "512", "--variance", "v.exr").expect(0)
     for samples in (4, 36):
         bench.run(*words, "t.exr", "--technique", "lobe_line", "--samples", samples).expect(0)
@@ -116,7 +116,7 @@ def display_flip(bench):
     bench.run("chart", "builtin:plate", "--env", "builtin:studio", *TINY, "--techniques", "bent_normal", "--metric", "flip", *shown, "-o", "r").expect(0)
     report = json.loads((bench.folder / "r/report.json").read_text())
     check(report["metric"] == "flip" and "as they are shown" in (bench.folder / "r/report.html").read_text(), "the report does not say which FLIP")
-    same = ("builtin:plate", *TINY[:8], *shown)
+    same = ("builtin:plate", *TINY[:8], "--floor", "off", *shown)
     bench.run("render", *same, "--technique", "bent_normal", "-o", "t.png", "-q").expect(0)
     bench.run("render", *same, *TRUTH, "-o", "ref.png", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.png", "t.png", "--json", "-", "-q").expect(0).out)["flip_mean"]
@@ -142,7 +142,7 @@ def sweeps_any_option(bench):
         check((bench.folder / "r" / name).exists(), f"no {name}")
     check(not (bench.folder / "r/tilt-flip-1.svg").exists(), "a chart over vectors")
     # A row's image equals an image by render with equal options.
-    same = ("builtin:plate", *TINY[:8], "--env-rotation", "90", "--tilt", "15,0")
+    same = ("builtin:plate", *TINY[:8], "--floor", "off", "--env-rotation", "90", "--tilt", "15,0")
     bench.run("render", *same, "--technique", "major_axis", "--samples", "4", "--axis-k", "2.5", "-o", "t.exr", "-q").expect(0)
     bench.run("render", *same, *TRUTH, "-o", "ref.exr", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
