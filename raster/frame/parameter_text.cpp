@@ -1,34 +1,12 @@
 // Parameters of frames by names and texts.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
-#include <string_view>
 
+#include "raster/frame/comma_numbers.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
-
-// Returns the numbers of a text with commas between, or nothing.
-std::optional<std::vector<float>> numbers_of(const std::string& text)
-{
-    std::vector<float> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        float value = 0.0f;
-        const auto [next, failed] = std::from_chars(at, end, value);
-        if (failed != std::errc() || !std::isfinite(value))
-            return std::nullopt;
-        numbers.push_back(value);
-        if (next == end)
-            return numbers;
-        if (*next != ',')
-            return std::nullopt;
-        at = next + 1;
-    }
-}
 
 std::optional<double> flag_of(const std::string& text)
 {
@@ -66,7 +44,7 @@ Status set_parameter(FrameDesc& desc, const std::string& name, const std::string
         return {};
     }
     // Numbers
-    const std::optional<std::vector<float>> numbers = numbers_of(value);
+    const std::optional<std::vector<float>> numbers = comma_numbers(value);
     if (!numbers || numbers->size() != (p.angles ? 2u : 1u))
         return wrong("'" + value + (p.angles ? "' is not two numbers with a comma between" : "' is no number"));
     for (const float number : *numbers)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "raster/frame/comma_numbers.h"
 #include "raster/frame/layers.h"
 
 namespace burnish {
@@ -19,24 +20,12 @@ Error wrong(const std::string& reason)
 // Reads `count` numbers with commas between.
 Result<std::vector<float>> numbers_of(const std::string& text, std::size_t count)
 {
-    std::vector<float> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        float value = 0.0f;
-        const auto [next, failed] = std::from_chars(at, end, value);
-        if (failed != std::errc() || !std::isfinite(value))
-            return wrong("'" + text + "' is no number");
-        numbers.push_back(value);
-        if (next == end)
-            break;
-        if (*next != ',')
-            return wrong("'" + text + "' is no number");
-        at = next + 1;
-    }
-    if (numbers.size() != count)
-        return wrong("'" + text + "' has " + std::to_string(numbers.size()) + " numbers, not " + std::to_string(count));
-    return numbers;
+    const std::optional<std::vector<float>> numbers = comma_numbers(text);
+    if (!numbers)
+        return wrong("'" + text + "' is no number");
+    if (numbers->size() != count)
+        return wrong("'" + text + "' has " + std::to_string(numbers->size()) + " numbers, not " + std::to_string(count));
+    return *numbers;
 }
 
 Status put(const std::string& text, float& to)

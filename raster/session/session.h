@@ -142,8 +142,8 @@ class Session {
 
     // Changes the scene for the following frames. Texture levels, tables and the bake of the environment stay; draw tables are made anew.
     // Frames have the bits of a new session of the changed scene with the same origin. Copies the scene first where others share it. A
-    // failure changes nothing. Errors: ExitCode::bad_input with the place ("/nodes/7/local"); usage where a change belongs to a new
-    // session: other maps, levels made beforehand, a node or material above a floor, the shape of an area light. Skins stay as they were
+    // failure changes nothing. Errors: ExitCode::bad_input with the place ("/nodes/7/local"); usage where a change needs a new session.
+    // Such are other maps, levels made beforehand, nodes and materials above a floor, and shapes of area lights. Skins stay as they were
     // read. References into scene() and tables() see the changes.
     Status change(SceneChanges changes);
 

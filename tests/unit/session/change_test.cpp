@@ -14,13 +14,12 @@ namespace {
 using test::good_scene;
 using test::small_environment;
 
-FrameDesc desc_of(const Session& session)
+FrameDesc small_desc()
 {
     FrameDesc d;
     d.width = 60, d.height = 40, d.msaa = 2;
     d.view = make_view(glm::vec3(0.5f, 0.6f, 3.5f), glm::vec3(0), 0.9f, d.width, d.height);
     d.technique = "bent_normal";
-    static_cast<void>(session);
     return d;
 }
 
@@ -34,7 +33,7 @@ Result<Session> open_with(Scene scene, const MipSettings& mips = {}, const Sessi
 
 std::uint64_t drawn_hash(Session& session)
 {
-    const Result<Frame> frame = session.render(desc_of(session));
+    const Result<Frame> frame = session.render(small_desc());
     EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
     return frame ? pixel_hash(frame->color) : 0;
 }
@@ -244,7 +243,7 @@ TEST(change, of_light_above_a_floor_has_the_bits_of_a_new_session)
         return Session::make({*data, environment, std::make_shared<const Jobs>(1), *standard_dfg(Jobs(1))});
     };
     const auto drawn_pot = [](Session& s) {
-        FrameDesc d = desc_of(s);
+        FrameDesc d = small_desc();
         d.view = s.framed(d.width, d.height);
         const Result<Frame> frame = s.render(d);
         EXPECT_TRUE(frame);
@@ -272,7 +271,7 @@ TEST(change, reaches_the_reference)
         GTEST_SKIP() << session.error().line();
     ASSERT_TRUE(session) << session.error().line();
     const auto trace = [](Session& s) {
-        FrameDesc d = desc_of(s);
+        FrameDesc d = small_desc();
         d.width = 24, d.height = 16, d.technique = "mc", d.samples = 1;
         const Result<Frame> frame = s.render(d);
         EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
