@@ -67,8 +67,8 @@ Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const 
         run.words.insert(run.words.end(), {"-q", "-o", absolute(to)});
         if (row.limits.z)
             run.words.insert(run.words.end(), {"--variance", absolute(to) + ".variance.exr"});
-        if (row.limits.instructions)
-            run.words.insert(run.words.end(), {"--count-instructions", "--stats", absolute(to) + ".stats.json"});
+        if (row.limits.operations)
+            run.words.insert(run.words.end(), {"--count-operations", "--stats", absolute(to) + ".stats.json"});
         return run_child(run);
     }
     // A picture from before the run must not pass for a new one
@@ -113,22 +113,21 @@ void judge_hash(const GoldenRow& row, const std::string& golden, const Image& pi
         result.verdict = GoldenVerdict::differs, result.reason = fmt::format("its hash is {}, the golden's {}", now, wanted.substr(0, 16));
 }
 
-// Adds the verdict on the instructions that the picture's statistics tell.
-void judge_instructions(const std::string& stats, double limit, GoldenResult& result)
+// Adds the verdict on the float operations that the picture's statistics tell.
+void judge_operations(const std::string& stats, double limit, GoldenResult& result)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(stats, kMostStatsBytes);
     const nlohmann::json json = bytes ? nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false) : nlohmann::json();
-    const auto found = json.is_object() ? json.find("shading_instructions") : json.end();
+    const auto found = json.is_object() ? json.find("operations") : json.end();
     if (!json.is_object() || found == json.end() || !found->is_number()) {
-        result.verdict = GoldenVerdict::failed,
-        result.reason = "its instructions are not known: the table of costs lacks its technique, or another renderer drew it";
+        result.verdict = GoldenVerdict::failed, result.reason = "its operations are not known: the tile renderer alone counts";
         return;
     }
-    result.instructions = found->get<double>();
-    if (result.instructions <= limit)
+    result.operations = found->get<double>();
+    if (result.operations <= limit)
         return;
-    result.reason += (result.reason.empty() ? "" : "; ") +
-                     fmt::format("shading takes {:.6g} instructions, more than {:.6g}", result.instructions, limit);
+    result.reason +=
+        (result.reason.empty() ? "" : "; ") + fmt::format("a frame takes {:.0f} operations, more than {:.0f}", result.operations, limit);
     if (result.verdict == GoldenVerdict::passed)
         result.verdict = GoldenVerdict::differs;
 }
@@ -183,8 +182,8 @@ GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, con
         return result;
     }
     const auto judged = [&] {
-        if (row.limits.instructions && result.verdict != GoldenVerdict::failed)
-            judge_instructions(results + result.picture + ".stats.json", *row.limits.instructions, result);
+        if (row.limits.operations && result.verdict != GoldenVerdict::failed)
+            judge_operations(results + result.picture + ".stats.json", *row.limits.operations, result);
         return result;
     };
     if (row.hash_alone) {

@@ -20,7 +20,7 @@ struct GoldenResult {
     std::string reason; // one sentence; empty: every value is equal
     int width = 0, height = 0;
     double flip = 0.0, flip_p99 = 0.0, differing = 0.0, largest = 0.0; // zeros for equal pictures; differing: share of pixels
-    double instructions = 0.0;                                         // of shading, where a limit on these is given
+    double operations = 0.0;                                           // of a frame, where a limit on these is given
     std::string golden;                                                // path as bless writes it
     std::string picture;                                               // in the results' folder: the new picture
     std::string log;                                                   // in the results' folder: output of the program; empty: none

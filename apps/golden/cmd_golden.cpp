@@ -38,8 +38,8 @@ A manifest is a JSON object. "rows" lists pictures:
   {"name": "pot", "scene": "builtin:teapot", "options": ["--size", "320x180"]}      drawn by burnish render
   {"name": "page", "command": ["node", "draw.js"], "picture": "out/page.png"}       drawn by any program
   {"name": "old", "picture": "out/old.exr"}                                         there already
-Rows may have "hold", limits in place of equal values: {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE}. "instructions": N beside
-them limits the instructions for light from the environment, by a count that is equal on every machine. "mask" is a picture whose black pixels do not count.
+Rows may have "hold", limits in place of equal values: {"flip": MEAN, "flip_p99": F, "pattern": RMS, "z": SHARE}. "operations": N beside
+them limits a frame's float operations, a count that is equal on every machine. "mask" is a picture whose black pixels do not count.
 "keep": "hash" makes the golden a hash. Further members: "seconds" (300), "environment" (variables), "format" of
 scenes (png), "golden" (goldens/NAME.png). "defaults" holds the same members, and "options" of scenes. Paths are relative to the manifest, and
 programs run beside it.

@@ -47,7 +47,7 @@ Json json_of(const GoldenResult& r)
             {"reason", r.reason},     {"width", r.width},
             {"height", r.height},     {"flip_mean", r.flip},
             {"flip_p99", r.flip_p99}, {"differing_fraction", r.differing},
-            {"max_abs", r.largest},   {"instructions", r.instructions},
+            {"max_abs", r.largest},   {"operations", r.operations},
             {"golden", r.golden},     {"picture", r.picture},
             {"log", r.log},           {"hash_alone", r.hash_alone}};
 }
@@ -66,7 +66,7 @@ GoldenResult result_of(const Json& json)
     r.width = json.at("width").get<int>(), r.height = json.at("height").get<int>();
     r.flip = json.at("flip_mean").get<double>(), r.flip_p99 = json.at("flip_p99").get<double>();
     r.differing = json.at("differing_fraction").get<double>(), r.largest = json.at("max_abs").get<double>();
-    r.instructions = json.at("instructions").get<double>();
+    r.operations = json.at("operations").get<double>();
     r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
     r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();
     return r;

@@ -84,10 +84,10 @@ void read_limits(const JsonValue& of, const std::string& place, GoldenLimits& to
     const JsonValue* hold = member(of, "hold");
     if (!hold)
         return;
-    check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z", "instructions"});
+    check_members(*hold, place + "/hold", {"flip", "flip_p99", "pattern", "z", "operations"});
     to = {number_of(*hold, "flip", place + "/hold", 1.0), number_of(*hold, "flip_p99", place + "/hold", 1.0),
           number_of(*hold, "pattern", place + "/hold", 100.0), number_of(*hold, "z", place + "/hold", 1.0),
-          number_of(*hold, "instructions", place + "/hold", 1e18)};
+          number_of(*hold, "operations", place + "/hold", 1e18)};
 }
 
 void read_environment(const JsonValue& of, const std::string& place, std::map<std::string, std::string>& to)
@@ -170,8 +170,8 @@ GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults
         row.kind = row.command.empty() ? GoldenKind::picture : GoldenKind::command;
         row.extension = fs::path(row.picture).extension().string();
     }
-    if (row.limits.instructions && row.kind != GoldenKind::scene)
-        throw Mistake{place + "/hold/instructions", "belong to a scene that burnish draws"};
+    if (row.limits.operations && row.kind != GoldenKind::scene)
+        throw Mistake{place + "/hold/operations", "belong to a scene that burnish draws"};
     if (row.hash_alone && !row.limits.exact())
         throw Mistake{place + "/hold", "needs the golden picture, and this row keeps its hash alone"};
     if (row.hash_alone && !row.mask.empty())

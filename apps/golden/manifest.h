@@ -13,7 +13,7 @@ struct GoldenLimits {                     // largest differences; none: no value
     std::optional<double> flip, flip_p99; // mean and 99th percentile of FLIP
     std::optional<double> pattern;        // RMS of patterns
     std::optional<double> z;              // share of pixels that the z-test rejects, by the golden's variance
-    std::optional<double> instructions;   // of shading a scene, by the program's table of costs; no limit on the picture
+    std::optional<double> operations;     // of drawing a scene once, as --count-operations tells; no limit on the picture
     bool exact() const { return !flip && !flip_p99 && !pattern && !z; }
 };
 

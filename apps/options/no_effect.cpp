@@ -55,9 +55,9 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
     if (out.backend != "tile")
-        warn("--count-instructions", of_backend);
-    if (out.counts_instructions && out.stats_file.empty())
-        out.warnings.push_back("--count-instructions has no effect without --stats");
+        warn("--count-operations", of_backend);
+    if (out.counts_operations && out.stats_file.empty())
+        out.warnings.push_back("--count-operations has no effect without --stats");
     const bool displayed =
         std::any_of(out.outputs.begin(), out.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
     if (out.frame.frame_map == kFrameOff)

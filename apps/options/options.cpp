@@ -7,6 +7,7 @@
 #include "apps/cli/shared_options.h"
 #include "core/image/io/image_io.h"
 #include "core/scene/builtin/builtin.h"
+#include "raster/tile/twins.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
@@ -208,6 +209,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         BN_TRY(check_reference_options(arguments, given, out));
     if (out.backend == "vulkan")
         BN_TRY(check_vulkan_options(out));
+    if (out.counts_operations && !has_counting_lanes())
+        return Error{ExitCode::unavailable, "", "--count-operations", "this program was built without -DBN_COUNTING_LANES=ON"};
     BN_TRY(check_layers(out));
     BN_TRY(check_shadows(given, out));
     BN_TRY(check_floor(out));

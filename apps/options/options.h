@@ -43,7 +43,7 @@ struct RenderOptions {
     int shadow_samples = 16;            // a pixel
     Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
     std::string stats_file;             // empty: none; "-": standard output
-    bool counts_instructions = false;   // of shading, for stats_file
+    bool counts_operations = false;     // of a frame, for stats_file
     std::string trace_file;             // empty: none
     std::optional<double> budget;       // largest mean HDR-FLIP: the plan chooses technique and samples of each material
     std::optional<double> budget_ms;    // largest processor time of the frame, milliseconds

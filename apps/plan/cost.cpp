@@ -91,29 +91,4 @@ std::vector<double> mean_costs(const MaterialTechnique& setting, const PixelLobe
     return sums;
 }
 
-std::optional<double> shading_instructions(const Frame& frame, const FrameDesc& desc, const DrawTables& tables)
-{
-    const auto cost_of = [](const std::string& technique) -> const PlanCost* {
-        const std::string& name = technique == automatic_technique().name ? chosen_technique().name : technique;
-        const auto found = std::find_if(plan_costs().begin(), plan_costs().end(), [&](const PlanCost& c) { return c.technique == name; });
-        return found == plan_costs().end() ? nullptr : &*found;
-    };
-    const PixelLobes lobes = lobes_of(frame, desc);
-    const std::size_t msaa = frame.triangle_ids.size() / std::max<std::size_t>(1, lobes.of.size());
-    const auto central = static_cast<std::size_t>(central_sample(standard_samples(static_cast<int>(msaa))));
-    double sum = 0.0, pixels = 0.0;
-    for (std::size_t p = 0; p < lobes.of.size(); ++p) {
-        const std::uint32_t id = frame.triangle_ids[p * msaa + central];
-        if (id == kNoTriangle)
-            continue;
-        const MaterialTechnique usual{desc.technique, desc.samples};
-        const MaterialTechnique& setting = desc.by_material.empty() ? usual : desc.by_material[tables.triangle_material[id]];
-        const PlanCost* cost = cost_of(setting.technique);
-        if (!cost)
-            return std::nullopt;
-        sum += fragment_cost(*cost, setting.samples, lobes.of[p]), pixels += 1.0;
-    }
-    return pixels > 0.0 ? sum / pixels * static_cast<double>(frame.stats.visible_fragments) : 0.0; // edges have several fragments a pixel
-}
-
 } // namespace burnish

@@ -1,6 +1,5 @@
 // Costs of techniques' settings, in counted instructions: equal on every machine.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +25,6 @@ struct PixelLobes {
 };
 // frame: drawn by desc with layers.
 PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc);
-
-// Returns the instructions that light from the environment takes in a frame, by the table and the frame's fragments: equal on every
-// machine. Empty where the table lacks a technique. frame: drawn by desc with layers and triangle ids.
-std::optional<double> shading_instructions(const Frame& frame, const FrameDesc& desc, const DrawTables& tables);
 
 // Returns the instructions a fragment of mc with this many samples, less those of a single fetch.
 double random_over_fetch(int samples);

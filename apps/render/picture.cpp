@@ -10,12 +10,13 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/options/scene_with_view.h"
-#include "apps/plan/cost.h"
 #include "apps/render/mirror.h"
 #include "apps/render/shadows.h"
+#include "core/base/check.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
 #include "raster/frame/upload.h"
+#include "raster/tile/twins.h"
 #include "shading/bake/tables/phong_files.h"
 #include "shading/lang/records.h"
 
@@ -198,9 +199,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     const bool shadows = casts_shadows(options, desc, session);
     const bool mirrors = options.floor == FloorChoice::mirror && options.backend != "reference";
     desc.triangle_ids = desc.triangle_ids || mirrors;
-    const bool counts = options.counts_instructions && options.backend == "tile";
-    desc.layers = desc.layers || shadows || options.show != Shown::light || counts;
-    desc.triangle_ids = desc.triangle_ids || counts;
+    desc.layers = desc.layers || shadows || options.show != Shown::light;
     Progress progress("frames", static_cast<std::size_t>(options.frames), options.quiet || options.frames == 1);
     // Render the frames, and compare their hashes
     for (int i = 0; i < options.frames; ++i) {
@@ -217,8 +216,12 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
         last = std::move(*frame);
         progress.step();
     }
-    if (counts)
-        figures.instructions = shading_instructions(last, desc, session.tables());
+    if (options.counts_operations && options.backend == "tile") {
+        Result<CountedFrame> counted = draw_counted(session.parts().input(), session.drawn(desc));
+        BN_TRY(counted);
+        BN_CHECK(pixel_hash(counted->frame.color) == figures.hash);
+        figures.work = counted->work;
+    }
     // Add shadows, reflections, false colours and risks
     if (shadows) {
         BN_TRY(add_shadows(options, desc, session, last));

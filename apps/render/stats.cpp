@@ -108,8 +108,8 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["triangles"] = figures.frame.triangles;
     json["triangles_drawn"] = figures.frame.triangles_drawn;
     json["visible_fragments"] = figures.frame.visible_fragments;
-    if (options.counts_instructions)
-        json["shading_instructions"] = figures.instructions ? Json(*figures.instructions) : Json();
+    if (figures.work)
+        json["operations"] = figures.work->operations, json["operand_bytes"] = figures.work->bytes;
     json["background_pixels"] = figures.frame.background_pixels;
     json["pixel_hash"] = hash_text(figures.hash);
     json["nan_pixels"] = figures.nan_pixels;

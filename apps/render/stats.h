@@ -7,6 +7,7 @@
 
 #include "apps/options/options.h"
 #include "apps/report/json.h"
+#include "raster/tile/tile_types.h"
 #include "shading/bake/environment/environment.h"
 
 namespace burnish {
@@ -33,7 +34,7 @@ struct RenderFigures {
     std::vector<ExtractedLight> extracted_lights; // as the turned environment has them
     bool planned = false;                         // drawn by a plan
     std::optional<PlanFigures> plan;              // of --budget
-    std::optional<double> instructions;           // of shading, with --count-instructions; none: not known
+    std::optional<LaneWork> work;                 // of one frame, with --count-operations
     std::vector<std::string> warnings;            // as they were said, or would have been without --quiet
 };
 

@@ -47,7 +47,7 @@ struct AtlasSetting {
     std::string values; // the values on the path, such as "anisotropy 0.5"
     std::string scene_key, environment_key;
     bool displayed = false; // compared as 8-bit display pictures
-    bool in_double = false; // by the tile renderer in doubles: raster/tile/double_renderer.h
+    bool in_double = false; // by the tile renderer in doubles: raster/tile/twins.h
 };
 
 enum class AtlasRole { test, cure, truth };

@@ -10,7 +10,7 @@ inline namespace bn_counted {
 struct LaneCounts {
     std::uint64_t operations, bytes;
 };
-static LaneCounts lane_counts = {}; // one counter for each source file
+inline thread_local constinit LaneCounts lane_counts = {}; // of the thread so far
 
 struct Counted {
     float value;

@@ -221,7 +221,16 @@ void render_tile(const FrameParams& f, const TileRect& rect, TileScratch& s)
         draw_blended(t, view);
 }
 
-constexpr TileFns kFns = {transform_vertices, bin_triangles, touch_tiles, render_tile, record_vertices, kLanes};
+LaneWork work()
+{
+#ifdef BN_COUNTED
+    return {lane_counts.operations, lane_counts.bytes};
+#else
+    return {0, 0};
+#endif
+}
+
+constexpr TileFns kFns = {transform_vertices, bin_triangles, touch_tiles, render_tile, record_vertices, work, kLanes};
 
 } // namespace
 

@@ -16,10 +16,10 @@
 #include "raster/frame/pixel_parts.h"
 #include "raster/tile/bins.h"
 #include "raster/tile/cull.h"
-#include "raster/tile/double_renderer.h"
 #include "raster/tile/profiler.h"
 #include "raster/tile/tile_split.h"
 #include "raster/tile/tile_types.h"
+#include "raster/tile/twins.h"
 
 namespace burnish {
 
@@ -488,6 +488,28 @@ std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input)
 {
     const auto fns = FnsByIsa<TileFns>::oracle;
     return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "double") : nullptr;
+}
+
+bool has_counting_lanes()
+{
+    const auto fns = FnsByIsa<TileFns>::counted;
+    return fns != nullptr;
+}
+
+Result<CountedFrame> draw_counted(const RenderInput& input, const FrameDesc& desc)
+{
+    if (!has_counting_lanes())
+        return Error{ExitCode::unavailable, "", "",
+                     "this program has no lanes that count operations: build it with -DBN_COUNTING_LANES=ON"};
+    const TileFns& fns = FnsByIsa<TileFns>::counted(nullptr);
+    const Jobs alone(1); // lanes count by thread
+    RenderInput here{input.scene, input.tables, input.environment, input.dfg, alone, input.ltc, input.phong, input.mips, input.pyramids};
+    TileRenderer renderer(here, fns, "counted");
+    const LaneWork before = fns.work();
+    Result<Frame> frame = renderer.render(desc, {});
+    BN_TRY(frame);
+    const LaneWork after = fns.work();
+    return CountedFrame{std::move(*frame), {after.operations - before.operations, after.bytes - before.bytes}};
 }
 
 } // namespace burnish

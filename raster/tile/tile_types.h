@@ -202,6 +202,10 @@ struct TileScratch {
     PeelScratch* peel;                           // null if no material blends
 };
 
+struct LaneWork { // of counted lanes: sums, products, quotients and roots of floats; bytes that loads and fetches ask for
+    std::uint64_t operations, bytes;
+};
+
 struct TileFns { // one table per instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
@@ -211,7 +215,8 @@ struct TileFns { // one table per instruction set
                         std::uint32_t* last_tile);
     void (*render_tile)(const FrameParams&, const TileRect&, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
-    int lanes;                                                                            // kLanes
+    LaneWork (*work)(); // the calling thread's so far; 0 of lanes that do not count
+    int lanes;          // kLanes
 };
 BN_DECLARE_FNS(TileFns);
 

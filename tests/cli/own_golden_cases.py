@@ -6,7 +6,7 @@ import re
 import shutil
 import sys
 
-from harness import Failed, case, check
+from harness import Failed, Skipped, case, check
 
 GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
 sys.path.append(str(GOLDEN))
@@ -15,9 +15,11 @@ from rounded import rounded
 SCENES = ("teapot", "spheres", "plate")  # that every technique draws
 
 
-def draw(bench, isa, kind):
+def draw(bench, isa, kind, operations=()):
     """Draws all golden pictures with an instruction set, as files of a kind, into a folder with its name, and judges them."""
     manifest = json.loads((GOLDEN / "manifest.json").read_text())
+    for row in manifest["rows"] if operations else ():
+        row["hold"] = {"operations": 1.01 * operations[row["name"]]}
     manifest["goldens"] = str(GOLDEN / manifest["goldens"])
     manifest["defaults"]["format"] = kind
     manifest["defaults"]["options"] += ["--isa", isa]
@@ -48,12 +50,26 @@ def every_isa(bench):
                          f"{bench.folder}/{isa}-shown/index.html shows them. If they are right: tests/bless")
 
 
+@case("own_goldens.take_no_more_operations", tier="nightly")
+def operations_of_frames(bench):
+    """Holds each frame's float operations to 1 % above tests/golden/operations.json. The right file lies in the folder of a failed test."""
+    if bench.run("render", "builtin:plate", "--size", "16x16", "--count-operations", "--stats", "-", "-q").code == 77:
+        raise Skipped("the program counts no operations")
+    kept = GOLDEN / "operations.json"
+    done = draw(bench, "scalar", "pfm", json.loads(kept.read_text()))
+    rows = [json.loads(line) for line in (bench.folder / "scalar/results.jsonl").read_text().splitlines()]
+    text = json.dumps({row["name"]: int(row["operations"]) for row in sorted(rows, key=lambda row: row["name"])}, indent=1) + "\n"
+    (bench.folder / "operations.json").write_text(text)
+    check(done.code == 0, f"{done.describe()}\nIf more work is right: cp {bench.folder}/operations.json {kept}")
+
+
 @case("own_goldens.have_a_row_for_every_file_and_technique", tier="quick")
 def rows_and_files(bench):
     rows = {row["name"]: row for row in json.loads((GOLDEN / "manifest.json").read_text())["rows"]}
     for folder, suffix in ((GOLDEN / "hashes", ".hash"), (GOLDEN / "pictures", ".exr")):
         names = {path.name.removesuffix(suffix) for path in folder.iterdir()}
         check(names == set(rows), f"{folder}: {sorted(names ^ set(rows))} lacks a row or a file")
+    check(set(json.loads((GOLDEN / "operations.json").read_text())) == set(rows), "operations.json lacks a row, or has one of its own")
     check(all(re.fullmatch(r"[0-9a-f]{16}\n", path.read_text()) for path in (GOLDEN / "hashes").iterdir()), "a file of hashes holds no hash")
     techniques = re.findall(r"^(\w+)  ", bench.run("list", "techniques").expect(0).out, re.MULTILINE)
     check("auto" in techniques and "lobe_line" in techniques, techniques)

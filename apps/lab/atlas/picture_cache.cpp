@@ -8,7 +8,7 @@
 #include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "raster/reference/scene_key.h"
-#include "raster/tile/double_renderer.h"
+#include "raster/tile/twins.h"
 #include "shading/lang/tables.h"
 
 namespace burnish {

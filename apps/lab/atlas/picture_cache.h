@@ -37,7 +37,7 @@ class PictureCache {
 
     // Renders by the tile renderer, with triangle ids, and with parts if pictures are compared as displayed.
     Result<Frame> draw(const AtlasSetting& setting);
-    // Renders in double precision: raster/tile/double_renderer.h. Returns none if the program has no such lanes.
+    // Renders in double precision: raster/tile/twins.h. Returns none if the program has no such lanes.
     Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);
     // Returns the ground truth, by the reference or the tile renderer. Null if the machine's `stop` ended the reference.
     Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);

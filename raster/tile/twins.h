@@ -1,0 +1,24 @@
+// The tile renderer with other lanes, compiled from the same source text: double ones, and ones that count their work. Both are slow.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "raster/frame/frame.h"
+#include "raster/tile/tile_types.h"
+
+namespace burnish {
+
+// Makes a renderer with double lanes, to measure float errors. Data between steps (the frame's record, transformed vertices, texels,
+// fragment colours) is still float. Null if the program lacks such lanes.
+std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input);
+
+struct CountedFrame {
+    Frame frame; // pixels equal any other lanes'
+    LaneWork work;
+};
+bool has_counting_lanes();
+// Draws a frame on the calling thread with lanes that count. The work is equal on every machine and for every number of threads; it depends
+// on the description, its tile size included. Errors: those of Renderer::render(); ExitCode::unavailable without such lanes.
+Result<CountedFrame> draw_counted(const RenderInput& input, const FrameDesc& desc);
+
+} // namespace burnish
