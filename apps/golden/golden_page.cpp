@@ -125,9 +125,12 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
         walls += fmt::format("<section class=\"pair\" id=\"wall-{}\"><h2>{}</h2><p>{}</p>\n<div class=\"place\" data-place=\"{}\"><div "
                              "class=\"wall\"></div></div></section>\n",
                              wall, escaped(r->name), escaped(r->reason), wall);
-        data_rows[key] = {{"technique", "New picture"},         {"setting", ""},
-                          {"text", r->name + ", " + figures},   {"figures", figures},
-                          {"picture", address(shown + ".png")}, {"error", address(shown + "%error.png")}};
+        data_rows[key] = {{"technique", r->name},
+                          {"setting", ""},
+                          {"text", r->name + ", " + figures},
+                          {"figures", figures},
+                          {"picture", address(shown + ".png")},
+                          {"error", address(shown + "%error.png")}};
         places.push_back({{"reference", address(shown + "%golden.png")},
                           {"width", r->width},
                           {"height", r->height},

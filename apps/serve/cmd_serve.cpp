@@ -52,7 +52,7 @@ OptionTable serve_option_table(ServeArguments& to)
     table.add("", {Option("SCENE", "", "A .gltf, .glb or .obj file, a folder of them and of environments, or builtin:NAME",
                           text(to.setting.target), "built-in scenes")});
     table.add("Serving", {{"--port", "N", "Port on 127.0.0.1", integer(to.setting.port, 0, 65535), "one that is free"},
-                          {"--watch", "", "Draw again where a file of the scene changes", flag(to.setting.watch)}});
+                          {"--watch", "", "Draw again where a file of the scene changes, and list new files", flag(to.setting.watch)}});
     table.add("Output", {{"-o,--output", "FOLDER", "Folder where the page may save pictures", folder(to.setting.output_folder), "none"}});
     table.add("Machine", {threads_option(to.setting.threads, "Worker threads; never changes a picture")});
     table.add(kLimits, limit_options(to.setting.limits));

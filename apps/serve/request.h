@@ -15,10 +15,12 @@ namespace burnish {
 struct ServedFile {
     std::string name; // as the page shows it: "builtin:teapot", or a path below the folder
     std::string path; // as options take it
+    bool operator==(const ServedFile&) const = default;
 };
 
 struct ServedLists {
     std::vector<ServedFile> scenes, environments;
+    bool operator==(const ServedLists&) const = default;
 };
 // Lists built-in scenes and environments, and those of a folder with all below it, or a file with the environments beside it. At most
 // kMostServed of each. Errors: ExitCode::bad_input.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <system_error>
@@ -85,7 +87,8 @@ Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<s
 class Pages {
   public:
     Pages(const ServeSetting& setting, ServedLists lists)
-        : setting_(setting), lists_(std::move(lists)), token_(random_token()), drawings_(setting.limits, setting.threads)
+        : setting_(setting), lists_(std::make_shared<const ServedLists>(std::move(lists))), token_(random_token()),
+          drawings_(setting.limits, setting.threads)
     {
     }
 
@@ -144,7 +147,7 @@ class Pages {
             return {};
         }
         if (request.method == "GET" && request.path == "/changes") {
-            answer(response, {{"changes", setting_.watch ? drawings_.look_for_changes() : 0}});
+            answer(response, {{"changes", setting_.watch ? drawings_.look_for_changes() : 0}, {"lists", setting_.watch ? list_anew() : 0}});
             return {};
         }
         constexpr std::pair<const char*, Status (Pages::*)(const Json&, const HttpRequest&, HttpResponse&)> kPosts[] = {
@@ -158,6 +161,25 @@ class Pages {
         return {};
     }
 
+    std::shared_ptr<const ServedLists> lists() const
+    {
+        const std::lock_guard lock(listing_);
+        return lists_;
+    }
+
+    // Lists the files of a served folder. Returns how often the lists have changed. A folder that cannot be read keeps its list.
+    std::uint64_t list_anew()
+    {
+        std::error_code failed;
+        if (!fs::is_directory(setting_.target, failed))
+            return 0;
+        Result<ServedLists> now = served_lists(setting_.target);
+        const std::lock_guard lock(listing_);
+        if (now && *now != *lists_)
+            lists_ = std::make_shared<const ServedLists>(std::move(*now)), ++list_changes_;
+        return list_changes_;
+    }
+
     Json lists_json() const
     {
         const auto names = [](const std::vector<ServedFile>& files) {
@@ -167,9 +189,10 @@ class Pages {
             return out;
         };
         RenderArguments arguments;
+        const std::shared_ptr<const ServedLists> now = lists();
         return {{"version", version()},
-                {"scenes", names(lists_.scenes)},
-                {"environments", names(lists_.environments)},
+                {"scenes", names(now->scenes)},
+                {"environments", names(now->environments)},
                 {"options", served_options(render_option_table(arguments))},
                 {"watch", setting_.watch},
                 {"save", !setting_.output_folder.empty()}};
@@ -186,7 +209,7 @@ class Pages {
 
     Status draw(const Json& json, const HttpRequest& asked, HttpResponse& response)
     {
-        const Result<DrawRequest> request = draw_request_of(json, lists_);
+        const Result<DrawRequest> request = draw_request_of(json, *lists());
         BN_TRY(request);
         const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {true, asked.gone});
         BN_TRY(drawn);
@@ -199,7 +222,7 @@ class Pages {
         std::shared_ptr<const Drawn> both[2];
         for (int i = 0; i < 2; ++i) {
             const Result<DrawRequest> request =
-                draw_request_of(json.is_object() ? json.value(i ? "test" : "reference", Json()) : Json(), lists_);
+                draw_request_of(json.is_object() ? json.value(i ? "test" : "reference", Json()) : Json(), *lists());
             BN_TRY(request);
             const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
             BN_TRY(drawn);
@@ -240,7 +263,7 @@ class Pages {
                 return write_image(path, extension == ".png" ? magma_map(flip->error) : flip->error);
             });
         }
-        const Result<DrawRequest> request = draw_request_of(json, lists_);
+        const Result<DrawRequest> request = draw_request_of(json, *lists());
         BN_TRY(request);
         const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
         BN_TRY(drawn);
@@ -265,7 +288,9 @@ class Pages {
     }
 
     const ServeSetting& setting_;
-    ServedLists lists_;
+    mutable std::mutex listing_;
+    std::shared_ptr<const ServedLists> lists_; // under listing_
+    std::uint64_t list_changes_ = 0;           // under listing_
     std::string token_;
     std::vector<std::string> hosts_;
     Drawings drawings_;

@@ -234,6 +234,12 @@ def saves(bench):
         shutil.copy(bench.data_file("models/Lights.glb"), model)
         os.utime(model, (2, 2))
         check(changes() == 2, "a file that was mended was not seen")
+        listed = lambda: json.loads(served.ask("/changes")[2])["lists"]
+        check(listed() == 0, "a list that is as it was")
+        shutil.copy(model, bench.folder / "models/another.glb")
+        check(listed() == 1 and listed() == 1, "a new model was not seen")
+        check(json.loads(served.ask("/lists")[2])["scenes"][:2] == ["another.glb", "lamp.glb"], "the new model is not listed")
+        check(served.ask("/draw", wish("another.glb"))[0] == 200, "the new model is not drawn")
         check(json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"] != before, "another file, the same picture")
 
 
@@ -275,6 +281,9 @@ def page(bench):
             browser.value(f"(() => {{ document.body.dataset.done = ''; document.querySelector('[data-show={mode}]').click(); }})()")
             done(mode)
             browser.screenshot(bench.folder / f"{mode}.png")
+            for side, code in (("a", "command"), ("b", "command_b")):
+                command = browser.value(f"document.getElementById('{code}').textContent")
+                check(("bent_normal" in command) == (side == "b") and browser.value(f"shown.{side}.hash") == hash_of_command(bench, command), command)
             # A page at rest draws nothing, whatever its size
             for width, height in ((1000, 700), (1280, 720)):
                 browser.size(width, height)
