@@ -155,12 +155,12 @@ real4 grid_of_four(settings f, int first, integer set)
 #define BN_TECHNIQUE_TEXTS
 #include "shading/models.def"
 
-// Makes the point that a technique shades. n: shading normal; v: direction to the eye; tangent: the grain, perpendicular to n; all unit,
+// Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain, perpendicular to n; all unit,
 // world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual, alpha = roughness^2. anisotropy: in
 // [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy) across. dfg: directional albedo of the lobe
 // as f0 x + f90 y, from your table or dfg_fit(). pixel: y * width + x, seed of random numbers. For lobe_line_shared(), set normal_dx
 // and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels around count as alike.
-shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
+shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
 {
     real alpha = roughness * roughness;
     real root = lit(0.70710678118654752);
@@ -170,6 +170,12 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     shaded_point x;
     x.geometric_axes = axes;
     x.has_surface_horizon = false;
+    x.diffuse = false;
+    x.dielectric_f0 = f0;
+    x.dielectric_f90 = lit(1.0);
+    x.refracts = false;
+    x.samples_interface = false;
+    x.body = false;
     x.lobe.u_axis = select(along >= across, axes.t, axes.b);
     x.lobe.v_axis = select(along >= across, axes.b, -axes.t);
     x.lobe.sigma_u = max(along, across);
@@ -180,9 +186,16 @@ shaded_point point_of(vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float rou
     x.s.f0 = f0;
     x.s.f90 = f90;
     x.s.roughness = roughness;
+    x.s.diffuse = vec3(0.0);
+    x.s.occlusion = lit(1.0);
+    x.s.exact = 0;
     x.energy.albedo = f0 * dfg.x + f90 * dfg.y;
     x.energy.phong_albedo = lit(-1.0);
     x.energy.phong_set = -1;
+    x.energy.dfg = dfg_value(dfg.x, dfg.y);
+    x.energy.own_dfg = x.energy.dfg;
+    x.energy.whole = x.energy.dfg;
+    x.energy.albedo_ratio = lit(1.0);
     x.energy.gain = vec3(1.0);
     x.energy.compensation = vec3(1.0);
     x.pixel_id = pixel;
