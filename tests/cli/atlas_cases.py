@@ -167,7 +167,7 @@ def quick(bench):
 
 # Wrong constants of techniques: options, entries that must see the defect, and prefixes of entries that may; empty: no other may.
 DEFECTS = {
-    "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse"}, ()),
+    "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse", "axis_at_grazing_angles"}, ()),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
     "few_samples": ("--samples 3", {"adaptive_counts_step"}, ("",)),
 }

@@ -125,7 +125,7 @@ int run_plot(const PlotArguments& arguments, const OptionTable& given)
                             : arguments.what == "lobe"   ? plot_lobe(lobe)
                             : arguments.what == "side"   ? plot_side(lobe)
                             : arguments.what == "energy" ? plot_energy()
-                            : arguments.what == "ltc"    ? plot_ltc(lobe, ltc::shipped_table())
+                            : arguments.what == "ltc"    ? plot_ltc(lobe, ltc::shipped_table(), arguments.quiet)
                                                          : plot_half_vectors(lobe);
     return write(arguments, svg_of(drawing, chart_style()));
 }

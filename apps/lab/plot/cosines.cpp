@@ -1,12 +1,14 @@
 // `burnish plot ltc`: the figures of linearly transformed cosines.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <fmt/core.h>
 #include <functional>
 
 #include "apps/lab/plot/panel.h"
 #include "apps/lab/plot/plot.h"
+#include "core/jobs/jobs.h"
 #include "shading/bake/ltc/table.h"
 #include "shading/lab/ltc/pair_fit.h"
 #include "shading/lab/ltc/quality.h"
@@ -151,11 +153,15 @@ std::array<ltc::NodeFit, 3> fits_from(const ltc::LobePoints& points, const ltc::
 
 constexpr const char* kFits[] = {"third power", "sliced distance", "burnish"};
 
-std::string count_broken()
+std::string count_broken(bool quiet)
 {
     const ltc::Rule rule(13), white(17);
-    int broken[3][3] = {};
-    for (const ltc::Place& place : ltc::judged_places(kCounted, 0, 0)) {
+    std::array<std::array<std::atomic<int>, 3>, 3> broken{};
+    const std::vector<ltc::Place> places = ltc::judged_places(kCounted, 0, 0);
+    Progress progress("lobes", places.size(), quiet);
+    const Jobs jobs;
+    jobs.parallel_for_whole(places.size(), [&](std::size_t i, int) {
+        const ltc::Place& place = places[i];
         const ltc::LobePoints points(normalised_lobe(place, white), rule);
         const std::array<Start, 3> starts = starts_of(place);
         std::array<std::array<ltc::NodeFit, 3>, 3> fits = {};
@@ -168,18 +174,19 @@ std::string count_broken()
         for (std::size_t s = 0; s < 3; ++s)
             for (std::size_t f = 0; f < 3; ++f)
                 broken[f][s] += fits[s][f].l1 > least + kBroken ? 1 : 0;
-    }
+        progress.step();
+    });
     std::string text = fmt::format("of {} lobes, fits that end {:g} or more above the nearest of all, from an ellipse, apart and the plain "
                                    "cosine (burnish has a start of its own): ",
                                    kCounted, kBroken);
     for (std::size_t f = 0; f < 3; ++f)
-        text += fmt::format("{}{} {}, {}, {}", f ? "; " : "", kFits[f], broken[f][0], broken[f][1], broken[f][2]);
+        text += fmt::format("{}{} {}, {}, {}", f ? "; " : "", kFits[f], broken[f][0].load(), broken[f][1].load(), broken[f][2].load());
     return text;
 }
 
 } // namespace
 
-Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
+Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of, bool quiet)
 {
     const double a = plot.roughness * plot.roughness, eta = std::abs(plot.anisotropy);
     const auto folded = [](double degrees) { return std::abs(std::remainder(degrees, 180.0)) * kDegree; };
@@ -240,7 +247,7 @@ Drawing plot_ltc(const LobePlot& plot, const ltc::Table& of)
     sheet.drawing.text(
         kGap, below, "note",
         fmt::format("seen from {:g} degrees off the normal, {:g} about it from the wide axis", place.theta / kDegree, place.phi / kDegree));
-    sheet.drawing.text(kGap, below + 22.0, "note", count_broken());
+    sheet.drawing.text(kGap, below + 22.0, "note", count_broken(quiet));
     return sheet.drawing;
 }
 

@@ -39,6 +39,6 @@ Drawing plot_side(const LobePlot& lobe);
 // Draws a GGX lobe and its transformed cosines: from the table, the nearest cosine, and the nearest sum of two. Draws fits from three
 // starts in three norms. Draws averages of two matrices, of one lobe and of two, rotated and aligned. Draws where a matrix moves the
 // points of a cosine. KT, Heitz, Dupuy, Narayanan 2022, figures 4, 7, 8 and 13.
-Drawing plot_ltc(const LobePlot& lobe, const ltc::Table& table);
+Drawing plot_ltc(const LobePlot& lobe, const ltc::Table& table, bool quiet); // quiet: without progress
 
 } // namespace burnish

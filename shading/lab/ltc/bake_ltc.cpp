@@ -110,7 +110,7 @@ Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
             return options.norm == Norm::sliced ? fit_sliced(points, start, zero) : fit_lobe(points, start, zero, options.norm);
         };
         NodeFit best = fit(plain);
-        if (theta > 0) { // start from the neighbour's fit, turned with the mirror direction
+        if (theta > 0 && options.norm != Norm::sliced) { // start from the neighbour's fit, turned with the mirror direction
             const Matrix start = plain * inverse(plain_before) * before;
             if (determinant(start) > 0.0)
                 if (const NodeFit other = fit(start); other.l1 < best.l1)
