@@ -19,13 +19,16 @@ int main(int argc, char** argv)
     FrameDesc desc;
     desc.width = 160, desc.height = 120;
     desc.view = session->framed(desc.width, desc.height);
-    ask_for_layers(names, desc);
+    if (const Status asked = ask_for_layers(names, desc); !asked)
+        return fails(asked.error());
     const Result<Frame> frame = session->render(desc);
     if (!frame)
         return fails(frame.error());
-    const NamedChannels picture = with_layers(frame->color, *frame, session->tables(), names);
-    for (const std::string& name : picture.names)
+    const Result<NamedChannels> picture = with_layers(frame->color, *frame, session->tables(), names);
+    if (!picture)
+        return fails(picture.error());
+    for (const std::string& name : picture->names)
         std::printf("%s\n", name.c_str());
-    const Status written = write_channels("layers.exr", picture.image, picture.names);
+    const Status written = write_channels("layers.exr", picture->image, picture->names);
     return written ? 0 : fails(written.error());
 }

@@ -193,7 +193,7 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     // Ask for the frame's extra outputs
     desc.triangle_ids = desc.triangle_ids || draws_alpha(options);
     desc.parts = needs_parts(options);
-    ask_for_layers(options.aov, desc);
+    BN_TRY(ask_for_layers(options.aov, desc));
     if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
         return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));
     const bool shadows = casts_shadows(options, desc, session);
@@ -244,8 +244,11 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     figures.nan_pixels = count_not_finite(out.color);
     if (draws_alpha(options))
         out.color = with_coverage(out.color, last.triangle_ids, last.through);
-    if (!options.aov.empty())
-        out.layered = with_layers(out.color, last, session.tables(), options.aov);
+    if (!options.aov.empty()) {
+        Result<NamedChannels> layered = with_layers(out.color, last, session.tables(), options.aov);
+        BN_TRY(layered);
+        out.layered = std::move(*layered);
+    }
     out.parts = std::move(last.parts), out.profile = std::move(last.profile);
     out.figures = std::move(figures);
     return out;

@@ -45,7 +45,7 @@ template <class Iterator> std::vector<fs::path> files_of(Iterator at, std::error
     std::vector<fs::path> found;
     std::error_code ignored;
     for (; !failed && at != Iterator(); at.increment(failed))
-        if (at->is_regular_file(ignored) && ends_in(at->path(), {"gltf", "glb", "obj", "hdr", "exr"}))
+        if (at->is_regular_file(ignored) && ends_in(at->path(), {"gltf", "glb", "obj", "hdr", "exr", "pfm"}))
             found.push_back(at->path());
     return found;
 }
@@ -96,13 +96,19 @@ std::string text_of(const Json& json, const char* name)
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+bool of_references(const std::string& option)
+{
+    return option == "--reference-mode" || option == "--bounces" || option == "--reference-textures";
+}
+
 // Returns the options without those that the request's kind sets or ignores.
 std::vector<std::pair<std::string, std::string>> drawn_options(const DrawRequest& request)
 {
     std::vector<std::pair<std::string, std::string>> options;
     for (const auto& option : request.options) {
         const bool of_tiles = option.first == "--msaa" || option.first == "--technique" || option.first == "--samples";
-        if (!(request.reduction > 1 && option.first == "--msaa") && !(request.reference_samples > 0 && of_tiles))
+        if (request.reference_samples > 0 ? !of_tiles
+                                          : !of_references(option.first) && !(request.reduction > 1 && option.first == "--msaa"))
             options.push_back(option);
     }
     if (request.reduction > 1 && request.reference_samples == 0)
@@ -200,11 +206,12 @@ bool is_served(const Option& option)
 {
     const ValueKind kind = option.value.kind;
     const bool plain = kind == ValueKind::flag || kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
-                       kind == ValueKind::name || option.name == "--camera";
+                       kind == ValueKind::name || option.name == "--camera" || option.name == "--light";
     const bool group = option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
                        option.group == "Parameters of techniques";
     const bool output = option.name == "--exposure" || option.name == "--tonemap" || option.name == "--resolve" ||
-                        option.name == "--show" || option.name == "--shadows" || option.name == "--shadow-samples";
+                        option.name == "--show" || option.name == "--shadows" || option.name == "--shadow-samples" ||
+                        of_references(option.name);
     return plain && (group || output) && option.name != "--no-cache";
 }
 

@@ -1,14 +1,15 @@
-// Contract checks. BN_CHECK is always on and prints both values. BN_DCHECK vanishes in release builds.
+// Contract checks. BN_CHECK is always on: where a caller breaks a function's condition, the function throws CheckFailed with both values.
+// Functions that return a Result turn that into an Error. BN_DCHECK vanishes in release builds.
 #pragma once
-#include <cstdio>
-#include <cstdlib>
+#include <stdexcept>
 
 namespace burnish {
-[[noreturn]] inline void check_failed(const char* file, int line, const char* text, long long a, long long b)
-{
-    std::fprintf(stderr, "burnish: internal check failed at %s:%d: %s (%lld, %lld)\n", file, line, text, a, b);
-    std::abort();
-}
+
+struct CheckFailed : std::logic_error {
+    using std::logic_error::logic_error;
+};
+[[noreturn]] void check_failed(const char* file, int line, const char* text, long long a, long long b);
+
 } // namespace burnish
 
 #define BN_CHECK(condition)                                                                                                                \

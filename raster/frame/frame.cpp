@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <sstream>
 #include <string_view>
@@ -388,9 +389,10 @@ std::vector<std::string> choices_of(const ParameterInfo& p)
     return names;
 }
 
-void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
+Status set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
 {
-    BN_CHECK(value >= p.least && value <= p.most);
+    if (!(value >= p.least && value <= p.most))
+        return Error{ExitCode::usage, "", p.option, fmt::format("{} is out of range, {} to {}", value, p.least, p.most)};
     if (p.number)
         desc.*p.number = static_cast<float>(value);
     else if (p.flag)
@@ -401,6 +403,7 @@ void set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
         desc.*p.angles = glm::vec2(static_cast<float>(glm::radians(value)));
     else
         desc.*p.whole = static_cast<std::uint32_t>(value);
+    return {};
 }
 
 int effective_samples(const TechniqueInfo& technique, int samples)

@@ -1,11 +1,11 @@
 #include "raster/frame/layers.h"
 
 #include <algorithm>
+#include <fmt/core.h>
 #include <limits>
 #include <sstream>
 #include <string_view>
 
-#include "core/base/check.h"
 #include "raster/frame/upload.h"
 
 namespace burnish {
@@ -22,9 +22,21 @@ std::vector<std::string> words_of(const char* text)
     return words;
 }
 
-const LayerInfo& layer_named(const std::string& name)
+Error wrong(const std::string& reason)
 {
-    return *std::find_if(layers().begin(), layers().end(), [&](const LayerInfo& l) { return l.name == name; });
+    return {ExitCode::usage, "", "layers", reason};
+}
+
+Result<std::vector<const LayerInfo*>> layers_named(const std::vector<std::string>& names)
+{
+    std::vector<const LayerInfo*> found;
+    for (const std::string& name : names) {
+        const auto at = std::find_if(layers().begin(), layers().end(), [&](const LayerInfo& l) { return l.name == name; });
+        if (at == layers().end())
+            return wrong("there is no layer '" + name + "'");
+        found.push_back(&*at);
+    }
+    return found;
 }
 
 float object_of(const DrawTables& tables, std::uint32_t triangle)
@@ -76,31 +88,45 @@ const std::vector<LayerInfo>& layers()
     return table;
 }
 
-void ask_for_layers(const std::vector<std::string>& names, FrameDesc& desc)
+Status ask_for_layers(const std::vector<std::string>& names, FrameDesc& desc)
 {
-    for (const std::string& name : names)
-        if (layer_named(name).first_word >= 0)
+    const Result<std::vector<const LayerInfo*>> found = layers_named(names);
+    BN_TRY(found);
+    for (const LayerInfo* layer : *found)
+        if (layer->first_word >= 0)
             desc.layers = true;
         else
             desc.triangle_ids = true;
+    return {};
 }
 
-NamedChannels with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names)
+Result<NamedChannels> with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names)
 {
-    BN_CHECK(color.type == PixelType::f32 && color.channels >= 3);
+    const Result<std::vector<const LayerInfo*>> found = layers_named(names);
+    BN_TRY(found);
+    if (color.type != PixelType::f32 || color.channels < 3 || color.channels > 4)
+        return wrong("the picture is not one of 3 or 4 float channels");
+    const std::size_t pixels = static_cast<std::size_t>(color.width) * static_cast<std::size_t>(color.height);
+    for (const LayerInfo* layer : *found) {
+        const bool of_pixels = layer->first_word >= 0;
+        const std::size_t there = of_pixels ? frame.layers.size() : frame.triangle_ids.size();
+        if (there == 0 || (of_pixels ? there != pixels : there % std::max<std::size_t>(1, pixels) != 0))
+            return wrong(fmt::format("the frame has no '{}' for {}x{} pixels: it was drawn without, or is of another size", layer->name,
+                                     color.width, color.height));
+    }
     NamedChannels out;
     out.names = {"R", "G", "B", "A"};
     out.names.resize(static_cast<std::size_t>(color.channels));
-    for (const std::string& name : names)
-        out.names.insert(out.names.end(), layer_named(name).channels.begin(), layer_named(name).channels.end());
+    for (const LayerInfo* layer : *found)
+        out.names.insert(out.names.end(), layer->channels.begin(), layer->channels.end());
     out.image = make_image(color.width, color.height, static_cast<int>(out.names.size()), PixelType::f32);
     const std::size_t own = static_cast<std::size_t>(color.channels), channels = out.names.size();
     for (std::size_t p = 0; p * own * sizeof(float) < color.bytes.size(); ++p)
         std::copy_n(color.f32() + p * own, own, out.image.f32() + p * channels);
     std::size_t first = own;
-    for (const std::string& name : names) {
-        put_layer(layer_named(name), frame, tables, first, out.image);
-        first += layer_named(name).channels.size();
+    for (const LayerInfo* layer : *found) {
+        put_layer(*layer, frame, tables, first, out.image);
+        first += layer->channels.size();
     }
     return out;
 }

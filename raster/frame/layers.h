@@ -15,15 +15,16 @@ struct LayerInfo {
 // Lists the layers in shading/layers.def, then object-id (1 + the node's index in the scene) and material-id (1 + the material's index).
 const std::vector<LayerInfo>& layers();
 
-// Sets the description's flags so that a frame has the data for these layers.
-void ask_for_layers(const std::vector<std::string>& names, FrameDesc& desc);
+// Sets the description's flags so that a frame has the data for these layers. Errors: ExitCode::usage for an unknown name.
+Status ask_for_layers(const std::vector<std::string>& names, FrameDesc& desc);
 
 struct NamedChannels {
     Image image; // f32, a channel a name
     std::vector<std::string> names;
 };
 // Returns the picture's channels (R, G, B, and A if present) and those of the layers. Empty pixels have infinite depth and 0 in other
-// layers. frame: drawn from these tables with a description from ask_for_layers().
-NamedChannels with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names);
+// layers. frame: drawn from these tables with a description from ask_for_layers(). Errors: ExitCode::usage for an unknown name, a picture
+// that is not f32 with 3 channels or more, or a frame of another size or without the layers' data.
+Result<NamedChannels> with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names);
 
 } // namespace burnish

@@ -33,15 +33,13 @@ Status set_parameter(FrameDesc& desc, const std::string& name, const std::string
                 known_names += (known_names.empty() ? "" : ", ") + one;
             return wrong("'" + value + "' is none of " + known_names);
         }
-        set_parameter(desc, p, static_cast<double>(at - names.begin()));
-        return {};
+        return set_parameter(desc, p, static_cast<double>(at - names.begin()));
     }
     if (p.flag) {
         const std::optional<double> on = flag_of(value);
         if (!on)
             return wrong("'" + value + "' is neither true nor false");
-        set_parameter(desc, p, *on);
-        return {};
+        return set_parameter(desc, p, *on);
     }
     // Numbers
     const std::optional<std::vector<float>> numbers = comma_numbers(value);
@@ -53,7 +51,7 @@ Status set_parameter(FrameDesc& desc, const std::string& name, const std::string
     if (p.angles)
         desc.*p.angles = glm::radians(glm::vec2((*numbers)[0], (*numbers)[1]));
     else
-        set_parameter(desc, p, static_cast<double>(numbers->front()));
+        return set_parameter(desc, p, static_cast<double>(numbers->front()));
     return {};
 }
 

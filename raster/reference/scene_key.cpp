@@ -94,7 +94,7 @@ FrameDesc reference_desc(FrameDesc desc)
     desc.technique = "mc", desc.samples = 1, desc.by_material.clear(), desc.msaa = 1, desc.tile_size = defaults.tile_size;
     for (const ParameterInfo& p : parameters())
         if (!reads("reference", p))
-            set_parameter(desc, p, p.fallback);
+            static_cast<void>(set_parameter(desc, p, p.fallback)); // in its range
     return desc;
 }
 

@@ -117,12 +117,15 @@ Status finish_open(const burnish_options* options, const CSettings& settings, st
     return {};
 }
 
-// Returns a frame with its layers split off.
-burnish_frame* make_frame(Frame frame, const std::vector<std::string>& layers, const DrawTables& tables)
+// Makes a frame with its layers split off.
+Status make_frame(Frame frame, const std::vector<std::string>& layers, const DrawTables& tables, burnish_frame** to)
 {
     auto out = std::make_unique<burnish_frame>();
-    if (!layers.empty())
-        out->layered = with_layers(frame.color, frame, tables, layers);
+    if (!layers.empty()) {
+        Result<NamedChannels> layered = with_layers(frame.color, frame, tables, layers);
+        BN_TRY(layered);
+        out->layered = std::move(*layered);
+    }
     std::size_t first = static_cast<std::size_t>(frame.color.channels);
     const std::size_t channels = static_cast<std::size_t>(out->layered.image.channels);
     for (const std::string& name : layers)
@@ -138,7 +141,8 @@ burnish_frame* make_frame(Frame frame, const std::vector<std::string>& layers, c
                 out->taken.push_back(std::move(values));
             }
     out->frame = std::move(frame);
-    return out.release();
+    *to = out.release();
+    return {};
 }
 
 Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
@@ -147,7 +151,7 @@ Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
     const Result<View> view = view_of(settings, session);
     BN_TRY(view);
     desc.view = *view;
-    ask_for_layers(settings.layers, desc);
+    BN_TRY(ask_for_layers(settings.layers, desc));
     return desc;
 }
 
@@ -470,7 +474,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
         BN_TRY(desc);
         Result<Frame> frame = run_told(teller(options), [&] { return session->session.render(*desc); });
         BN_TRY(frame);
-        *out = make_frame(std::move(*frame), settings->layers, session->session.tables());
+        BN_TRY(make_frame(std::move(*frame), settings->layers, session->session.tables(), out));
         return {};
     });
 }
@@ -500,7 +504,7 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return reference->render(*desc);
         });
         BN_TRY(frame);
-        *out = make_frame(std::move(*frame), {}, session->session.tables());
+        BN_TRY(make_frame(std::move(*frame), {}, session->session.tables(), out));
         return {};
     });
 }

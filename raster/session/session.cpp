@@ -66,6 +66,8 @@ Result<std::shared_ptr<const ltc::ShadingTables>> load_ltc_table(const std::stri
 {
     using Made = Result<std::shared_ptr<const ltc::ShadingTables>>;
     return guarded(path, [&]() -> Made {
+        if (lobe < 0 || lobe >= kLobeCount)
+            return Error{ExitCode::usage, path, "lobe", fmt::format("{} is none of the models", lobe)};
         const Result<ltc::Table> table = ltc::read_table(path, 0);
         BN_TRY(table);
         Result<ltc::ShadingTables> tables = ltc::with_table(*table, path);

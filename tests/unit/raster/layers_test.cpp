@@ -118,12 +118,32 @@ TEST(layers, stay_in_the_world_where_the_environment_is_turned)
     EXPECT_NEAR(a.depth, b.depth, 1e-5f);
 }
 
+TEST(layers, wrong_requests_are_errors)
+{
+    const Stage stage(brushed_plate());
+    FrameDesc d = plate_desc(4);
+    EXPECT_EQ(ask_for_layers({"depth", "height"}, d).error().code, ExitCode::usage);
+    const Frame f = stage.render(d, best_isa());
+    const auto refused = [&](const Image& color, const std::vector<std::string>& names) {
+        const Result<NamedChannels> c = with_layers(color, f, stage.tables, names);
+        return !c && c.error().code == ExitCode::usage;
+    };
+    EXPECT_FALSE(refused(f.color, {"depth"}));
+    EXPECT_TRUE(refused(f.color, {"height"}));
+    EXPECT_TRUE(refused(make_image(4, 4, 3, PixelType::f32), {"depth"})) << "a picture of another size";
+    EXPECT_TRUE(refused(make_image(f.color.width, f.color.height, 3, PixelType::u8), {"depth"}));
+    EXPECT_TRUE(refused(make_image(f.color.width, f.color.height, 1, PixelType::f32), {"depth"}));
+    Frame bare = f;
+    bare.layers.clear();
+    EXPECT_FALSE(with_layers(bare.color, bare, stage.tables, {"depth"})) << "a frame without layers";
+}
+
 TEST(layers, are_channels_with_numbers_that_count_from_one)
 {
     const Stage stage(brushed_plate());
     const FrameDesc d = plate_desc(4);
     const Frame f = stage.render(d, best_isa());
-    const NamedChannels c = with_layers(f.color, f, stage.tables, {"material-id", "depth", "object-id"});
+    const NamedChannels c = *with_layers(f.color, f, stage.tables, {"material-id", "depth", "object-id"});
     EXPECT_EQ(c.names, (std::vector<std::string>{"R", "G", "B", "materialId", "Z", "id"}));
     const float *corner = c.image.f32(), *middle = c.image.f32() + 6 * (kLayersSide / 2 * kLayersSide + kLayersSide / 2);
     EXPECT_EQ(corner[3], 0.0f);

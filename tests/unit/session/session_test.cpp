@@ -1,8 +1,12 @@
 // Sessions: equal bits alone, side by side and in threads; errors instead of exceptions.
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <thread>
 
+#include "core/base/check.h"
+#include "core/image/metrics/flip.h"
+#include "core/image/metrics/metrics.h"
 #include "raster/frame/pyramids.h"
 #include "raster/session/session.h"
 #include "tests/unit/data.h"
@@ -197,6 +201,24 @@ TEST(session, options_of_techniques_go_by_name)
         EXPECT_EQ(refused.error().place, name);
         EXPECT_EQ(refused.error().code, ExitCode::usage);
     }
+}
+
+TEST(session, a_caller_s_faults_do_not_end_the_host)
+{
+    FrameDesc desc;
+    const FrameDesc before = desc;
+    for (const ParameterInfo& p : parameters())
+        for (const double value : {p.least - 1.0, p.most + 1.0, std::nan("")})
+            EXPECT_FALSE(set_parameter(desc, p, value)) << p.option << " " << value;
+    EXPECT_EQ(desc.major_axis_beta, before.major_axis_beta);
+    for (const int lobe : {-1, 99}) {
+        const auto table = load_ltc_table("no.ltc", lobe);
+        ASSERT_FALSE(table);
+        EXPECT_EQ(table.error().code, ExitCode::usage);
+    }
+    const Image a = make_image(8, 8, 3, PixelType::f32), b = make_image(8, 9, 3, PixelType::f32);
+    EXPECT_THROW((void)flip_hdr(a, b, FlipOptions(), Jobs(1)), CheckFailed);
+    EXPECT_THROW((void)pixel_figures(a, b, Jobs(1)), CheckFailed);
 }
 
 TEST(session, takes_the_other_renderers)
