@@ -281,7 +281,7 @@ std::string session_key(const DrawRequest& request, const RenderOptions& options
     Json key = {request.scene, request.environment, request.reference_samples > 0, options.mips.frames_override};
     for (const Option& option : table.options()) {
         const bool prepared = changes_scene(option) || option.group == "Environment" || option.name == "--floor" ||
-                              option.name == "--brdf" || option.name == "--no-background" ||
+                              option.name == "--light" || option.name == "--brdf" || option.name == "--no-background" ||
                               option.name == "--shadows"; // floors and warnings follow these
         for (const auto& [name, value] : request.options)
             if (name == option.name && prepared)

@@ -474,8 +474,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
         BN_TRY(desc);
         Result<Frame> frame = run_told(teller(options), [&] { return session->session.render(*desc); });
         BN_TRY(frame);
-        BN_TRY(make_frame(std::move(*frame), settings->layers, session->session.tables(), out));
-        return {};
+        return make_frame(std::move(*frame), settings->layers, session->session.tables(), out);
     });
 }
 
@@ -504,8 +503,7 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return reference->render(*desc);
         });
         BN_TRY(frame);
-        BN_TRY(make_frame(std::move(*frame), {}, session->session.tables(), out));
-        return {};
+        return make_frame(std::move(*frame), {}, session->session.tables(), out);
     });
 }
 

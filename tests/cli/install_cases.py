@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -103,6 +104,43 @@ def examples(bench):
             check(run("golden_test", env={"PLATE_HASH": "1"}).returncode == 1, "a golden test that cannot fail")
 
 
+def packages_needed(depends):
+    """Returns the names of installed packages that a list of dependencies needs, theirs included."""
+    found, open_lists = set(), [depends]
+    while open_lists:
+        for needed in filter(None, map(str.strip, open_lists.pop().split(","))):
+            for name in (re.match(r"[^ (:]+", choice.strip())[0] for choice in needed.split("|")):
+                asked = subprocess.run(["dpkg-query", "-W", "-f", "${Status}\n${Pre-Depends}, ${Depends}", name], capture_output=True, text=True)
+                if asked.returncode == 0 and "ok installed" in asked.stdout:
+                    if name not in found:
+                        found.add(name)
+                        open_lists.append(asked.stdout.split("\n", 1)[1])
+                    break
+    return found
+
+
+def furnish(root, packages):
+    """Puts the packages' libraries into a root, as links where the file system allows."""
+    merged = [path for path in map(pathlib.Path, ("/lib", "/lib64", "/bin", "/sbin")) if path.is_symlink()]
+    for path in merged:
+        (root / path.name).symlink_to(os.readlink(path))
+    # What the packages' scripts would choose
+    shutil.copytree("/etc/alternatives", root / "etc/alternatives", symlinks=True)
+    chosen = [path for path in pathlib.Path("/usr/lib").glob("*/*.so*") if path.is_symlink() and os.readlink(path).startswith("/etc/alternatives/")]
+    for path in chosen:
+        (root / path.parent.relative_to("/")).mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, root / path.relative_to("/"), follow_symlinks=False)
+    listed = subprocess.run(["dpkg", "-L", *sorted(packages)], capture_output=True, text=True, check=True).stdout.split("\n")
+    for line in sorted(set(filter(None, listed))):
+        path = pathlib.Path(line)
+        if not re.match(r"/(usr/)?lib", line) or path.is_dir() and not path.is_symlink() or not path.exists():
+            continue
+        to = root / path.parent.resolve().relative_to("/") / path.name
+        to.parent.mkdir(parents=True, exist_ok=True)
+        if not to.exists() and not to.is_symlink():
+            shutil.copy(path, to, follow_symlinks=False)
+
+
 @case("install.debian_package_installs_and_draws", tier="nightly")
 def debian_package(bench):
     """Installs the package below a root of its own, whose own Debian has nothing else."""
@@ -126,8 +164,19 @@ def debian_package(bench):
         own = json.loads(bench.run("render", *SMALL, "--stats", "-", "-q").expect(0).out)["pixel_hash"]
         told = json.loads(bench.run("render", *SMALL, "--stats", "-", "-q", "-o", "a.exr", program=program).expect(0).out)["pixel_hash"]
         check(told == own and (bench.folder / "a.exr").exists(), "the packaged program draws another picture")
+        # In a root that holds nothing but the packages that it names, and theirs
+        furnish(root, packages_needed(depends))
+        for node in ("null", "urandom"):
+            (root / "dev").mkdir(exist_ok=True)
+            (root / "dev" / node).write_bytes(b"" if node == "null" else os.urandom(4096))
+        (root / "proc/self").mkdir(parents=True)
+        (root / "proc/self/exe").symlink_to("/usr/bin/burnish")
+        linker = subprocess.run(["ldconfig", "-r", str(root)], capture_output=True, text=True)
+        done = subprocess.run(["/usr/sbin/chroot", str(root), "/usr/bin/burnish", "render", *SMALL, "--stats", "-", "-q", "-o", "/b.exr"],
+                              capture_output=True, text=True, timeout=120, env={"HOME": "/", "PATH": "/usr/bin"})
+        check(done.returncode == 0 and json.loads(done.stdout)["pixel_hash"] == own and (root / "b.exr").exists(), f"on a bare root: {done.stderr}{linker.stderr}")
         subprocess.run(["dpkg", f"--root={root}", "--force-script-chrootless", "--no-triggers", "--purge", "burnish"], **quiet)
-        check(not [path for path in (root / "usr").rglob("*") if path.is_file()], "files stay when the package goes")
+        check(not [path for path in (root / "usr").rglob("*burnish*")], "files stay when the package goes")
 
 
 @case("install.without_the_module_png_still_works", "input")
