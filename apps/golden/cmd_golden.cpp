@@ -1,7 +1,9 @@
 // `burnish golden`: makes pictures, compares them with golden ones, and lets people bless changes.
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
@@ -163,10 +165,11 @@ int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments
     sort_by_name(results);
     if (const Status written = write_reports(results, arguments.results); !written)
         return fail(written.error());
-    if (const char* actions = std::getenv("GITHUB_ACTIONS"); actions && std::string_view(actions) == "true")
-        report.asked_for(golden_annotations(results));
+    if (on_github())
+        report.commands(golden_annotations(results));
     if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
-        std::ofstream(summary, std::ios::app) << golden_summary(results);
+        if (std::ofstream out(summary, std::ios::app); !(out << golden_summary(results) << std::flush))
+            report.warning(fmt::format("the step's summary is not written: {}: {}", summary, std::strerror(errno)));
     for (const GoldenResult& r : results)
         if (r.verdict != GoldenVerdict::passed)
             report.figure(verdict_name(r.verdict), printable(r.name + ": " + r.reason));

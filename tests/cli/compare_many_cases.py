@@ -102,3 +102,20 @@ def sequence_page(bench):
         check(marks == 5 + 4 + 4, f"{marks} marks")
         check(not browser.faults, f"the console says {browser.faults}")
         browser.screenshot(bench.folder / "page.png")
+
+
+@case("compare.names_are_no_commands_to_github", "input")
+def commands(bench):
+    """GitHub obeys printed lines that begin with "::", after blanks too, and "##[" anywhere."""
+    names = ("::warning::hello.png", " \u3000::error::x.png", "a\n::error::b.png", "##[error]c.png")
+    for name in names:
+        for folder in ("expected", "actual"):
+            scratch(bench, f"{folder}/{name}", png(24, 16, ramp if folder == "actual" else lambda x, y: (0, 8 * y, 9)))
+    scratch(bench, "actual/::notice::none.png", b"no picture")
+    for env, code in (({"GITHUB_ACTIONS": "true"}, "\\::"), ({}, "::")):
+        done = bench.run("compare", "expected", "actual", "--fail-flip", "0.001", env=env).expect(4)
+        check(f"\n{code}warning::hello.png FLIP 0." in "\n" + done.out, done.describe())
+        piped = bench.run("compare", "expected", "actual", "--csv", "-", env=env).expect(4)
+        check(piped.out.count("::warning::hello.png") == 3 and not any(line.strip().startswith("::") for line in piped.out.splitlines()), piped.describe())
+        for line in (done.out + done.err).splitlines() if env else ():
+            check(not line.strip().startswith("::") and "##[" not in line, done.describe())

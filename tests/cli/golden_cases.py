@@ -260,10 +260,12 @@ def hostile(bench):
     check("<script>alert" not in page and "&lt;script&gt;alert" in page, "a name is markup")
     annotations = [line for line in done.out.splitlines() if line.startswith("::error ")]
     check(len(annotations) == len(names) and not any("::x%0A" in line for line in annotations), annotations)
+    check(not any(line.strip().startswith("::") for line in (done.out + done.err).splitlines() if line not in annotations), done.describe())
     check("<script>" not in (bench.folder / "step.md").read_text() and "a\\|b" in (bench.folder / "step.md").read_text(), "Markdown")
     check(not (bench.folder / "up.ppm").exists() and len(list((bench.folder / "golden-results/pictures").iterdir())) == len(names), "files")
     bench.run("golden", "bless", "m.json").expect(0)
-    bench.run("golden", "check", "m.json").expect(0)
+    done = bench.run("golden", "check", "m.json", env={"GITHUB_STEP_SUMMARY": "/nonexistent/x"}).expect(0)
+    done.expect_one_line("warning", "summary", "/nonexistent/x")  # and the exit code stays
     check(len(list((bench.folder / "goldens").iterdir())) == len(names), os.listdir(bench.folder / "goldens"))
 
 
