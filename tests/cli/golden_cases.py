@@ -121,6 +121,24 @@ def failing(bench):
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("ends", "no new picture")
 
 
+@case("golden.long_outputs_are_kept_in_part", budget=10)
+def outputs(bench):
+    write(bench, [{"name": "floods", "command": ["sh", "-c", "echo first; exec yes"], "picture": "1.png", "seconds": 1},
+                  {"name": "counts", "command": ["sh", "-c", "seq 1000000; echo last >&2; exit 3"], "picture": "2.png"},
+                  {"name": "closes", "command": ["sh", "-c", "exec >&- 2>&-; sleep 0.3; exit 4"], "picture": "3.png"},
+                  {"name": "leaves", "command": ["sh", "-c", "setsid yes & exit 5"], "picture": "4.png"}])
+    bench.run("golden", "check", "m.json", timeout=30.0).expect(4)
+    reasons = {name: r["reason"] for name, r in results(bench).items()}
+    for name, words in {"floods": "stopped after 1 s", "counts": "exit code 3: last", "closes": "exit code 4", "leaves": "exit code 5"}.items():
+        check(words in reasons[name], reasons)
+    for name, begin, end in (("floods", "first\ny\n", "y\n"), ("counts", "1\n2\n3\n", "999999\n1000000\nlast\n")):
+        text = (bench.folder / f"golden-results/logs/{name}.txt").read_text()
+        check(text.startswith(begin) and text.endswith(end) and len(text) < (1 << 20) + 100 and "bytes are left out here" in text, f"{name}: {len(text)} bytes")
+    left = int(re.search(r"\.\.\. (\d+) bytes", text)[1])
+    whole = sum(len(str(n)) + 1 for n in range(1, 1000001)) + len("last\n")
+    check(left == whole - (1 << 20), f"{left} of {whole} bytes")
+
+
 @case("golden.shards_merge_to_the_files_of_one_run", budget=20)
 def shards(bench):
     write(bench, [*ROWS, {"name": "late <b>|", "scene": "builtin:plate"}])
