@@ -210,6 +210,58 @@ GoldenManifest manifest_of(const JsonValue& json, const std::string& folder)
     return manifest;
 }
 
+// Hears a parser's events, and refuses an object with two members of one name.
+class DuplicateMembers {
+  public:
+    void hear(JsonValue::parse_event_t event, const JsonValue& parsed)
+    {
+        using Event = JsonValue::parse_event_t;
+        switch (event) {
+        case Event::object_start:
+        case Event::array_start:
+            next_element();
+            levels_.push_back({event == Event::array_start, 0, "", {}});
+            break;
+        case Event::object_end:
+        case Event::array_end:
+            levels_.pop_back();
+            break;
+        case Event::value:
+            next_element();
+            break;
+        case Event::key:
+            levels_.back().at = parsed.get<std::string>();
+            if (!levels_.back().names.insert(levels_.back().at).second)
+                throw Mistake{place(), "is there twice"};
+            break;
+        }
+    }
+
+  private:
+    struct Level {
+        bool is_array = false;
+        std::size_t next = 0; // index of an array's next element
+        std::string at;       // name or index of the last member
+        std::set<std::string> names;
+    };
+
+    void next_element()
+    {
+        if (!levels_.empty() && levels_.back().is_array)
+            levels_.back().at = std::to_string(levels_.back().next++);
+    }
+
+    std::string place() const
+    {
+        std::string text;
+        for (const Level& level : levels_)
+            text += "/" + level.at;
+        return text;
+    }
+
+    std::vector<Level> levels_;
+};
+
 // Returns "line 3, column 7" of a byte.
 std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t byte)
 {
@@ -241,9 +293,18 @@ Result<GoldenManifest> read_manifest(const std::string& path)
     BN_TRY(bytes);
     JsonValue json;
     try {
-        json = JsonValue::parse(bytes->begin(), bytes->end());
+        DuplicateMembers duplicates;
+        const auto hear = [&duplicates](int, JsonValue::parse_event_t event, const JsonValue& parsed) {
+            duplicates.hear(event, parsed);
+            return true;
+        };
+        json = JsonValue::parse(bytes->begin(), bytes->end(), hear);
     } catch (const JsonValue::parse_error& e) {
         return Error{ExitCode::bad_input, path, line_and_column(*bytes, e.byte), "is no JSON here; JSON has no comments"};
+    } catch (const JsonValue::out_of_range&) { // its message says where not
+        return Error{ExitCode::bad_input, path, "", "holds a number that no double can hold"};
+    } catch (const Mistake& mistake) {
+        return Error{ExitCode::bad_input, path, mistake.place, mistake.reason};
     }
     try {
         const std::string folder = fs::path(path).parent_path().string();

@@ -240,7 +240,9 @@ def mistakes(bench):
                         ([{"name": "a\n", "picture": "x.png"}], "/rows/0/name"), ([{"name": "a", "picture": "x.png", "options": ["-q"]}], "/rows/0/options")):
         write(bench, rows)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
-    for text, place in (('{"rows": [\n  // no\n]}', "line 2, column 3"), ("", "m.json"), ("[]", "m.json"), ('{"rows": [], "more": 1}', "/more")):
+    for text, place in (('{"rows": [{"name": "a", "name": "b", "picture": "x.png"}]}', "/rows/0/name"), ('{"rows": [], "rows": []}', "/rows: is there twice"),
+                        ('{"rows": [1, [2, {}], {"hold": {"flip": 1, "z": 1, "flip": 0}}]}', "/rows/2/hold/flip"), ('{"defaults": {"keep": "hash", "keep": "hash"}}', "/defaults/keep"), ('{"rows": [{"seconds": 1e999}]}', "number"),
+                        ('{"rows": [\n  // no\n]}', "line 2, column 3"), ("", "m.json"), ("[]", "m.json"), ('{"rows": [], "more": 1}', "/more")):
         (bench.folder / "m.json").write_text(text)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
     bench.run("golden", "check", "absent.json").expect(4).expect_one_line("absent.json")
