@@ -8,8 +8,10 @@
 #include <set>
 #include <system_error>
 
+#include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
 #include "apps/compare/picture_names.h"
+#include "apps/options/options.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -138,6 +140,20 @@ void check_name(const std::string& name, const std::string& place, std::set<std:
         throw Mistake{place + "/name", "'" + name + "' is the name of an earlier row"};
 }
 
+// Refuses options of a scene that write files besides the picture, or print in place of drawing.
+void check_options(const std::vector<std::string>& defaults, const std::vector<std::string>& own, const std::string& place)
+{
+    RenderArguments arguments;
+    const OptionTable table = render_option_table(arguments);
+    std::vector<std::string> words = defaults;
+    words.insert(words.end(), own.begin(), own.end());
+    const std::size_t at = find_output_or_help(table, words);
+    if (at < words.size())
+        throw Mistake{at < defaults.size() ? fmt::format("/defaults/options/{}", at)
+                                           : fmt::format("{}/options/{}", place, at - defaults.size()),
+                      "'" + words[at] + "' writes or prints something else than the row's picture"};
+}
+
 GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults& defaults, std::set<std::string>& taken)
 {
     check_members(of, place,
@@ -154,6 +170,9 @@ GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults
     if (!scene.empty()) {
         if (!row.command.empty() || !row.picture.empty())
             throw Mistake{place, "has a scene, and a command or a picture too"};
+        if (scene[0] == '-')
+            throw Mistake{place + "/scene", "begins like an option; a file is named ./" + scene};
+        check_options(defaults.options, options, place);
         row.kind = GoldenKind::scene;
         row.command = {"render", scene};
         row.command.insert(row.command.end(), defaults.options.begin(), defaults.options.end());

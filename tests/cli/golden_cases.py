@@ -251,6 +251,20 @@ def mistakes(bench):
                         ([{"name": n, "command": ["true"], "picture": "x.png"} for n in "ab"], "/rows/1/picture"), ([{"name": "\u202e", "picture": "x.png"}], "/rows/0/name")):
         write(bench, rows)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
+    # Options of a scene write no file and print nothing
+    for options, at in ((["-o", "evil.png"], 0), (["-qo", "evil.png"], 0), (["--output=evil.png"], 0), (["--msaa", "4", "--stats", "-"], 2), (["--trace", "t.json"], 0),
+                        (["--backend", "reference", "--variance", "v.exr"], 2), (["--backend", "reference", "--checkpoint=c"], 2), (["--risks", "-"], 0),
+                        (["--plan-out", "p.json"], 0), (["-q", "--help"], 1), (["-qh"], 0), (["--version"], 0), (["--msaa", "4", "--stats"], 2)):
+        write(bench, [{**pot, "options": options}])
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", f"/rows/0/options/{at}")
+    (bench.folder / "m.json").write_text(json.dumps({"defaults": {"options": ["-q", "--env"]}, "rows": [{**pot, "options": ["--size", "--stats", "s.json"]}]}))
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/rows/0/options/1")
+    (bench.folder / "m.json").write_text(json.dumps({"defaults": {"options": ["-q", "-o", "evil.png"]}, "rows": [pot]}))
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/defaults/options/1")
+    for scene in ("--help", "-h", "-o"):
+        write(bench, [{**pot, "scene": scene}])
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/rows/0/scene", "./" + scene)
+    check(not list(bench.folder.glob("evil*")) and not (bench.folder / "golden-results").exists(), "a file is written")
     # A folder with other files is never emptied, nor one with an input
     (bench.folder / "mine/pictures").mkdir(parents=True)
     (bench.folder / "mine/pictures/a.png").write_text("mine")
