@@ -133,7 +133,7 @@ Status make_folders(const std::string& results, const std::vector<std::string>& 
         std::error_code ignored;
         fs::remove(results + "/" + name, ignored);
     }
-    for (const char* name : {"pictures", "shown", "logs"}) {
+    for (const char* name : {"pictures", "goldens", "shown", "logs"}) {
         std::error_code failed;
         fs::remove_all(results + "/" + name, failed);
         if (!failed)
@@ -300,7 +300,7 @@ int bless(const GoldenArguments& arguments, Report& report)
         chosen = *list;
     } else
         for (const GoldenResult& r : *results)
-            if (r.verdict == GoldenVerdict::differs || r.verdict == GoldenVerdict::missing)
+            if (can_bless(r))
                 chosen.insert(r.name);
     if (!results->empty() && std::none_of(results->begin(), results->end(), [&](const GoldenResult& r) { return rows.contains(r.name); }))
         return fail(Error{ExitCode::bad_input, arguments.results, "", "holds no row of the manifest: -o names the folder of its check"});
@@ -311,6 +311,8 @@ int bless(const GoldenArguments& arguments, Report& report)
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' is no row of the manifest"});
         else if (!by_name.contains(name) || by_name[name]->verdict == GoldenVerdict::failed)
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' has no new picture in the last check"});
+        else if (by_name[name]->by_operations)
+            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' takes too many operations: the limit is in the manifest"});
     report.release();
     std::size_t count = 0;
     for (const std::string& name : chosen) {
@@ -354,7 +356,7 @@ int merge(const GoldenArguments& arguments, Report& report)
     if (const Status folders = make_folders(arguments.results, arguments.paths, Shard{}); !folders)
         return fail(folders.error());
     for (const std::string& folder : arguments.paths)
-        for (const char* name : {"/pictures", "/shown", "/logs"}) {
+        for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {
             if (!is_folder(folder + name)) // uploads drop empty folders
                 continue;
             std::error_code failed;

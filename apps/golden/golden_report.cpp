@@ -43,13 +43,23 @@ std::string markdown_text(const std::string& text)
 
 Json json_of(const GoldenResult& r)
 {
-    return {{"name", r.name},         {"verdict", verdict_name(r.verdict)},
-            {"reason", r.reason},     {"width", r.width},
-            {"height", r.height},     {"flip_mean", r.flip},
-            {"flip_p99", r.flip_p99}, {"differing_fraction", r.differing},
-            {"max_abs", r.largest},   {"operations", r.operations},
-            {"golden", r.golden},     {"picture", r.picture},
-            {"log", r.log},           {"hash_alone", r.hash_alone}};
+    return {{"name", r.name},
+            {"verdict", verdict_name(r.verdict)},
+            {"reason", r.reason},
+            {"width", r.width},
+            {"height", r.height},
+            {"flip_mean", r.flip},
+            {"flip_p99", r.flip_p99},
+            {"differing_fraction", r.differing},
+            {"max_abs", r.largest},
+            {"operations", r.operations},
+            {"golden", r.golden},
+            {"picture", r.picture},
+            {"log", r.log},
+            {"hash_alone", r.hash_alone},
+            {"linear", r.linear},
+            {"by_operations", r.by_operations},
+            {"golden_copy", r.golden_copy}};
 }
 
 GoldenResult result_of(const Json& json)
@@ -69,6 +79,8 @@ GoldenResult result_of(const Json& json)
     r.operations = json.at("operations").get<double>();
     r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
     r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();
+    r.linear = json.at("linear").get<bool>(), r.by_operations = json.at("by_operations").get<bool>();
+    r.golden_copy = json.at("golden_copy").get<std::string>();
     return r;
 }
 
@@ -93,6 +105,11 @@ GoldenCounts count_of(const std::vector<GoldenResult>& results)
             break;
         }
     return counts;
+}
+
+bool can_bless(const GoldenResult& result)
+{
+    return result.verdict == GoldenVerdict::missing || (result.verdict == GoldenVerdict::differs && !result.by_operations);
 }
 
 int exit_code_of(const GoldenCounts& counts)
