@@ -29,15 +29,24 @@ std::string annotation_text(const std::string& text, bool in_property)
     return out;
 }
 
-// Escapes Markdown and HTML within a table's cell.
-std::string markdown_text(const std::string& text)
+// Escapes Markdown and HTML within a table's cell. A word joiner, which shows nothing, keeps GitHub from making links of addresses, names
+// and numbers: of "https://", "www.", "@" and "#".
+std::string markdown_text(const std::string& name)
 {
+    constexpr const char* kJoiner = "&#8288;";
+    const std::string text = printable(without_controls(name));
     std::string out;
-    for (const char c : printable(without_controls(text)))
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '.' && i > 0 && (text[i - 1] == 'w' || text[i - 1] == 'W'))
+            out += kJoiner;
         if (std::string_view("\\`*_{}[]()#+-!|~@").find(c) != std::string_view::npos)
             out += std::string("\\") + c;
         else
             out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+        if (c == '@' || c == '#' || (c == ':' && i + 1 < text.size() && text[i + 1] == '/'))
+            out += kJoiner;
+    }
     return out;
 }
 

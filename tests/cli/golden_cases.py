@@ -286,7 +286,8 @@ def mistakes(bench):
 @case("golden.hostile_names_stay_text", budget=10)
 def hostile(bench):
     """Names are text in HTML, Markdown, annotations and file names."""
-    names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]
+    names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', ".",
+             "https://evil.example/x", "www.evil.example", "@somebody #1"]
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
     write(bench, [{"name": name, "picture": "a.ppm"} for name in names])
     done = bench.run("golden", "check", "m.json", env={"GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(bench.folder / "step.md")}).expect(5)
@@ -296,6 +297,8 @@ def hostile(bench):
     annotations = [line for line in done.out.splitlines() if line.startswith("::error ")]
     check(len(annotations) == len(names) and not any("::x%0A" in line for line in annotations), annotations)
     check(not any(line.strip().startswith("::") for line in (done.out + done.err).splitlines() if line not in annotations), done.describe())
+    text = (bench.folder / "step.md").read_text()
+    check(not re.search(r"://|www\.|@\w|(?<!&)#\w", text) and "https:&#8288;//evil.example/x" in text, f"GitHub makes links: {text}")
     check("<script>" not in (bench.folder / "step.md").read_text() and "a\\|b" in (bench.folder / "step.md").read_text(), "Markdown")
     check(not (bench.folder / "up.ppm").exists() and len(list((bench.folder / "golden-results/pictures").iterdir())) == len(names), "files")
     bench.run("golden", "bless", "m.json").expect(0)
