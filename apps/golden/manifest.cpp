@@ -281,6 +281,18 @@ class DuplicateMembers {
     std::vector<Level> levels_;
 };
 
+// Returns the mask for a picture: the file itself, or the file in the folder with the picture's name, else as PNG. Empty: none.
+std::string mask_of(const std::string& mask, const fs::path& picture)
+{
+    std::error_code ignored;
+    if (mask.empty() || !fs::is_directory(mask, ignored))
+        return mask;
+    for (const fs::path& name : {picture, fs::path(picture).replace_extension(".png")})
+        if (fs::exists(mask / name, ignored))
+            return (mask / name).string();
+    return "";
+}
+
 // Returns "line 3, column 7" of a byte.
 std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t byte)
 {
@@ -333,16 +345,25 @@ Result<GoldenManifest> read_manifest(const std::string& path)
     }
 }
 
-Result<GoldenManifest> manifest_of_folders(const std::string& expected, const std::string& actual, const GoldenLimits& limits)
+Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
+                                         const std::string& mask)
 {
-    const Result<std::vector<std::string>> names = picture_names(expected, actual);
+    const bool by_pattern = expected.find('*') != std::string::npos || actual.find('*') != std::string::npos;
+    const Result<std::vector<std::string>> names = by_pattern ? covered_parts(expected, actual) : picture_names(expected, actual);
     BN_TRY(names);
     GoldenManifest manifest;
     manifest.folder = ".";
     for (const std::string& name : *names) {
+        const auto path_of = [&](const std::string& given) {
+            return by_pattern ? with_part(given, name) : (fs::path(given) / name).string();
+        };
         GoldenRow row;
-        row.name = printable(name), row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
-        row.extension = fs::path(name).extension().string(), row.limits = limits;
+        row.picture = path_of(actual), row.golden = path_of(expected), row.limits = limits;
+        const fs::path relative = by_pattern ? fs::path(row.golden).filename() : fs::path(name);
+        row.name = printable(relative.string()), row.extension = fs::path(row.picture).extension().string();
+        row.mask = mask_of(mask, relative);
+        if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal())
+            return Error{ExitCode::usage, "", "PATH", "'" + row.picture + "' is expected and actual"};
         manifest.rows.push_back(std::move(row));
     }
     return manifest;

@@ -175,6 +175,43 @@ def folders(bench):
     (bench.folder / "a/same.ppm").write_bytes(pixel(10))
     bench.run("golden", "check", "e", "a").expect(1)
     bench.run("golden", "check", "e", "a", "--flip", "0.05").expect(0)
+    bench.run("golden", "check", "e", "a", "--flip", "0.05", "--flip-p99", "0").expect(1)
+    bench.run("golden", "check", "e", "a", "--flip", "0.05", "--pattern", "0").expect(0)
+    # A mask for all pictures, and a folder of masks by name
+    (bench.folder / "black.ppm").write_bytes(pixel(0))
+    (bench.folder / "masks/sub").mkdir(parents=True)
+    (bench.folder / "masks/sub/other.ppm").write_bytes(pixel(0))
+    bench.run("golden", "check", "e", "a", "--mask", "black.ppm").expect(0)
+    bench.run("golden", "check", "e", "a", "--mask", "masks").expect(1)
+    (bench.folder / "masks/same.ppm").write_bytes(pixel(0))
+    bench.run("golden", "check", "e", "a", "--mask", "masks").expect(0)
+    bench.run("golden", "check", "e", "a", "--mask", "absent.ppm").expect(4)
+
+
+@case("golden.patterns_pair_files", budget=10)
+def patterns(bench):
+    pixel = lambda value: b"P6 1 1 255\n" + bytes([value, 0, 0])
+    for name, value in (("a_golden.ppm", 9), ("a_now.ppm", 9), ("b_golden.ppm", 9), ("b_now.ppm", 200), ("gone_golden.ppm", 9), ("new_now.ppm", 9), ("other.ppm", 1),
+                        ("a_now.txt", 1), (".hidden_now.ppm", 1)):
+        (bench.folder / name).write_bytes(pixel(value))
+    pair = ("*_golden.ppm", "*_now.ppm")
+    bench.run("golden", "check", *pair).expect(4)
+    check(verdicts(bench) == {"a_golden.ppm": "passed", "b_golden.ppm": "differs", "gone_golden.ppm": "failed", "new_golden.ppm": "missing"}, verdicts(bench))
+    (bench.folder / "gone_golden.ppm").unlink()
+    bench.run("golden", "check", *pair).expect(1)
+    bench.run("golden", "bless", *pair).expect(0)
+    bench.run("golden", "check", *pair).expect(0)
+    check((bench.folder / "b_golden.ppm").read_bytes() == pixel(200) and (bench.folder / "new_golden.ppm").exists(), "not blessed")
+    (bench.folder / "sub").mkdir()
+    (bench.folder / "sub/a.ppm").write_bytes(pixel(9))
+    (bench.folder / "sub/b.ppm").write_bytes(pixel(9))
+    bench.run("golden", "check", "sub/*.ppm", "*_now.ppm").expect(1)
+    check(verdicts(bench) == {"a.ppm": "passed", "b.ppm": "differs", "new.ppm": "missing"}, verdicts(bench))
+    for bad, code, needle in ((("s*/*.ppm", "*.ppm"), 2, "s*/*.ppm"), (("sub/*.ppm", "sub"), 2, "sub"), (("*a*.ppm", "*.ppm"), 2, "*a*.ppm"), (("s*/a.ppm", "*.ppm"), 2, "s*/a.ppm"),
+                              (("nowhere/*.ppm", "*.ppm"), 4, "nowhere"), (("x*.ppm", "y*.ppm"), 4, "matches no picture"), (("*.ppm", "./*.ppm"), 2, "expected and actual")):
+        bench.run("golden", "check", *bad).expect(code).expect_one_line(needle)
+    for option in ("--flip-p99", "--pattern", "--mask"):
+        bench.run("golden", "check", "m.json", option, "0.1").expect(2).expect_one_line(option)
 
 
 @case("golden.limits_and_masks_decide", budget=8)
