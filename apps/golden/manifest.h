@@ -40,8 +40,8 @@ struct GoldenManifest {
 
 // Errors: ExitCode::bad_input with the JSON path of the first mistake, or with line and column where the text is no JSON.
 Result<GoldenManifest> read_manifest(const std::string& path);
-// Makes a row of each picture below two folders, by its relative path, or of each picture that two patterns match, by the part of its name
-// that '*' covers. Folders may hold further files. mask: a picture for all rows, a folder of pictures by the rows' names, or empty.
+// Makes a row of each picture below two folders, by its relative path. Of two patterns, makes a row of each part of a name that '*' covers.
+// Folders may hold further files. mask: a picture for all rows, a folder of pictures by the rows' names, or empty.
 Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
                                          const std::string& mask);
 
