@@ -16,7 +16,8 @@ constexpr const char* kHelp = "Print this text and exit";
 struct Given {
     std::vector<std::vector<std::string>> texts;
     Asked asked = Asked::nothing;
-    std::string wrong; // first error in the words; empty: none
+    std::string wrong;              // first error in the words; empty: none
+    std::size_t output_or_help = 0; // index of the first word that gives an output, or asks; else the number of words
 };
 
 // Splits words into options and their texts.
@@ -25,12 +26,14 @@ class Reader {
     Reader(const std::vector<Option>& options, const std::vector<std::string>& words) : options_(options), words_(words)
     {
         given_.texts.resize(options.size());
+        given_.output_or_help = words.size();
     }
 
     Given read()
     {
         bool only_places = false; // after "--"
         while (at_ < words_.size()) {
+            word_ = at_;
             const std::string& word = words_[at_++];
             if (only_places || word.size() < 2 || word[0] != '-' || is_number(word))
                 place(word);
@@ -80,9 +83,9 @@ class Reader {
         const std::size_t equals = word.find('=');
         const std::string name = word.substr(0, equals);
         if (name == "--help")
-            given_.asked = Asked::help;
+            ask(Asked::help);
         else if (const std::size_t i = index_of(name); i == options_.size())
-            name == "--version" ? static_cast<void>(given_.asked = Asked::version) : refuse_option(word, name);
+            name == "--version" ? ask(Asked::version) : refuse_option(word, name);
         else if (!options_[i].takes_value())
             equals == std::string::npos ? given_.texts[i].push_back("") : refuse(name + ": takes no value");
         else if (equals != std::string::npos)
@@ -99,7 +102,7 @@ class Reader {
             while (i < options_.size() && options_[i].letter != word[k])
                 ++i;
             if (word[k] == 'h')
-                given_.asked = Asked::help;
+                ask(Asked::help);
             else if (i == options_.size())
                 return refuse_word(word);
             else if (!options_[i].takes_value())
@@ -107,6 +110,18 @@ class Reader {
             else
                 return k + 1 < word.size() ? take(i, word.substr(k + 1)) : take_next(i);
         }
+    }
+
+    void ask(Asked asked)
+    {
+        given_.asked = asked;
+        given_.output_or_help = std::min(given_.output_or_help, word_);
+    }
+
+    void note_output(std::size_t i)
+    {
+        if (options_[i].output)
+            given_.output_or_help = std::min(given_.output_or_help, word_);
     }
 
     std::size_t index_of(const std::string& name) const
@@ -119,6 +134,7 @@ class Reader {
 
     void take_next(std::size_t i)
     {
+        note_output(i);
         if (at_ < words_.size())
             take(i, words_[at_++]);
         else
@@ -131,12 +147,13 @@ class Reader {
             refuse(options_[i].name + ": the value is empty");
         if (!options_[i].positional())
             last_ = i;
+        note_output(i);
         given_.texts[i].push_back(text);
     }
 
     const std::vector<Option>& options_;
     const std::vector<std::string>& words_;
-    std::size_t at_ = 0, last_ = static_cast<std::size_t>(-1); // last_: the option that took a value last
+    std::size_t at_ = 0, word_ = 0, last_ = static_cast<std::size_t>(-1); // word_: of the option; last_: the option that took a value last
     Given given_;
 };
 
@@ -187,6 +204,11 @@ Status read_command_line(Command& command, const std::vector<std::string>& words
 Asked asked_by(const Command& command, const std::vector<std::string>& words)
 {
     return Reader(command.options.options(), words).read().asked;
+}
+
+std::size_t find_output_or_help(const OptionTable& table, const std::vector<std::string>& words)
+{
+    return Reader(table.options(), words).read().output_or_help;
 }
 
 std::string usage_of(const OptionTable& table)

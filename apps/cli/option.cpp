@@ -39,6 +39,13 @@ Option Option::must_be_given() const
     return option;
 }
 
+Option Option::is_output() const
+{
+    Option option = *this;
+    option.output = true;
+    return option;
+}
+
 std::string Option::meaning() const
 {
     std::string text = help;

@@ -29,13 +29,14 @@ struct Option {
     // range. `initial`: text for the default, if `value` cannot tell; "" prints none.
     Option(const std::string& names, const std::string& value_name, const std::string& help, Value value, const char* initial = nullptr);
     Option must_be_given() const;
+    Option is_output() const; // the value names a file to write
 
     std::string name, value_name, help, group; // name: "--output"
     char letter = '\0';                        // 'o'
     Value value;
     std::optional<std::string> initial;
     std::string needed_option, needed_value; // giving this option is an error unless needed_option has needed_value
-    bool required = false, given = false;
+    bool required = false, given = false, output = false;
 
     bool positional() const { return name[0] != '-'; }
     bool takes_value() const { return value.kind != ValueKind::flag && value.kind != ValueKind::count; }

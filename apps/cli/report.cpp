@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <fmt/core.h>
+#include <string_view>
 
 #include "apps/cli/field_options.h"
 #include "core/base/text.h"
@@ -10,12 +12,36 @@
 namespace burnish {
 namespace {
 
+// Returns lines in which GitHub finds no command: none begins with "::", after blanks of any alphabet too, and none holds "##[".
+std::string without_commands(std::string lines)
+{
+    if (!on_github())
+        return lines;
+    const auto may_be_blank = [](char c) { return c == ' ' || static_cast<unsigned char>(c) >= 128; };
+    for (std::size_t at = lines.find("::"); at != std::string::npos; at = lines.find("::", at + 2)) {
+        std::size_t before = at;
+        while (before > 0 && may_be_blank(lines[before - 1]))
+            --before;
+        if (before == 0 || lines[before - 1] == '\n')
+            lines.insert(at++, 1, '\\');
+    }
+    for (std::size_t at = lines.find("##["); at != std::string::npos; at = lines.find("##[", at))
+        lines.insert(at + 1, 1, '\\');
+    return lines;
+}
+
 void print_line(const std::string& line)
 {
-    std::fputs((printable(line) + "\n").c_str(), stderr);
+    std::fputs((without_commands(printable(line)) + "\n").c_str(), stderr);
 }
 
 } // namespace
+
+bool on_github()
+{
+    const char* actions = std::getenv("GITHUB_ACTIONS");
+    return actions && std::string_view(actions) == "true";
+}
 
 int fail(const Error& error)
 {
@@ -73,6 +99,11 @@ void Report::figures(const std::string& lines)
 }
 
 void Report::asked_for(const std::string& lines)
+{
+    std::fputs(without_commands(printable_lines(lines)).c_str(), stdout_promised_ ? stderr : stdout);
+}
+
+void Report::commands(const std::string& lines)
 {
     std::fputs(printable_lines(lines).c_str(), stdout_promised_ ? stderr : stdout);
 }

@@ -22,6 +22,9 @@ std::string counted(std::uint64_t count, const std::string& noun); // "1 place",
 // "a, b, c"
 std::string join(const std::vector<std::string>& names);
 
+// Returns true for a step of a workflow on GitHub, which obeys printed lines that begin with "::".
+bool on_github();
+
 // Labelled lines, held back until release(). A command with bad input thus prints a single line.
 class Report {
   public:
@@ -33,6 +36,7 @@ class Report {
     // Prints results on stdout, or on stderr if stdout is promised to machine-readable output. Not with --quiet.
     void figures(const std::string& lines);
     void asked_for(const std::string& lines);                       // like figures(), also with --quiet: the user asked with "-"
+    void commands(const std::string& lines);                        // like asked_for(), for lines that GitHub obeys
     void figure(const std::string& label, const std::string& text); // one line, labelled like an event
     void promise_stdout(const std::vector<std::string>& files);     // if one of `files` is "-"
     void release();

@@ -77,13 +77,15 @@ Status write_error_map(const std::string& path, const Image& error)
 
 Status write_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const Status& verdict)
 {
+    if (figures.nan_pixels)
+        return write_text(options.html, failure_page(options, verdict.error()));
     const ComparePage top{options.reference + " and " + options.test, verdict_html(options, verdict)};
     const Result<std::string> page = compare_page(top, options, figures, pictures);
     return page ? write_text(options.html, *page) : Status(page.error());
 }
 
 // Tries every output even after one fails. Returns the first failure. For pictures with NaN only texts are written: there are no errors to
-// show.
+// show, and the page holds none.
 Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const Status& verdict,
                      Report& report)
 {
@@ -92,7 +94,7 @@ Status write_outputs(const CompareOptions& options, const CompareFigures& figure
     Status first;
     for (const auto& [option, path] : outputs_of(options)) {
         const std::string_view kind = option;
-        if (figures.nan_pixels && (kind == "--html" || kind == "--error-map"))
+        if (figures.nan_pixels && kind == "--error-map")
             continue;
         const Status status = kind == "--json"    ? write_text(path, json_text(json, 2) + "\n")
                               : kind == "--csv"   ? write_text(path, csv_text(Json::array({json})))

@@ -48,6 +48,20 @@ Status check_like(const std::string& name, const Image& image, const std::string
     return {};
 }
 
+// Returns the frames' rows for CSV: with the names of the frame's files, and with limits and verdict of the sequence.
+Json csv_rows(const CompareOptions& options, const Status& verdict, const Json& by_frame)
+{
+    Json rows = Json::array();
+    for (const Json& frame : by_frame) {
+        Json row = verdict_json(options, verdict);
+        const int number = frame["frame"].get<int>();
+        row["reference"] = numbered(options.reference, number), row["test"] = numbered(options.test, number);
+        row.update(frame);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 // Returns the frame numbers. Both sequences must have the same numbers, without gaps.
 Result<std::vector<int>> numbers_of(const CompareOptions& options)
 {
@@ -173,7 +187,7 @@ int compare_sequences(const CompareOptions& options)
             fail(status.error());
     };
     write(options.json, [&] { return Result<std::string>(json_text(json, 2) + "\n"); });
-    write(options.csv, [&] { return Result<std::string>(csv_text(rows)); });
+    write(options.csv, [&] { return Result<std::string>(csv_text(csv_rows(options, verdict, rows))); });
     write(options.junit, [&] { return Result<std::string>(compare_junit({verdict_case(options.test, verdict)})); });
     write(options.html, [&] { return sequence_page(options, verdict, json, jobs); });
     const int code = verdict ? 0 : fail(verdict.error());

@@ -5,8 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
+#include "apps/report/assets.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
 
@@ -125,12 +127,25 @@ std::string verdict_html(const CompareOptions& options, const Status& verdict)
     return fmt::format("<p class=\"verdict\"><strong>Passes.</strong> Limits: {}.</p>\n", escaped(names));
 }
 
+std::string failure_page(const CompareOptions& options, const Error& error)
+{
+    const std::string title = escaped(options.reference + " and " + options.test);
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<title>{0}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
+        "<p class=\"verdict bad\"><strong>Fails.</strong> The comparison failed, and there are no figures.</p>\n<p>{2}</p>\n"
+        "</main>\n</body>\n</html>\n",
+        title, kChartPageStyle.bytes, escaped(line_of(error)));
+}
+
 int fails_unread(const CompareOptions& options, const Error& error)
 {
     const Json json = verdict_json(options, error);
     for (const auto& [path, text] : {std::pair{options.json, json_text(json, 2) + "\n"},
                                      {options.csv, csv_text(Json::array({json}))},
-                                     {options.junit, compare_junit({verdict_case(options.test, error)})}})
+                                     {options.junit, compare_junit({verdict_case(options.test, error)})},
+                                     {options.html, failure_page(options, error)}})
         if (!path.empty() && error.code != ExitCode::usage)
             if (const Status written = write_text(path, text); !written)
                 fail(written.error());

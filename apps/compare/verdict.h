@@ -14,6 +14,8 @@ Status judge_pictures(const CompareOptions& options, const CompareFigures& figur
 // Returns {reference, test, verdict, reason, limits}. verdict: passed, differs or failed; null where no limit is given and nothing fails.
 Json verdict_json(const CompareOptions& options, const Status& verdict);
 JunitCase verdict_case(const std::string& name, const Status& verdict);
+// Returns a page without pictures: the comparison failed, the file at fault, and why.
+std::string failure_page(const CompareOptions& options, const Error& error);
 // Writes the verdict on pictures that cannot be read or compared, without figures, and prints the error. Returns the exit code.
 int fails_unread(const CompareOptions& options, const Error& error);
 std::string compare_junit(const std::vector<JunitCase>& cases);

@@ -126,8 +126,9 @@ void judge_operations(const std::string& stats, double limit, GoldenResult& resu
     result.operations = found->get<double>();
     if (result.operations <= limit)
         return;
-    result.reason +=
-        (result.reason.empty() ? "" : "; ") + fmt::format("a frame takes {:.0f} operations, more than {:.0f}", result.operations, limit);
+    result.by_operations = result.verdict == GoldenVerdict::passed;
+    result.reason += fmt::format("{}a frame takes {:.0f} operations, more than {:.0f}: if the work is right, raise the manifest's limit",
+                                 result.reason.empty() ? "" : "; ", result.operations, limit);
     if (result.verdict == GoldenVerdict::passed)
         result.verdict = GoldenVerdict::differs;
 }
@@ -152,7 +153,10 @@ std::string golden_hash(const Image& image)
     return fmt::format("{:016x}", hash_bytes(image.bytes.data(), image.bytes.size(), hash_bytes(shape, sizeof(shape))));
 }
 
-GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
+namespace {
+
+// Makes and judges a row as check_row() tells, but for the copy of the golden.
+GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
 {
     const std::string stem = file_stem(row.name), results = setting.results + "/";
     GoldenResult result;
@@ -172,7 +176,7 @@ GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, con
     const Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
     if (!picture)
         return fails(picture.error().reason);
-    result.width = picture->width, result.height = picture->height;
+    result.width = picture->width, result.height = picture->height, result.linear = picture->type == PixelType::f32;
     const std::string shown = results + "shown/" + stem;
     if (const Status written = show(*picture, 0.0f, shown + ".png"); !written)
         return fails(written.error().line());
@@ -211,6 +215,22 @@ GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, con
     }
     judge(row.limits, std::move(input), jobs, shown, result);
     return judged();
+}
+
+} // namespace
+
+GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
+{
+    GoldenResult result = judged_row(manifest, row, setting, jobs);
+    if (result.verdict == GoldenVerdict::passed || row.hash_alone || !file_exists(result.golden))
+        return result;
+    // The page links the golden, and the results' folder may move to another machine
+    const std::string copy = "goldens/" + file_stem(row.name) + fs::path(row.golden).extension().string();
+    std::error_code failed;
+    fs::copy_file(result.golden, setting.results + "/" + copy, fs::copy_options::overwrite_existing, failed);
+    if (!failed)
+        result.golden_copy = copy;
+    return result;
 }
 
 } // namespace burnish

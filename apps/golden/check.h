@@ -24,7 +24,10 @@ struct GoldenResult {
     std::string golden;                                                // path as bless writes it
     std::string picture;                                               // in the results' folder: the new picture
     std::string log;                                                   // in the results' folder: output of the program; empty: none
+    std::string golden_copy;                                           // in the results' folder: the golden, unless the row passed
     bool hash_alone = false;
+    bool linear = false;        // values are linear: HDR-FLIP judges
+    bool by_operations = false; // operations alone exceed their limit: a new golden changes nothing
 };
 
 struct GoldenSetting {
@@ -34,8 +37,8 @@ struct GoldenSetting {
     const std::atomic<bool>* stop = nullptr;
 };
 
-// Makes and judges one row. Writes pictures/STEM.EXT, the new picture, and logs/STEM.txt below the results' folder. For the page it writes
-// shown/STEM.png, and shown/STEM%golden.png and shown/STEM%error.png where values differ.
+// Makes and judges one row. Writes pictures/STEM.EXT, the new picture, and logs/STEM.txt below the results' folder, and goldens/STEM.EXT
+// unless the row passed. For the page it writes shown/STEM.png, and the files of judge() where values differ.
 GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs);
 
 bool file_exists(const std::string& path);

@@ -1,16 +1,19 @@
 #include "apps/golden/child.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
+#include "core/base/descriptor.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
 
@@ -18,6 +21,9 @@ extern char** environ;
 
 namespace burnish {
 namespace {
+
+constexpr std::size_t kKeptPart = std::size_t{512} << 10; // bytes of a program's output, at the beginning and at the end
+constexpr int kMostLastParts = 32;                        // reads after a program's end: a program that left its group may print for ever
 
 Error failed(std::string reason)
 {
@@ -50,7 +56,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts)
 // Returns ": LINE" with the last line of a program's output, or "".
 std::string last_words(const std::string& path)
 {
-    constexpr std::uint64_t kMostBytes = 64ull << 20;
+    constexpr std::uint64_t kMostBytes = 4 * kKeptPart;
     constexpr std::size_t kMostCharacters = 200;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
     if (!bytes)
@@ -64,12 +70,76 @@ std::string last_words(const std::string& path)
     return ": " + printable(line.substr(0, line.find_first_of("\r\n")));
 }
 
-// Waits for the child's end, or kills its group at the limit or when stopped. Returns false then.
-bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, int& status)
+// The file of a program's output: its first and its last part, and a line that tells how much is left out between.
+class Log {
+  public:
+    explicit Log(const std::string& path) : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+    explicit operator bool() const { return static_cast<bool>(file_); }
+
+    void add(const char* bytes, std::size_t count)
+    {
+        const std::size_t first = std::min(count, kKeptPart - std::min(kKeptPart, written_));
+        write_all(bytes, first);
+        written_ += first;
+        last_.append(bytes + first, count - first);
+        if (last_.size() > 2 * kKeptPart)
+            drop_to_last_part();
+    }
+
+    void end()
+    {
+        if (last_.size() > kKeptPart)
+            drop_to_last_part();
+        if (left_out_ > 0) {
+            const std::string line = fmt::format("\n... {} bytes are left out here ...\n", left_out_);
+            write_all(line.data(), line.size());
+        }
+        write_all(last_.data(), last_.size());
+    }
+
+  private:
+    void drop_to_last_part()
+    {
+        const std::size_t dropped = last_.size() - kKeptPart;
+        last_.erase(0, dropped);
+        left_out_ += dropped;
+    }
+
+    void write_all(const char* bytes, std::size_t count)
+    {
+        while (count > 0) {
+            const ssize_t done = write(file_.get(), bytes, count);
+            if (done < 0 && errno == EINTR)
+                continue;
+            if (done <= 0)
+                return; // a full disk loses output, and no picture
+            bytes += done, count -= static_cast<std::size_t>(done);
+        }
+    }
+
+    Descriptor file_;
+    std::size_t written_ = 0, left_out_ = 0; // bytes; written_: of the first part
+    std::string last_;
+};
+
+// Reads a part of the output that is there. Returns false at its end, or where none is there yet.
+bool read_part(Descriptor& output, Log& log)
+{
+    char part[1 << 16];
+    const ssize_t count = output ? read(output.get(), part, sizeof part) : -1;
+    if (count > 0)
+        log.add(part, static_cast<std::size_t>(count));
+    if (count == 0)
+        output.reset(); // nobody can write any more
+    return count > 0;
+}
+
+// Keeps the child's output until the child ends. Kills its group at the limit or when stopped, and returns false then.
+bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, Descriptor& output, Log& log, int& status)
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    for (auto pause = std::chrono::milliseconds(1);; pause = std::min(2 * pause, std::chrono::milliseconds(20))) {
+    for (int pause = 1;; pause = std::min(2 * pause, 20)) { // milliseconds
         const pid_t ended = waitpid(child, &status, WNOHANG);
         if (ended < 0 && errno != EINTR)
             status = -1; // its end is not known
@@ -77,7 +147,9 @@ bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, int& s
             return true;
         if (Clock::now() >= end || (stop && *stop))
             break;
-        std::this_thread::sleep_for(pause);
+        pollfd waiting{output.get(), POLLIN, 0}; // poll() passes over a closed one
+        if (poll(&waiting, 1, pause) > 0)
+            read_part(output, log);
     }
     kill(-child, SIGKILL);
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -91,14 +163,22 @@ Status run_child(const ChildRun& run)
 {
     std::vector<std::string> words = run.words, variables = environment_with(run.environment);
     const std::vector<char*> arguments = pointers_to(words), environment = pointers_to(variables);
-    // Print into the file, in a process group of its own
+    // Print into a pipe, in a process group of its own
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return failed(fmt::format("{} cannot be started: {}", run.words[0], std::strerror(errno)));
+    Descriptor output(ends[0]), input(ends[1]);
+    fcntl(output.get(), F_SETFL, O_NONBLOCK);
+    Log log(run.output);
+    if (!log)
+        return failed(fmt::format("{} cannot be started: {}", run.output, std::strerror(errno)));
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, run.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&actions, input.get(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addchdir_np(&actions, run.folder.c_str());
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
@@ -109,10 +189,15 @@ Status run_child(const ChildRun& run)
     if (error != 0)
         return failed(fmt::format("{} cannot be started: {}", run.words[0], std::strerror(error)));
     int status = 0;
-    if (!wait_for(child, run.seconds, run.stop, status))
+    input.reset();
+    const bool in_time = wait_for(child, run.seconds, run.stop, output, log, status);
+    kill(-child, SIGKILL); // whatever it left running
+    for (int part = 0; part < kMostLastParts && read_part(output, log); ++part) {
+    }
+    log.end();
+    if (!in_time)
         return failed(run.stop && *run.stop ? run.words[0] + " was stopped"
                                             : fmt::format("{} was stopped after {:g} s", run.words[0], run.seconds));
-    kill(-child, SIGKILL); // whatever it left running
     if (status == -1)
         return failed(fmt::format("{} ended, and nobody knows how", run.words[0]));
     if (WIFSIGNALED(status))

@@ -13,7 +13,7 @@ struct ChildRun {
     std::vector<std::string> words;                 // program and arguments; a name without '/' is looked up in PATH
     std::string folder;                             // to run in
     std::map<std::string, std::string> environment; // variables besides those of this process
-    std::string output;                             // file for the program's output
+    std::string output;                             // file for the program's output: at most its first and last 512 KiB
     double seconds = 300.0;                         // limit; then the program and its children are killed
     const std::atomic<bool>* stop = nullptr;        // kills them too
 };

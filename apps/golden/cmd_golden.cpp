@@ -1,7 +1,9 @@
 // `burnish golden`: makes pictures, compares them with golden ones, and lets people bless changes.
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
@@ -30,7 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFooter =
-    R"~(check MANIFEST.json: makes the manifest's pictures and compares them with their goldens. check EXPECTED ACTUAL: compares two folders.
+    R"~(check MANIFEST.json: makes the manifest's pictures and compares them with their goldens. check EXPECTED ACTUAL: compares two folders,
+or the files of two quoted patterns with one * in the file name.
 bless: takes over new pictures of the last check that differ or have no golden; with --from, only those of the list.
 merge FOLDER...: joins the results of shards; the files are those of one run.
 
@@ -54,15 +57,16 @@ Examples:
   burnish golden check goldens.json --jobs 4 --shard 2/3 -o shard-2
   burnish golden merge shard-1 shard-2 shard-3 -o golden-results
   burnish golden bless goldens.json --from bless.txt
-  burnish golden check expected actual --flip 0.01)~";
+  burnish golden check expected actual --flip 0.01
+  burnish golden check 'out/*_golden.png' 'out/*_now.png' --mask mask.png)~";
 
 enum class What { check, bless, merge };
 
 struct GoldenArguments {
     What what = What::check;
     std::vector<std::string> paths;
-    std::string results = "golden-results", from, shard;
-    GoldenLimits limits; // of folders
+    std::string results = "golden-results", from, shard, mask;
+    GoldenLimits limits; // of folders and patterns, as is the mask
     int jobs = 0;
     Limits input;
     bool quiet = false;
@@ -92,15 +96,19 @@ bool is_folder(const std::string& path)
     return fs::is_directory(path, ignored);
 }
 
-// Reads the manifest, or the two folders.
+// Reads the manifest, or the names in two folders or by two patterns.
 Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
 {
     if (arguments.paths.size() == 2)
-        return manifest_of_folders(arguments.paths[0], arguments.paths[1], arguments.limits);
+        return manifest_of_pairs(arguments.paths[0], arguments.paths[1], arguments.limits, arguments.mask);
     if (arguments.paths.size() != 1)
-        return usage_error("PATH", "is one manifest, or two folders: the expected pictures and the actual ones");
-    if (!arguments.limits.exact())
-        return usage_error("--flip", "belongs to folders; rows of a manifest have their own \"hold\"");
+        return usage_error("PATH", "is one manifest, or two folders or patterns: the expected pictures and the actual ones");
+    for (const auto& [option, is_given] : {std::pair{"--flip", arguments.limits.flip.has_value()},
+                                           {"--flip-p99", arguments.limits.flip_p99.has_value()},
+                                           {"--pattern", arguments.limits.pattern.has_value()},
+                                           {"--mask", !arguments.mask.empty()}})
+        if (is_given)
+            return usage_error(option, "belongs to folders and patterns; rows of a manifest have their own \"hold\" and \"mask\"");
     return read_manifest(arguments.paths[0]);
 }
 
@@ -131,7 +139,7 @@ Status make_folders(const std::string& results, const std::vector<std::string>& 
         std::error_code ignored;
         fs::remove(results + "/" + name, ignored);
     }
-    for (const char* name : {"pictures", "shown", "logs"}) {
+    for (const char* name : {"pictures", "goldens", "shown", "logs"}) {
         std::error_code failed;
         fs::remove_all(results + "/" + name, failed);
         if (!failed)
@@ -163,10 +171,11 @@ int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments
     sort_by_name(results);
     if (const Status written = write_reports(results, arguments.results); !written)
         return fail(written.error());
-    if (const char* actions = std::getenv("GITHUB_ACTIONS"); actions && std::string_view(actions) == "true")
-        report.asked_for(golden_annotations(results));
+    if (on_github())
+        report.commands(golden_annotations(results));
     if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
-        std::ofstream(summary, std::ios::app) << golden_summary(results);
+        if (std::ofstream out(summary, std::ios::app); !(out << golden_summary(results) << std::flush))
+            report.warning(fmt::format("the step's summary is not written: {}: {}", summary, std::strerror(errno)));
     for (const GoldenResult& r : results)
         if (r.verdict != GoldenVerdict::passed)
             report.figure(verdict_name(r.verdict), printable(r.name + ": " + r.reason));
@@ -297,7 +306,7 @@ int bless(const GoldenArguments& arguments, Report& report)
         chosen = *list;
     } else
         for (const GoldenResult& r : *results)
-            if (r.verdict == GoldenVerdict::differs || r.verdict == GoldenVerdict::missing)
+            if (can_bless(r))
                 chosen.insert(r.name);
     if (!results->empty() && std::none_of(results->begin(), results->end(), [&](const GoldenResult& r) { return rows.contains(r.name); }))
         return fail(Error{ExitCode::bad_input, arguments.results, "", "holds no row of the manifest: -o names the folder of its check"});
@@ -308,6 +317,8 @@ int bless(const GoldenArguments& arguments, Report& report)
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' is no row of the manifest"});
         else if (!by_name.contains(name) || by_name[name]->verdict == GoldenVerdict::failed)
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' has no new picture in the last check"});
+        else if (by_name[name]->by_operations)
+            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' takes too many operations: the limit is in the manifest"});
     report.release();
     std::size_t count = 0;
     for (const std::string& name : chosen) {
@@ -351,7 +362,7 @@ int merge(const GoldenArguments& arguments, Report& report)
     if (const Status folders = make_folders(arguments.results, arguments.paths, Shard{}); !folders)
         return fail(folders.error());
     for (const std::string& folder : arguments.paths)
-        for (const char* name : {"/pictures", "/shown", "/logs"}) {
+        for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {
             if (!is_folder(folder + name)) // uploads drop empty folders
                 continue;
             std::error_code failed;
@@ -383,16 +394,24 @@ int run_golden(const GoldenArguments& arguments, const OptionTable& given)
 OptionTable golden_option_table(GoldenArguments& to)
 {
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"check", "bless", "merge"})},
-                   Option("PATH", "", "A manifest, the folders of expected and actual pictures, or results to merge", files(to.paths))
-                       .must_be_given()});
+    table.add(
+        "", {{"WHAT", "", "{}", choice(to.what, {"check", "bless", "merge"})},
+             Option("PATH", "", "A manifest, two folders or patterns of expected and actual pictures, or results to merge", files(to.paths))
+                 .must_be_given()});
     table.add("Goldens",
               {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
                {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
                {"--shard", "I/N", "Makes every N-th row alone, from the I-th; merge joins the shards' results", text(to.shard), ""},
                {"--from", "LIST", "File with names of rows to bless, one a line, as the page saves it", file(to.from), ""},
-               {"--flip", "MEAN", "Of two folders: mean FLIP that pictures may differ by, {}", number(to.limits.flip, 0.0, 1.0),
+               {"--flip", "MEAN", "Of folders and patterns: mean FLIP that pictures may differ by, {}", number(to.limits.flip, 0.0, 1.0),
                 "not a single value"},
+               {"--flip-p99", "F", "Of folders and patterns: 99th percentile of FLIP that pictures may have, {}",
+                number(to.limits.flip_p99, 0.0, 1.0), ""},
+               {"--pattern", "RMS", "Of folders and patterns: RMS of patterns that pictures may have, {}",
+                number(to.limits.pattern, 0.0, 100.0), ""},
+               {"--mask", "FILE|FOLDER",
+                "Of folders and patterns: picture whose black pixels do not count, or a folder of them by the pictures' names",
+                file(to.mask), ""},
                quiet_option(to.quiet),
                verbose_option(to.verbosity)});
     table.add("Limits on input", limit_options(to.input));

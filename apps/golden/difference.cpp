@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/core.h>
+#include <utility>
 
 #include "apps/compare/displayed.h"
 #include "core/image/io/image_io.h"
@@ -122,6 +123,11 @@ Status show(const Image& image, float exposure_ev, const std::string& path)
     return write_image(path, displayed(image, exposure_ev));
 }
 
+std::string exposure_ending(int stops)
+{
+    return stops == 0 ? ".png" : fmt::format("%ev{}.png", stops);
+}
+
 void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, const std::string& shown, GoldenResult& result)
 {
     const Image& golden = input.golden;
@@ -171,6 +177,12 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
                                   write_image(shown + "%error.png", magma_map(flip.error))})
         if (!written)
             return fails(GoldenVerdict::failed, written.error().line());
+    if (golden.type != PixelType::f32 || result.verdict == GoldenVerdict::passed)
+        return;
+    for (const int stops : kMoreExposures)
+        for (const auto& [image, name] : {std::pair<const Image*, std::string>{&picture, shown}, {&golden, shown + "%golden"}})
+            if (const Status written = show(*image, exposure + static_cast<float>(stops), name + exposure_ending(stops)); !written)
+                return fails(GoldenVerdict::failed, written.error().line());
 }
 
 } // namespace burnish

@@ -29,27 +29,46 @@ std::string annotation_text(const std::string& text, bool in_property)
     return out;
 }
 
-// Escapes Markdown and HTML within a table's cell.
-std::string markdown_text(const std::string& text)
+// Escapes Markdown and HTML within a table's cell. A word joiner, which shows nothing, keeps GitHub from making links of addresses, names
+// and numbers: of "https://", "www.", "@" and "#".
+std::string markdown_text(const std::string& name)
 {
+    constexpr const char* kJoiner = "&#8288;";
+    const std::string text = printable(without_controls(name));
     std::string out;
-    for (const char c : printable(without_controls(text)))
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '.' && i > 0 && (text[i - 1] == 'w' || text[i - 1] == 'W'))
+            out += kJoiner;
         if (std::string_view("\\`*_{}[]()#+-!|~@").find(c) != std::string_view::npos)
             out += std::string("\\") + c;
         else
             out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+        if (c == '@' || c == '#' || (c == ':' && i + 1 < text.size() && text[i + 1] == '/'))
+            out += kJoiner;
+    }
     return out;
 }
 
 Json json_of(const GoldenResult& r)
 {
-    return {{"name", r.name},         {"verdict", verdict_name(r.verdict)},
-            {"reason", r.reason},     {"width", r.width},
-            {"height", r.height},     {"flip_mean", r.flip},
-            {"flip_p99", r.flip_p99}, {"differing_fraction", r.differing},
-            {"max_abs", r.largest},   {"operations", r.operations},
-            {"golden", r.golden},     {"picture", r.picture},
-            {"log", r.log},           {"hash_alone", r.hash_alone}};
+    return {{"name", r.name},
+            {"verdict", verdict_name(r.verdict)},
+            {"reason", r.reason},
+            {"width", r.width},
+            {"height", r.height},
+            {"flip_mean", r.flip},
+            {"flip_p99", r.flip_p99},
+            {"differing_fraction", r.differing},
+            {"max_abs", r.largest},
+            {"operations", r.operations},
+            {"golden", r.golden},
+            {"picture", r.picture},
+            {"log", r.log},
+            {"hash_alone", r.hash_alone},
+            {"linear", r.linear},
+            {"by_operations", r.by_operations},
+            {"golden_copy", r.golden_copy}};
 }
 
 GoldenResult result_of(const Json& json)
@@ -69,6 +88,8 @@ GoldenResult result_of(const Json& json)
     r.operations = json.at("operations").get<double>();
     r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
     r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();
+    r.linear = json.at("linear").get<bool>(), r.by_operations = json.at("by_operations").get<bool>();
+    r.golden_copy = json.at("golden_copy").get<std::string>();
     return r;
 }
 
@@ -93,6 +114,11 @@ GoldenCounts count_of(const std::vector<GoldenResult>& results)
             break;
         }
     return counts;
+}
+
+bool can_bless(const GoldenResult& result)
+{
+    return result.verdict == GoldenVerdict::missing || (result.verdict == GoldenVerdict::differs && !result.by_operations);
 }
 
 int exit_code_of(const GoldenCounts& counts)

@@ -8,8 +8,10 @@
 #include <set>
 #include <system_error>
 
+#include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
 #include "apps/compare/picture_names.h"
+#include "apps/options/options.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -138,6 +140,20 @@ void check_name(const std::string& name, const std::string& place, std::set<std:
         throw Mistake{place + "/name", "'" + name + "' is the name of an earlier row"};
 }
 
+// Refuses options of a scene that write files besides the picture, or print in place of drawing.
+void check_options(const std::vector<std::string>& defaults, const std::vector<std::string>& own, const std::string& place)
+{
+    RenderArguments arguments;
+    const OptionTable table = render_option_table(arguments);
+    std::vector<std::string> words = defaults;
+    words.insert(words.end(), own.begin(), own.end());
+    const std::size_t at = find_output_or_help(table, words);
+    if (at < words.size())
+        throw Mistake{at < defaults.size() ? fmt::format("/defaults/options/{}", at)
+                                           : fmt::format("{}/options/{}", place, at - defaults.size()),
+                      "'" + words[at] + "' writes or prints something else than the row's picture"};
+}
+
 GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults& defaults, std::set<std::string>& taken)
 {
     check_members(of, place,
@@ -154,6 +170,9 @@ GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults
     if (!scene.empty()) {
         if (!row.command.empty() || !row.picture.empty())
             throw Mistake{place, "has a scene, and a command or a picture too"};
+        if (scene[0] == '-')
+            throw Mistake{place + "/scene", "begins like an option; a file is named ./" + scene};
+        check_options(defaults.options, options, place);
         row.kind = GoldenKind::scene;
         row.command = {"render", scene};
         row.command.insert(row.command.end(), defaults.options.begin(), defaults.options.end());
@@ -210,6 +229,70 @@ GoldenManifest manifest_of(const JsonValue& json, const std::string& folder)
     return manifest;
 }
 
+// Hears a parser's events, and refuses an object with two members of one name.
+class DuplicateMembers {
+  public:
+    void hear(JsonValue::parse_event_t event, const JsonValue& parsed)
+    {
+        using Event = JsonValue::parse_event_t;
+        switch (event) {
+        case Event::object_start:
+        case Event::array_start:
+            next_element();
+            levels_.push_back({event == Event::array_start, 0, "", {}});
+            break;
+        case Event::object_end:
+        case Event::array_end:
+            levels_.pop_back();
+            break;
+        case Event::value:
+            next_element();
+            break;
+        case Event::key:
+            levels_.back().at = parsed.get<std::string>();
+            if (!levels_.back().names.insert(levels_.back().at).second)
+                throw Mistake{place(), "is there twice"};
+            break;
+        }
+    }
+
+  private:
+    struct Level {
+        bool is_array = false;
+        std::size_t next = 0; // index of an array's next element
+        std::string at;       // name or index of the last member
+        std::set<std::string> names;
+    };
+
+    void next_element()
+    {
+        if (!levels_.empty() && levels_.back().is_array)
+            levels_.back().at = std::to_string(levels_.back().next++);
+    }
+
+    std::string place() const
+    {
+        std::string text;
+        for (const Level& level : levels_)
+            text += "/" + level.at;
+        return text;
+    }
+
+    std::vector<Level> levels_;
+};
+
+// Returns the mask for a picture: the file itself, or the file in the folder with the picture's name, else as PNG. Empty: none.
+std::string mask_of(const std::string& mask, const fs::path& picture)
+{
+    std::error_code ignored;
+    if (mask.empty() || !fs::is_directory(mask, ignored))
+        return mask;
+    for (const fs::path& name : {picture, fs::path(picture).replace_extension(".png")})
+        if (fs::exists(mask / name, ignored))
+            return (mask / name).string();
+    return "";
+}
+
 // Returns "line 3, column 7" of a byte.
 std::string line_and_column(const std::vector<std::uint8_t>& text, std::size_t byte)
 {
@@ -241,9 +324,18 @@ Result<GoldenManifest> read_manifest(const std::string& path)
     BN_TRY(bytes);
     JsonValue json;
     try {
-        json = JsonValue::parse(bytes->begin(), bytes->end());
+        DuplicateMembers duplicates;
+        const auto hear = [&duplicates](int, JsonValue::parse_event_t event, const JsonValue& parsed) {
+            duplicates.hear(event, parsed);
+            return true;
+        };
+        json = JsonValue::parse(bytes->begin(), bytes->end(), hear);
     } catch (const JsonValue::parse_error& e) {
         return Error{ExitCode::bad_input, path, line_and_column(*bytes, e.byte), "is no JSON here; JSON has no comments"};
+    } catch (const JsonValue::out_of_range&) { // its message says where not
+        return Error{ExitCode::bad_input, path, "", "holds a number that no double can hold"};
+    } catch (const Mistake& mistake) {
+        return Error{ExitCode::bad_input, path, mistake.place, mistake.reason};
     }
     try {
         const std::string folder = fs::path(path).parent_path().string();
@@ -253,16 +345,25 @@ Result<GoldenManifest> read_manifest(const std::string& path)
     }
 }
 
-Result<GoldenManifest> manifest_of_folders(const std::string& expected, const std::string& actual, const GoldenLimits& limits)
+Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
+                                         const std::string& mask)
 {
-    const Result<std::vector<std::string>> names = picture_names(expected, actual);
+    const bool by_pattern = expected.find('*') != std::string::npos || actual.find('*') != std::string::npos;
+    const Result<std::vector<std::string>> names = by_pattern ? covered_parts(expected, actual) : picture_names(expected, actual);
     BN_TRY(names);
     GoldenManifest manifest;
     manifest.folder = ".";
     for (const std::string& name : *names) {
+        const auto path_of = [&](const std::string& given) {
+            return by_pattern ? with_part(given, name) : (fs::path(given) / name).string();
+        };
         GoldenRow row;
-        row.name = printable(name), row.picture = (fs::path(actual) / name).string(), row.golden = (fs::path(expected) / name).string();
-        row.extension = fs::path(name).extension().string(), row.limits = limits;
+        row.picture = path_of(actual), row.golden = path_of(expected), row.limits = limits;
+        const fs::path relative = by_pattern ? fs::path(row.golden).filename() : fs::path(name);
+        row.name = printable(relative.string()), row.extension = fs::path(row.picture).extension().string();
+        row.mask = mask_of(mask, relative);
+        if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal())
+            return Error{ExitCode::usage, "", "PATH", "'" + row.picture + "' is expected and actual"};
         manifest.rows.push_back(std::move(row));
     }
     return manifest;

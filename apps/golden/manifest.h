@@ -40,8 +40,10 @@ struct GoldenManifest {
 
 // Errors: ExitCode::bad_input with the JSON path of the first mistake, or with line and column where the text is no JSON.
 Result<GoldenManifest> read_manifest(const std::string& path);
-// Makes a row of each picture below `expected`, by its relative path. Both folders may hold further files.
-Result<GoldenManifest> manifest_of_folders(const std::string& expected, const std::string& actual, const GoldenLimits& limits);
+// Makes a row of each picture below two folders, by its relative path. Of two patterns, makes a row of each part of a name that '*' covers.
+// Folders may hold further files. mask: a picture for all rows, a folder of pictures by the rows' names, or empty.
+Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
+                                         const std::string& mask);
 
 // Returns the name as part of file names: bytes other than letters, digits, '.', '-' and '_' become %XX.
 std::string file_stem(const std::string& name);

@@ -46,7 +46,7 @@ std::vector<std::string> layer_names()
 std::vector<Option> output_rows(RenderArguments& to)
 {
     return {
-        {"-o,--output", "FILE", "Picture to write; may be given several times", files(to.plain.outputs)},
+        Option("-o,--output", "FILE", "Picture to write; may be given several times", files(to.plain.outputs)).is_output(),
         {"--tonemap", "NAME", "Tone curve of 8-bit pictures: {}", choice(to.plain.tonemap, {"none", "pbr-neutral", "aces"})},
         {"--resolve", "NAME",
          "Mean of a pixel's samples in 8-bit pictures: linear (before tonemapping), display (after tonemapping) or "
@@ -59,16 +59,19 @@ std::vector<Option> output_rows(RenderArguments& to)
         {"--show", "NAME",
          "Contents of 8-bit outputs: {}. The last three are false colours: texture level, lobe shape in the picture, lobe normal",
          choice(to.plain.show, {"light", "lod", "tensor", "normal"})},
-        {"--risks", "FILE",
-         "8-bit picture that marks pixels beyond the technique's limits, as measured by burnish atlas; - prints the words alone",
-         file(to.plain.risks)},
+        Option("--risks", "FILE",
+               "8-bit picture that marks pixels beyond the technique's limits, as measured by burnish atlas; - prints the words alone",
+               file(to.plain.risks))
+            .is_output(),
         {"--exposure", "EV", "Exposure of 8-bit pictures in stops: multiplies radiance by 2^EV before tonemapping",
          number(to.plain.exposure_ev, -kMaxExposure, kMaxExposure)},
         {"--count-operations", "",
          "Draws one frame more with lanes that count, and adds its float operations to --stats: equal on every machine",
          flag(to.plain.counts_operations)},
-        {"--stats", "FILE", "JSON file with times, counts, warnings and the pixel hash; - for standard output", file(to.plain.stats_file)},
-        {"--trace", "FILE", "Timeline as Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)},
+        Option("--stats", "FILE", "JSON file with times, counts, warnings and the pixel hash; - for standard output",
+               file(to.plain.stats_file))
+            .is_output(),
+        Option("--trace", "FILE", "Timeline as Chrome trace events, for ui.perfetto.dev", file(to.plain.trace_file)).is_output(),
         quiet_option(to.plain.quiet),
         verbose_option(to.plain.verbosity),
     };
@@ -121,8 +124,9 @@ std::vector<Option> budget_rows(RenderOptions& to)
         {"--budget-ms", "T",
          "Largest processor time of the frame in milliseconds, on this machine: chooses the least error within it. --budget goes first",
          number(to.budget_ms, 0.001, 1e9), ""},
-        {"--plan-out", "FILE", "JSON file with the choices of a budget, their predicted errors and costs; - for standard output",
-         file(to.plan_out)},
+        Option("--plan-out", "FILE", "JSON file with the choices of a budget, their predicted errors and costs; - for standard output",
+               file(to.plan_out))
+            .is_output(),
         {"--plan", "FILE", "Draws with the choices of such a file, which must be for the same scene, view and options", file(to.plan_file)},
         {"--verify", "", "Renders the reference too, and prints the picture's error beside the predicted one", flag(to.verify)},
     };
@@ -245,10 +249,11 @@ std::vector<Option> reference_rows(RenderArguments& to)
         {"--target-error", "E",
          "Stop early at this relative error: half the 95 % confidence interval over the mean, averaged over the pixels",
          number(r.target_error, 1e-6, 1.0), ""},
-        {"--checkpoint", "FILE", "Checkpoint file: continues from it if it exists, and updates it, also when stopped by Ctrl-C",
-         file(r.checkpoint)},
+        Option("--checkpoint", "FILE", "Checkpoint file: continues from it if it exists, and updates it, also when stopped by Ctrl-C",
+               file(r.checkpoint))
+            .is_output(),
         {"--checkpoint-seconds", "S", "Seconds between updates of the checkpoint", number(r.checkpoint_seconds, 0.0, 86400.0)},
-        {"--variance", "FILE", "Picture of the mean's variance in each channel", file(to.plain.variance_file)},
+        Option("--variance", "FILE", "Picture of the mean's variance in each channel", file(to.plain.variance_file)).is_output(),
         {"--reference-strategy", "NAME", "Sampling of directions, for tests: {}", choice(r.strategy, {"mis", "brdf", "light"})},
     };
 }

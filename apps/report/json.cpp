@@ -15,7 +15,7 @@ struct CsvWriter {
 
     static std::string cell(std::string text)
     {
-        if (text.find_first_of(",\"\r\n") == std::string::npos)
+        if (text.find_first_of(",\"\r\n") == std::string::npos && text.find("::") == std::string::npos) // GitHub obeys "::"
             return text;
         for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2))
             text.insert(at, 1, '"');

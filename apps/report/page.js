@@ -94,19 +94,22 @@
     const first = data.rows[keys[0]];
     const image = (css, alt) => element('img', {className: css, alt, draggable: false});
     const technique = image('picture', ''), error = image('error', '');
-    const reference = element('img', {className: 'reference', alt: '', src: picture(place.reference), draggable: false});
+    const reference = element('img', {className: 'reference', alt: '', draggable: false});
     const view = element('div', {className: 'view', tabIndex: 0, role: 'img', style: `aspect-ratio: ${place.width || data.width} / ${place.height || data.height}`},
                          reference, element('div', {className: 'clip technique'}, technique), error);
     const list = element('select', {}, ...keys.map(key => element('option', {value: key}, data.rows[key].setting)));
     list.setAttribute('aria-label', 'setting of ' + first.technique);
     const figures = element('span', {className: 'figures'});
-    list.addEventListener('change', () => {
-      const row = data.rows[list.value];
-      technique.src = picture(row.picture);
+    const draw = () => {
+      const row = data.rows[list.value], exposed = wall.exposure >= 0 && row.exposures;
+      technique.src = picture(exposed ? row.exposures[wall.exposure] : row.picture);
+      reference.src = picture(exposed ? place.exposures[wall.exposure].reference : place.reference);
       error.src = picture(row.error);
       figures.textContent = row.figures;
       view.setAttribute('aria-label', `${row.text}. Arrow keys move, plus and minus zoom, F flickers.`);
-    });
+    };
+    list.addEventListener('change', draw);
+    wall.draws.push(draw);
     list.value = place.shown.find(key => keys.includes(key)) || keys[0];
     list.dispatchEvent(new Event('change'));
     wall.panWith(view);
@@ -127,12 +130,15 @@
       const reset = element('button', {type: 'button'}, 'Whole picture');
       this.button.setAttribute('aria-pressed', 'false');
       this.tiles = element('div', {className: 'tiles'});
+      this.draws = [];      // functions, one a tile: each shows its pictures at the exposure
+      this.exposure = -1;  // index of the place's exposures; -1: they have none
+      const exposer = place.exposures ? this.makeExposer(place.exposures) : '';
       const techniques = [...new Set(place.rows.map(key => data.rows[key].technique))];
       this.tiles.append(...techniques.map(name => makeTile(this, place, place.rows.filter(key => data.rows[key].technique === name))));
       const legend = element('legend', {}, 'Show');
       const controls = element('div', {className: 'controls'},
         element('fieldset', {}, legend, ...modes.map(([, text], i) => element('label', {}, this.radios[i], text))),
-        element('label', {}, (data.other || 'Reference') + ' | ' + data.subject.toLowerCase(), this.split), this.button, element('label', {}, 'Zoom', this.zoomer), reset);
+        element('label', {}, (data.other || 'Reference') + ' | ' + data.subject.toLowerCase(), this.split), this.button, element('label', {}, 'Zoom', this.zoomer), exposer, reset);
       this.node = element('div', {}, controls, this.tiles);
       this.radios.forEach(radio => radio.addEventListener('change', () => this.setMode(radio.value)));
       this.split.addEventListener('input', () => this.tiles.style.setProperty('--split', this.split.value + '%'));
@@ -141,6 +147,20 @@
       reset.addEventListener('click', () => this.zoomTo(1, 0, 0));
       this.tiles.addEventListener('keydown', event => this.key(event));
       this.setMode('split');
+    }
+    makeExposer(exposures) {  // a slider over pictures of the same values at several exposures
+      const slider = element('input', {type: 'range', min: 0, max: exposures.length - 1, step: 1, className: 'exposure'}), text = element('output');
+      const choose = index => {
+        const stops = exposures[index].stops, words = `${stops > 0 ? '+' : ''}${stops} stops`;
+        this.exposure = index;
+        text.textContent = words;
+        slider.setAttribute('aria-valuetext', words);
+        this.draws.forEach(draw => draw());
+      };
+      slider.value = exposures.findIndex(({stops}) => stops === 0);
+      slider.addEventListener('input', () => choose(Number(slider.value)));
+      choose(Number(slider.value));
+      return element('label', {}, 'Exposure', slider, text);
     }
     setMode(mode) {
       if (this.timer) this.flicker();

@@ -32,13 +32,9 @@ std::vector<std::vector<Tap>> taps(int from, int to)
     return out;
 }
 
-} // namespace
-
-Image shrink(const Image& image, int width)
+// Shrinks to a size that is no larger in either direction.
+Image shrink_to(const Image& image, int width, int height)
 {
-    if (image.width <= width)
-        return image;
-    const int height = std::max(1, static_cast<int>(static_cast<double>(image.height) * width / image.width + 0.5));
     Image out = make_image(width, height, image.channels, PixelType::f32);
     const auto columns = taps(image.width, width), rows = taps(image.height, height);
     for (int y = 0; y < height; ++y)
@@ -49,6 +45,24 @@ Image shrink(const Image& image, int width)
                         out.f32()[(y * width + x) * image.channels + c] +=
                             row.weight * column.weight * image.f32()[(row.at * image.width + column.at) * image.channels + c];
     return out;
+}
+
+} // namespace
+
+Image shrink(const Image& image, int width)
+{
+    if (image.width <= width)
+        return image;
+    return shrink_to(image, width, std::max(1, static_cast<int>(static_cast<double>(image.height) * width / image.width + 0.5)));
+}
+
+Image shrink_within(const Image& image, int side)
+{
+    const int longest = std::max(image.width, image.height);
+    if (longest <= side)
+        return image;
+    const auto shorter = [&](int of) { return std::max(1, static_cast<int>(static_cast<double>(of) * side / longest + 0.5)); };
+    return shrink_to(image, shorter(image.width), shorter(image.height));
 }
 
 int picture_width(std::size_t rows)

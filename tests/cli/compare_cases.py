@@ -249,6 +249,8 @@ def not_finite(bench):
         done.expect_one_line(bad, "2 of 384")
         found = json.loads((bench.folder / "j.json").read_text())
         check(found["nan_pixels"] == 2 and found["flip_mean"] is None and found["mse"] is None, f"{found}")
+        check("The comparison failed" in (bench.folder / "p.html").read_text(), "the page does not say that the comparison failed")
+        (bench.folder / "p.html").unlink()
     check(sorted(p.name for p in bench.folder.glob("[ep].*")) == [], "an error map of NaN")
     done = bench.run("compare", "-q", "a.pfm", "holes.pfm", "--fail-flip", "1", "--fail-max", "1e9")
     done.expect(6)  # no limit can allow NaN

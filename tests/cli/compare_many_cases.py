@@ -102,3 +102,54 @@ def sequence_page(bench):
         check(marks == 5 + 4 + 4, f"{marks} marks")
         check(not browser.faults, f"the console says {browser.faults}")
         browser.screenshot(bench.folder / "page.png")
+
+
+@case("compare.names_are_no_commands_to_github", "input")
+def commands(bench):
+    """GitHub obeys printed lines that begin with "::", after blanks too, and "##[" anywhere."""
+    names = ("::warning::hello.png", " \u3000::error::x.png", "a\n::error::b.png", "##[error]c.png")
+    for name in names:
+        for folder in ("expected", "actual"):
+            scratch(bench, f"{folder}/{name}", png(24, 16, ramp if folder == "actual" else lambda x, y: (0, 8 * y, 9)))
+    scratch(bench, "actual/::notice::none.png", b"no picture")
+    for env, code in (({"GITHUB_ACTIONS": "true"}, "\\::"), ({}, "::")):
+        done = bench.run("compare", "expected", "actual", "--fail-flip", "0.001", env=env).expect(4)
+        check(f"\n{code}warning::hello.png FLIP 0." in "\n" + done.out, done.describe())
+        piped = bench.run("compare", "expected", "actual", "--csv", "-", env=env).expect(4)
+        check(piped.out.count("::warning::hello.png") == 3 and not any(line.strip().startswith("::") for line in piped.out.splitlines()), piped.describe())
+        for line in (done.out + done.err).splitlines() if env else ():
+            check(not line.strip().startswith("::") and "##[" not in line, done.describe())
+
+
+@case("compare.a_failed_comparison_has_a_page", "input")
+def failure_pages(bench):
+    pictures(bench)
+    nan = float("nan")
+    scratch(bench, "nan.pfm", pfm(24, 16, lambda x, y: (nan if x == 3 else 1.0, 1.0, 1.0)))
+    for frame in (1, 2, 3):
+        scratch(bench, f"r{frame}.png", png(24, 16, ramp))
+        scratch(bench, f"t{frame}.png", png(24, 16, ramp) if frame != 2 else b"no picture")
+        scratch(bench, f"n{frame}.pfm", pfm(24, 16, lambda x, y: (nan if frame == 3 else 1.0, 1.0, 1.0)))
+        scratch(bench, f"f{frame}.pfm", pfm(24, 16, bright))
+    for words, code, needle in ((("a.png", "<missing>.png"), 4, "&lt;missing&gt;.png: "), (("a.png", "a.pfm"), 3, "a.pfm: "), (("a.pfm", "nan.pfm"), 6, "nan.pfm: "),
+                                (("--sequence", "r%d.png", "t%d.png"), 4, "t2.png: "), (("--sequence", "r%d.png", "x%d.png"), 4, "x"),
+                                (("--sequence", "f%d.pfm", "n%d.pfm"), 6, "n3.pfm: ")):
+        (bench.folder / "p.html").unlink(missing_ok=True)
+        done = bench.run("compare", *words, "--fail-flip", "0.1", "--html", "p.html", "-q").expect(code)
+        text = (bench.folder / "p.html").read_text()
+        check("The comparison failed" in text and f"<p>{needle}" in text and "<img" not in text, f"{text[-600:]}\n{done.describe()}")
+    bench.run("compare", "a.png", "b.png", "--metric", "flip-hdr", "--html", "q.html").expect(2)
+    check(not (bench.folder / "q.html").exists(), "a page of a wrong option")
+
+
+@case("compare.rows_of_a_sequence_name_files_and_verdict")
+def sequence_csv(bench):
+    for frame in (1, 2, 3):
+        scratch(bench, f"r{frame}.png", png(24, 16, ramp))
+        scratch(bench, f"t{frame}.png", png(24, 16, ramp if frame != 2 else lambda x, y: (0, 8 * y, 9)))
+    for limit, code, verdict in (("1", 0, "passed"), ("0.001", 1, "differs")):
+        bench.run("compare", "--sequence", "r%d.png", "t%d.png", "-q", "--fail-flip", limit, "--csv", "c.csv").expect(code)
+        rows = list(csv.DictReader((bench.folder / "c.csv").open(newline="")))
+        check([(row["frame"], row["reference"], row["test"]) for row in rows] == [(str(i), f"r{i}.png", f"t{i}.png") for i in (1, 2, 3)], f"{rows}")
+        check({(row["verdict"], float(row["limits.fail_flip"])) for row in rows} == {(verdict, float(limit))}, f"{rows}")
+        check(all(("--fail-flip" in row["reason"]) == bool(code) for row in rows) and float(rows[1]["flip_mean"]) > 0 and rows[1]["change"], f"{rows}")

@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import stat
+import struct
 import xml.etree.ElementTree
 
 from browser import Browser
@@ -121,6 +122,24 @@ def failing(bench):
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("ends", "no new picture")
 
 
+@case("golden.long_outputs_are_kept_in_part", budget=10)
+def outputs(bench):
+    write(bench, [{"name": "floods", "command": ["sh", "-c", "echo first; exec yes"], "picture": "1.png", "seconds": 1},
+                  {"name": "counts", "command": ["sh", "-c", "seq 1000000; echo last >&2; exit 3"], "picture": "2.png"},
+                  {"name": "closes", "command": ["sh", "-c", "exec >&- 2>&-; sleep 0.3; exit 4"], "picture": "3.png"},
+                  {"name": "leaves", "command": ["sh", "-c", "setsid yes & exit 5"], "picture": "4.png"}])
+    bench.run("golden", "check", "m.json", timeout=30.0).expect(4)
+    reasons = {name: r["reason"] for name, r in results(bench).items()}
+    for name, words in {"floods": "stopped after 1 s", "counts": "exit code 3: last", "closes": "exit code 4", "leaves": "exit code 5"}.items():
+        check(words in reasons[name], reasons)
+    for name, begin, end in (("floods", "first\ny\n", "y\n"), ("counts", "1\n2\n3\n", "999999\n1000000\nlast\n")):
+        text = (bench.folder / f"golden-results/logs/{name}.txt").read_text()
+        check(text.startswith(begin) and text.rstrip().endswith(end.rstrip()) and len(text) < (1 << 20) + 100 and "bytes are left out here" in text, f"{name}: {len(text)} bytes")
+    left = int(re.search(r"\.\.\. (\d+) bytes", text)[1])
+    whole = sum(len(str(n)) + 1 for n in range(1, 1000001)) + len("last\n")
+    check(left == whole - (1 << 20), f"{left} of {whole} bytes")
+
+
 @case("golden.shards_merge_to_the_files_of_one_run", budget=20)
 def shards(bench):
     write(bench, [*ROWS, {"name": "late <b>|", "scene": "builtin:plate"}])
@@ -156,6 +175,43 @@ def folders(bench):
     (bench.folder / "a/same.ppm").write_bytes(pixel(10))
     bench.run("golden", "check", "e", "a").expect(1)
     bench.run("golden", "check", "e", "a", "--flip", "0.05").expect(0)
+    bench.run("golden", "check", "e", "a", "--flip", "0.05", "--flip-p99", "0").expect(1)
+    bench.run("golden", "check", "e", "a", "--flip", "0.05", "--pattern", "0").expect(0)
+    # A mask for all pictures, and a folder of masks by name
+    (bench.folder / "black.ppm").write_bytes(pixel(0))
+    (bench.folder / "masks/sub").mkdir(parents=True)
+    (bench.folder / "masks/sub/other.ppm").write_bytes(pixel(0))
+    bench.run("golden", "check", "e", "a", "--mask", "black.ppm").expect(0)
+    bench.run("golden", "check", "e", "a", "--mask", "masks").expect(1)
+    (bench.folder / "masks/same.ppm").write_bytes(pixel(0))
+    bench.run("golden", "check", "e", "a", "--mask", "masks").expect(0)
+    bench.run("golden", "check", "e", "a", "--mask", "absent.ppm").expect(4)
+
+
+@case("golden.patterns_pair_files", budget=10)
+def patterns(bench):
+    pixel = lambda value: b"P6 1 1 255\n" + bytes([value, 0, 0])
+    for name, value in (("a_golden.ppm", 9), ("a_now.ppm", 9), ("b_golden.ppm", 9), ("b_now.ppm", 200), ("gone_golden.ppm", 9), ("new_now.ppm", 9), ("other.ppm", 1),
+                        ("a_now.txt", 1), (".hidden_now.ppm", 1)):
+        (bench.folder / name).write_bytes(pixel(value))
+    pair = ("*_golden.ppm", "*_now.ppm")
+    bench.run("golden", "check", *pair).expect(4)
+    check(verdicts(bench) == {"a_golden.ppm": "passed", "b_golden.ppm": "differs", "gone_golden.ppm": "failed", "new_golden.ppm": "missing"}, verdicts(bench))
+    (bench.folder / "gone_golden.ppm").unlink()
+    bench.run("golden", "check", *pair).expect(1)
+    bench.run("golden", "bless", *pair).expect(0)
+    bench.run("golden", "check", *pair).expect(0)
+    check((bench.folder / "b_golden.ppm").read_bytes() == pixel(200) and (bench.folder / "new_golden.ppm").exists(), "not blessed")
+    (bench.folder / "sub").mkdir()
+    (bench.folder / "sub/a.ppm").write_bytes(pixel(9))
+    (bench.folder / "sub/b.ppm").write_bytes(pixel(9))
+    bench.run("golden", "check", "sub/*.ppm", "*_now.ppm").expect(1)
+    check(verdicts(bench) == {"a.ppm": "passed", "b.ppm": "differs", "new.ppm": "missing"}, verdicts(bench))
+    for bad, code, needle in ((("s*/*.ppm", "*.ppm"), 2, "s*/*.ppm"), (("sub/*.ppm", "sub"), 2, "sub"), (("*a*.ppm", "*.ppm"), 2, "*a*.ppm"), (("s*/a.ppm", "*.ppm"), 2, "s*/a.ppm"),
+                              (("nowhere/*.ppm", "*.ppm"), 4, "nowhere"), (("x*.ppm", "y*.ppm"), 4, "matches no picture"), (("*.ppm", "./*.ppm"), 2, "expected and actual")):
+        bench.run("golden", "check", *bad).expect(code).expect_one_line(needle)
+    for option in ("--flip-p99", "--pattern", "--mask"):
+        bench.run("golden", "check", "m.json", option, "0.1").expect(2).expect_one_line(option)
 
 
 @case("golden.limits_and_masks_decide", budget=8)
@@ -222,7 +278,9 @@ def mistakes(bench):
                         ([{"name": "a\n", "picture": "x.png"}], "/rows/0/name"), ([{"name": "a", "picture": "x.png", "options": ["-q"]}], "/rows/0/options")):
         write(bench, rows)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
-    for text, place in (('{"rows": [\n  // no\n]}', "line 2, column 3"), ("", "m.json"), ("[]", "m.json"), ('{"rows": [], "more": 1}', "/more")):
+    for text, place in (('{"rows": [{"name": "a", "name": "b", "picture": "x.png"}]}', "/rows/0/name"), ('{"rows": [], "rows": []}', "/rows: is there twice"),
+                        ('{"rows": [1, [2, {}], {"hold": {"flip": 1, "z": 1, "flip": 0}}]}', "/rows/2/hold/flip"), ('{"defaults": {"keep": "hash", "keep": "hash"}}', "/defaults/keep"), ('{"rows": [{"seconds": 1e999}]}', "number"),
+                        ('{"rows": [\n  // no\n]}', "line 2, column 3"), ("", "m.json"), ("[]", "m.json"), ('{"rows": [], "more": 1}', "/more")):
         (bench.folder / "m.json").write_text(text)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
     bench.run("golden", "check", "absent.json").expect(4).expect_one_line("absent.json")
@@ -231,6 +289,20 @@ def mistakes(bench):
                         ([{"name": n, "command": ["true"], "picture": "x.png"} for n in "ab"], "/rows/1/picture"), ([{"name": "\u202e", "picture": "x.png"}], "/rows/0/name")):
         write(bench, rows)
         bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", place)
+    # Options of a scene write no file and print nothing
+    for options, at in ((["-o", "evil.png"], 0), (["-qo", "evil.png"], 0), (["--output=evil.png"], 0), (["--msaa", "4", "--stats", "-"], 2), (["--trace", "t.json"], 0),
+                        (["--backend", "reference", "--variance", "v.exr"], 2), (["--backend", "reference", "--checkpoint=c"], 2), (["--risks", "-"], 0),
+                        (["--plan-out", "p.json"], 0), (["-q", "--help"], 1), (["-qh"], 0), (["--version"], 0), (["--msaa", "4", "--stats"], 2)):
+        write(bench, [{**pot, "options": options}])
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", f"/rows/0/options/{at}")
+    (bench.folder / "m.json").write_text(json.dumps({"defaults": {"options": ["-q", "--env"]}, "rows": [{**pot, "options": ["--size", "--stats", "s.json"]}]}))
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/rows/0/options/1")
+    (bench.folder / "m.json").write_text(json.dumps({"defaults": {"options": ["-q", "-o", "evil.png"]}, "rows": [pot]}))
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/defaults/options/1")
+    for scene in ("--help", "-h", "-o"):
+        write(bench, [{**pot, "scene": scene}])
+        bench.run("golden", "check", "m.json").expect(4).expect_one_line("m.json", "/rows/0/scene", "./" + scene)
+    check(not list(bench.folder.glob("evil*")) and not (bench.folder / "golden-results").exists(), "a file is written")
     # A folder with other files is never emptied, nor one with an input
     (bench.folder / "mine/pictures").mkdir(parents=True)
     (bench.folder / "mine/pictures/a.png").write_text("mine")
@@ -251,7 +323,8 @@ def mistakes(bench):
 @case("golden.hostile_names_stay_text", budget=10)
 def hostile(bench):
     """Names are text in HTML, Markdown, annotations and file names."""
-    names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', "."]
+    names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', ".",
+             "https://evil.example/x", "www.evil.example", "@somebody #1"]
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
     write(bench, [{"name": name, "picture": "a.ppm"} for name in names])
     done = bench.run("golden", "check", "m.json", env={"GITHUB_ACTIONS": "true", "GITHUB_STEP_SUMMARY": str(bench.folder / "step.md")}).expect(5)
@@ -260,30 +333,103 @@ def hostile(bench):
     check("<script>alert" not in page and "&lt;script&gt;alert" in page, "a name is markup")
     annotations = [line for line in done.out.splitlines() if line.startswith("::error ")]
     check(len(annotations) == len(names) and not any("::x%0A" in line for line in annotations), annotations)
+    check(not any(line.strip().startswith("::") for line in (done.out + done.err).splitlines() if line not in annotations), done.describe())
+    text = (bench.folder / "step.md").read_text()
+    check(not re.search(r"://|www\.|@\w|(?<!&)#\w", text) and "https:&#8288;//evil.example/x" in text, f"GitHub makes links: {text}")
     check("<script>" not in (bench.folder / "step.md").read_text() and "a\\|b" in (bench.folder / "step.md").read_text(), "Markdown")
     check(not (bench.folder / "up.ppm").exists() and len(list((bench.folder / "golden-results/pictures").iterdir())) == len(names), "files")
     bench.run("golden", "bless", "m.json").expect(0)
-    bench.run("golden", "check", "m.json").expect(0)
+    done = bench.run("golden", "check", "m.json", env={"GITHUB_STEP_SUMMARY": "/nonexistent/x"}).expect(0)
+    done.expect_one_line("warning", "summary", "/nonexistent/x")  # and the exit code stays
     check(len(list((bench.folder / "goldens").iterdir())) == len(names), os.listdir(bench.folder / "goldens"))
 
 
 @case("golden.the_page_makes_the_list_to_bless", tier="nightly")
 def page(bench):
-    rows = [*ROWS, {"name": "<!--<script>", "scene": "builtin:plate"}]
+    rows = [*ROWS, {"name": "<!--<script>" + "long_" * 20, "scene": "builtin:plate"}, {"name": "linear", "scene": "builtin:plate", "format": "exr"}]
     write(bench, rows)
     bench.run("golden", "check", "m.json").expect(5)
     bench.run("golden", "bless", "m.json").expect(0)
-    write(bench, [{**row, "options": ["--exposure", "0.5"]} for row in rows])
+    write(bench, [{**row, "options": ["--env-exposure", "0.5"]} for row in rows])
     bench.run("golden", "check", "m.json").expect(1)
     with Browser(bench.folder) as browser:
         browser.open(bench.folder / "golden-results/index.html")
-        check(browser.value("document.querySelectorAll('.view').length") == 3, "no picture under a slider")
+        check(browser.value("document.querySelectorAll('.view').length") == 4, "no picture under a slider")
         check(browser.value("[...document.querySelectorAll('.view img')].every(i => i.complete && i.naturalWidth > 0)"), "a picture is missing")
         browser.value("document.querySelectorAll('input.bless')[0].click()")
         names = browser.value("document.getElementById('list').value")
+        # The linear row alone has an exposure slider, which keys move
+        check(browser.value("document.querySelectorAll('input.exposure').length") == 1, "not one exposure slider")
+        label = "document.querySelector('input.exposure').closest('label')"
+        wall = "document.querySelector('input.exposure').closest('.wall')"
+        sources = f"['.picture', '.reference'].map(name => decodeURIComponent({wall}.querySelector(name).src).split('/').pop())"
+        check(browser.value(f"{label}.textContent") == "Exposure0 stops", browser.value(f"{label}.textContent"))
+        check(browser.value(sources) == ["linear.png", "linear%golden.png"], browser.value(sources))
+        browser.value("document.querySelector('input.exposure').focus()")
+        for key, number, stops, end in (("ArrowRight", 39, "+2", "%ev2.png"), ("ArrowRight", 39, "+4", "%ev4.png"), ("Home", 36, "-4", "%ev-4.png")):
+            browser.press(key, number=number)
+            browser.until(f"{label}.textContent === 'Exposure{stops} stops'")
+            check(browser.value("document.querySelector('input.exposure').getAttribute('aria-valuetext')") == f"{stops} stops", "no words for readers")
+            check(browser.value(sources) == [f"linear{end}", f"linear%golden{end}"], browser.value(sources))
+            browser.until(f"[...{wall}.querySelectorAll('.view img')].every(i => i.complete && i.naturalWidth > 0)")
+        # A phone shows the page without scrolling sideways
+        browser.size(400, 800)
+        browser.open(bench.folder / "golden-results/index.html")
+        width = browser.value("document.documentElement.scrollWidth")
+        check(width <= 400, f"the page is {width} pixels wide")
         check(not browser.faults, browser.faults)
     (bench.folder / "list.txt").write_text(names)
     check("1 picture blessed" in bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0).out, names)
+
+
+@case("golden.the_page_orders_and_links_rows", budget=10)
+def order(bench):
+    """Failed rows come first; each row that did not pass links its golden, with or without a slider."""
+    nan = float("nan")
+    ppm = lambda value, width=8: b"P6 %d 8 255\n" % width + bytes([value, 0, 0]) * (8 * width)
+    pfm = lambda value: b"PF\n8 8\n-1.0\n" + struct.pack("<192f", *[value, 0.5, 0.5] * 64)
+    files = {"passes": "ppm", "new": "ppm", "differs": "ppm", "size": "ppm", "nan": "pfm", "linear": "pfm", "fails": "ppm", "hash": "ppm"}
+    (bench.folder / "new").mkdir()
+    put = lambda name, picture: (bench.folder / f"new/{name}.{files[name]}").write_bytes(picture)
+    for name, kind in files.items():
+        put(name, pfm(1.0) if kind == "pfm" else ppm(9))
+    write(bench, [{"name": name, "picture": f"new/{name}.{kind}", "keep": "hash" if name == "hash" else "picture"} for name, kind in files.items()])
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    for name, picture in (("differs", ppm(200)), ("size", ppm(9, 4)), ("nan", pfm(nan)), ("linear", pfm(1.5)), ("fails", b"no picture"), ("hash", ppm(10))):
+        put(name, picture)
+    (bench.folder / "goldens/new.ppm").unlink()
+    bench.run("golden", "check", "m.json").expect(4)
+    page = (bench.folder / "golden-results/index.html").read_text()
+    names = re.findall(r"<tr><td>.*?<strong>(.*?)</strong>", page)
+    check(len(names) == 8 and names[0] == "fails" and set(names[1:6]) == {"differs", "size", "nan", "linear", "hash"} and names[6:] == ["new", "passes"], names)
+    linked = set(re.findall(r'<a href="(goldens/[^"]*)">golden</a>', page))
+    check(linked == {f"goldens/{name}.{files[name]}" for name in ("differs", "size", "nan", "linear", "fails")}, linked)
+    for name in linked:
+        check((bench.folder / "golden-results" / name).read_bytes() == (bench.folder / name).read_bytes(), name)
+    check("LDR-FLIP 0." in page and "HDR-FLIP 0." in page and page.count('id="wall-') == 2 and "have a slider here" not in page, "walls")
+    shown = {path.name for path in (bench.folder / "golden-results/shown").iterdir()}
+    check({f"linear{golden}%ev{stops}.png" for golden in ("", "%golden") for stops in (-4, -2, 2, 4)} <= shown, shown)
+    check(sum("%ev" in name for name in shown) == 8, shown)
+
+
+@case("golden.large_pages_stay_small", tier="nightly")
+def large(bench):
+    """500 rows of noise, which no format shrinks."""
+    noise = lambda: (bench.folder / "noise.ppm").write_bytes(b"P6 120 200 255\n" + os.urandom(3 * 120 * 200))
+    size = lambda: (bench.folder / "golden-results/index.html").stat().st_size
+    noise()
+    write(bench, [{"name": f"row {i}", "picture": "noise.ppm"} for i in range(500)])
+    bench.run("golden", "check", "m.json", timeout=300.0).expect(5)
+    check(size() < 20e6, f"{size()} bytes")
+    bench.run("golden", "bless", "m.json", timeout=300.0).expect(0)
+    noise()
+    bench.run("golden", "check", "m.json", timeout=600.0).expect(1)
+    page = (bench.folder / "golden-results/index.html").read_text()
+    check(size() < 20e6 and "The first 100 of 500 pictures" in page, f"{size()} bytes")
+    linked = re.findall(r'<img src="(shown/[^"]*)"', page)
+    check(linked and page.count('<img src="data:image/png') + len(linked) == 500, f"{len(linked)} small pictures are linked")
+    check(all((bench.folder / "golden-results" / name.replace("%2520", "%20").replace("%25", "%")).exists() for name in linked), linked[0])
 
 
 @case("golden.operations_are_counted_the_same_everywhere", budget=10)
@@ -318,7 +464,12 @@ def operations(bench):
         bench.run("golden", "check", "m.json").expect(code)
         found = results(bench)["plate"]
         check(found["verdict"] == verdict and found["operations"] == usual, str(found))
-        check(code == 0 or f"a frame takes {usual} operations, more than {limit}" in found["reason"], found["reason"])
+        check(code == 0 or f"a frame takes {usual} operations, more than {limit}: if the work is right, raise the manifest's limit" in found["reason"], found["reason"])
+    # No new golden helps
+    check('class="bless"' not in (bench.folder / "golden-results/index.html").read_text(), "the row can be blessed")
+    check("nothing to bless" in bench.run("golden", "bless", "m.json").expect(0).out, "the row was blessed")
+    (bench.folder / "list.txt").write_text("plate\n")
+    bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("plate", "operations", "manifest")
 
 
 @case("golden.the_schema_takes_what_the_program_takes")

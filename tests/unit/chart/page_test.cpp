@@ -80,6 +80,11 @@ TEST(chart_page, pictures_shrink_to_means)
     EXPECT_FLOAT_EQ(small.f32()[1], (0.5f * 2 + 3 + 4 + 0.5f * 7 + 8 + 9) / 5.0f);
     EXPECT_EQ(shrink(image, 5).bytes, image.bytes);
     EXPECT_GE(picture_width(1), picture_width(1000));
+    EXPECT_EQ(shrink_within(image, 2).bytes, small.bytes);
+    EXPECT_EQ(shrink_within(image, 5).bytes, image.bytes);
+    const Image tall = shrink_within(make_image(1, 1000, 1, PixelType::f32), 10);
+    EXPECT_EQ(tall.width, 1);
+    EXPECT_EQ(tall.height, 10);
 }
 
 } // namespace
