@@ -7,6 +7,7 @@
 #include "core/image/metrics/metrics.h"
 #include "core/jobs/activity.h"
 #include "core/scene/add_mesh.h"
+#include "core/scene/area_light.h"
 #include "raster/frame/layers.h"
 #include "raster/session/c_calls.h"
 #include "raster/session/told.h"
@@ -132,8 +133,8 @@ int burnish_open(const char* scene, const char* environment, const burnish_optio
         const Result<CSettings> settings = settings_of(options, BURNISH_OPEN);
         BN_TRY(settings);
         return run_told(teller(options), [&]() -> Status {
-            const auto loaded =
-                load_scene_data(scene, settings->open.limits, settings->overrides, settings->mips, settings->moment, {}, settings->floor);
+            const auto loaded = load_scene_data(scene, settings->open.limits, settings->overrides, settings->mips, settings->moment,
+                                                settings->lights, settings->floor);
             BN_TRY(loaded);
             return finish_open(options, *settings, *loaded, environment, out);
         });
@@ -158,6 +159,10 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
                 const auto* const mesh =
                     reinterpret_cast<const char*>(meshes) + i * meshes->size; // callers of a later version have larger ones
                 BN_TRY(add_mesh(*reinterpret_cast<const burnish_mesh*>(mesh), "/meshes/" + std::to_string(i), scene));
+            }
+            for (AreaLight light : settings->lights) {
+                BN_TRY(read_area_texture(scene, light, settings->open.limits));
+                add_area_light(scene, light);
             }
             const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
             BN_TRY(made);

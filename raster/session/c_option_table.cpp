@@ -1,6 +1,7 @@
 // The options of the C interface, one row each.
 #include <cmath>
 
+#include "raster/frame/area_light_text.h"
 #include "raster/frame/layers.h"
 #include "raster/session/c_options.h"
 #include "raster/session/c_values.h"
@@ -100,6 +101,20 @@ Kind layer_names()
                     if (std::find(to.layers.begin(), to.layers.end(), word) != to.layers.end())
                         return wrong_value("'" + word + "' is given twice");
                     to.layers.push_back(word);
+                    begin = end + 1;
+                }
+                return {};
+            }};
+}
+
+Kind area_lights()
+{
+    return {"texts", [](CSettings& to, const std::string& text) -> Status {
+                for (std::size_t begin = 0; begin <= text.size();) {
+                    const std::size_t end = std::min(text.find(';', begin), text.size());
+                    const Result<AreaLight> light = area_light_of(text.substr(begin, end - begin));
+                    BN_TRY(light);
+                    to.lights.push_back(*light);
                     begin = end + 1;
                 }
                 return {};
@@ -228,6 +243,8 @@ std::vector<Row> scene_rows()
         {"threads", "Worker threads; 0: all cores", "0", kLoads, whole(0, 1024, [](CSettings& to) -> int& { return to.open.threads; })},
         {"floor", "Floor below the scene: off, shadow or stage", "off", BURNISH_OPEN,
          name({"off", "shadow", "stage"}, [](CSettings& to, std::size_t i) { to.floor.kind = static_cast<FloorKind>(i); })},
+        {"light", "Area lights, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; several with ';' between", "", kLoads,
+         area_lights()},
         {"time", "Time in the scene's animation, seconds; unset: the scene at rest", "", BURNISH_OPEN,
          number(0, 1e6, [](CSettings& to) -> float& { return to.moment.seconds.emplace(); })},
         {"animation", "Animation that time refers to, by index", "0", BURNISH_OPEN,

@@ -24,6 +24,7 @@ struct CSettings {
     FloorSettings floor;
     Moment moment;
     MaterialOverrides overrides; // f0 alone
+    std::vector<AreaLight> lights;
     MipSettings mips;
     FrameDesc desc;
     std::optional<int> samples;

@@ -26,7 +26,6 @@ LACKING = {
     "the program draws many pictures: a script loops": "animate steps turntable fps",
     "a script chooses by comparisons": "budget budget-ms plan plan-out verify",
     "parts of the program beyond the library draw it": "shadows shadow-samples show risks resolve",
-    "the text of an area light is read by the program": "light",
     "the picture does not change": "tile-size isa",
     "the library draws by the tile renderer and the reference alone": "backend device sampler pipeline validate",
     "maps come with a scene's file": "material normal-map quaternion-map height-map normal-y direction-map rotation-map rotation-encoding strokes "
@@ -136,6 +135,23 @@ refused('tonemap', lambda: picture.png(tonemap='film'))
 picture.save('a.png', 1.0, tonemap='aces')
 assert open('a.png', 'rb').read() == picture.png(1.0, 'aces')
 refused('brdf', lambda: burnish.load('builtin:bumps', {KEYWORDS}, mip_filter='kappa', mip_gain='on').render({FRAME}, brdf='beckmann'))
+""")
+    check(done.stdout.split() == wanted, f"{done.stdout} {wanted}")
+
+
+@case("python.area_lights_are_the_program_s", budget=10)
+def area_lights(bench):
+    lamps = ["sphere:points=0,1,0.5:radius=0.1:radiance=90,90,60", "quad:points=-1,2,0/1,2,0/1,2,1/-1,2,1:radiance=1,2,3:two-sided"]
+    wanted = [hash_of(bench, "builtin:plate", *SMALL, "--light", lamps[0]), hash_of(bench, "builtin:plate", *SMALL, "--light", lamps[0], "--light", lamps[1])]
+    done = python(bench, REFUSED + f"""
+lamps = {lamps!r}
+for light in (lamps[0], lamps): print(burnish.load('builtin:plate', {KEYWORDS}, light=light).render({FRAME}).hash)
+square = burnish.Mesh([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [0, 1, 2, 0, 2, 3])
+assert burnish.meshes(square, {KEYWORDS}, light=lamps).render({FRAME}).hash != burnish.meshes(square, {KEYWORDS}).render({FRAME}).hash
+for light, words in (('cube:points=0,0,0:radiance=1,1,1', 'sphere'), ('sphere:points=0,0,0:radius=1', 'radiance=R,G,B'), (lamps[:1] + [''], 'begins with none'),
+                     ('sphere:points=0,nan,0:radius=1:radiance=1,1,1', 'nan')):
+    refused('light: ', lambda: burnish.load('builtin:plate', light=light))
+    refused(words, lambda: burnish.load('builtin:plate', light=light))
 """)
     check(done.stdout.split() == wanted, f"{done.stdout} {wanted}")
 

@@ -240,7 +240,7 @@ class Options:
                 check_call(name, call_name)
                 if value is None or (isinstance(value, (list, tuple)) and not value):
                     continue
-                text = text_of(value)
+                text = ";".join(value) if name == "light" and not isinstance(value, str) else text_of(value)
                 if "\0" in name + text:
                     raise ValueError(f"{name}: holds a zero character")
                 call("burnish_options_set", self.handle, name.encode(), text.encode())
