@@ -1,4 +1,4 @@
-// Area lights in texts: "quad:points=X,Y,Z/X,Y,Z/...:radiance=R,G,B:two-sided:solid", in world space; see core/scene/area_light.def.
+// Area lights in texts, in world space: "quad:points=X,Y,Z/X,Y,Z/...:radiance=R,G,B:two-sided:solid". core/scene/area_light.def has shapes.
 #pragma once
 #include <functional>
 #include <string>

@@ -155,7 +155,7 @@ std::string fallback_of(const ParameterInfo& p)
 // Returns the calls that read a parameter.
 unsigned calls_of(const ParameterInfo& p)
 {
-    return p.readers[0] == '\0' || reads("reference", p) ? kDraws : BURNISH_RENDER;
+    return p.readers[0] == '\0' || reads("reference", p) ? kDraws : unsigned{BURNISH_RENDER};
 }
 
 struct Row {

@@ -162,7 +162,9 @@ def docstrings(bench):
 from burnish import _native
 for function, name in ((burnish.load, 'load()'), (burnish.meshes, 'meshes()'), (burnish.Scene.render, 'render()'), (burnish.Scene.reference, 'reference()'),
                        (burnish.Scene.set_environment, 'set_environment()')):
-    listed = {line.split(':')[0].strip() for line in function.__doc__.split('Keywords:')[1].splitlines() if line.startswith('    ') and '; default ' in line}
+    lines = function.__doc__.split('Keywords:')[1].strip('\\n').splitlines()
+    indent = len(lines[0]) - len(lines[0].lstrip())
+    listed = {line.split(':')[0].strip() for line in lines if line.strip() and line[indent] != ' '}    # others go on with a keyword
     wanted = {keyword for keyword, calls in _native.calls().items() if name in calls}
     assert listed == wanted, (name, listed ^ wanted)
 text = burnish.Scene.render.__doc__
@@ -204,6 +206,11 @@ with warnings.catch_warnings(record=True) as told:
     assert not told, told
     of(square, faces, metallic=1, anisotropy_strength=0.8)()
     assert [w.category for w in told] == [burnish.InputWarning] and 'coordinates' in str(told[0].message), told
+    plain = of(square, faces, metallic=1)()
+    plain.set_material(0, roughness=0.5)
+    assert len(told) == 1
+    for _ in range(2): plain.set_material(0, anisotropy_strength=0.8)
+    assert len(told) == 2 and told[1].filename == '<string>' and '/primitives/0' in str(told[1].message), told
 """)
 
 

@@ -224,6 +224,7 @@ class Scene:
         with _native.Options(factors, "set_material()") as given, self._alone():
             index = self._index(material, "burnish_find_material", "material")
             _native.call_told("burnish_set_material", given, None, self._session, index, given)
+        self._warn(3)
 
     def set_primitive_material(self, primitive, material):
         """Gives a primitive, by index, another material, by name or index, for the pictures to come. Primitive i of meshes() is mesh i. Scenes
@@ -231,6 +232,7 @@ class Scene:
         with self._alone():
             index = self._index(material, "burnish_find_material", "material")
             _native.call("burnish_set_primitive_material", self._session, operator.index(primitive), index)
+        self._warn(3)
 
     def set_light(self, light, **factors):
         """Changes factors of a point, spot or directional light, by name or index, for the pictures to come: intensity=4, ..."""
