@@ -7,7 +7,7 @@
 
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
-#include "core/scene/area_light.h"
+#include "raster/frame/area_light_text.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
@@ -111,64 +111,8 @@ std::vector<std::string> split(const std::string& text, char at)
 
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text)
 {
-    const auto refuse = [&](const std::string& reason) { return usage_error(option, fmt::format("'{}': {}", text, reason)); };
-    // Read the shape
-    const std::vector<std::string> parts = split(text, ':');
-    std::vector<std::string> shapes;
-    for (int i = 0; i < kAreaShapes; ++i)
-        shapes.emplace_back(area_shape_info(static_cast<AreaShape>(i)).name);
-    const auto shape = std::find(shapes.begin(), shapes.end(), parts[0]);
-    if (shape == shapes.end())
-        return refuse(fmt::format("begins with none of {}{}", join(shapes), did_you_mean(parts[0], shapes)));
-    AreaLight light;
-    light.shape = static_cast<AreaShape>(shape - shapes.begin());
-    // Read the keys
-    const std::vector<std::string> keys = {"points", "radius", "radiance", "two-sided", "solid", "texture"};
-    std::vector<std::string> seen;
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-        const std::size_t equal = std::min(parts[i].find('='), parts[i].size());
-        const std::string key = parts[i].substr(0, equal), value = parts[i].substr(std::min(equal + 1, parts[i].size()));
-        if (std::find(keys.begin(), keys.end(), key) == keys.end() || (equal == parts[i].size()) != (key == "two-sided" || key == "solid"))
-            return refuse(fmt::format("'{}' is none of points=X,Y,Z/X,Y,Z..., radius=R, radiance=R,G,B, two-sided, solid, texture=FILE{}",
-                                      parts[i], did_you_mean(key, keys)));
-        if (std::find(seen.begin(), seen.end(), key) != seen.end())
-            return refuse(fmt::format("{} is given twice", key));
-        seen.push_back(key);
-        if (key == "two-sided")
-            light.two_sided = true;
-        if (key == "solid")
-            light.solid = true;
-        if (key == "texture") {
-            if (value.empty())
-                return refuse("texture names no file");
-            light.texture_file = value;
-        }
-        const auto failed = [&](const Error& error) { return refuse(fmt::format("{}: {}", key, error.reason)); };
-        for (const std::string& triple : key == "points" ? split(value, '/') : std::vector<std::string>()) {
-            const Result<glm::vec3> point = parse_vec3(option, triple);
-            if (!point)
-                return failed(point.error());
-            light.points.push_back(*point);
-        }
-        if (key == "radius") {
-            const Result<double> radius = parse_number(option, value, 0.0, 1e30);
-            if (!radius)
-                return failed(radius.error());
-            light.radius = static_cast<float>(*radius);
-        }
-        if (key == "radiance") {
-            const Result<glm::vec3> radiance = parse_vec3(option, value);
-            if (!radiance)
-                return failed(radiance.error());
-            light.radiance = *radiance;
-        }
-    }
-    // Check the whole light
-    if (std::find(seen.begin(), seen.end(), "radiance") == seen.end())
-        return refuse("has no radiance=R,G,B");
-    if (const std::string fault = area_light_fault(light); !fault.empty())
-        return refuse(fault);
-    return light;
+    const Result<AreaLight> light = area_light_of(text, did_you_mean);
+    return light ? light : Result<AreaLight>(usage_error(option, light.error().reason));
 }
 
 std::vector<std::string> technique_names()

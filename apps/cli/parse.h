@@ -21,7 +21,7 @@ Result<double> parse_number(const std::string& option, const std::string& text, 
 Result<std::int64_t> parse_integer(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high);
 Result<std::uint64_t> parse_bytes(const std::string& option,
                                   const std::string& text); // "500", "64K", "512M", "4G"
-// "quad:points=X,Y,Z/X,Y,Z/...:radiance=R,G,B:two-sided:solid", in world space; see core/scene/area_light.def.
+// As area_light_of(), with hints at names.
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text);
 std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 

@@ -19,6 +19,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 WIDTH = 140
 EVERY, DRAWS, TRACES = ("render", "reference"), ("render",), ("reference",)
+LOADS, SCENES, LIGHTS = ("load",), ("load", "meshes"), ("load", "meshes", "set_environment")
 
 # Options that are no parameters of techniques: type, default, the functions that read them. Defaults are those of FrameDesc, OpenOptions and
 # ReferenceOptions; None leaves an option unset.
@@ -27,12 +28,17 @@ OPTIONS = {
     "technique": ("Technique", '"auto"', DRAWS), "samples": ("int | None", "None", DRAWS), "roughness": ("float | None", "None", EVERY),
     "anisotropy": ("float | None", "None", EVERY), "background": ("bool", "True", EVERY), "texture_anisotropy": ("int", "16", EVERY),
     "eye": ("Vector3 | None", "None", EVERY), "target": ("Vector3 | None", "None", EVERY), "orbit": ("Vector2 | None", "None", EVERY),
-    "fov": ("float", "45.0", EVERY), "camera": ("int | None", "None", EVERY), "layers": ("Sequence[Layer]", "()", DRAWS),
+    "fov": ("float | None", "None", EVERY), "zoom": ("float", "1.0", EVERY), "camera": ("int | str | None", "None", EVERY),
+    "layers": ("Sequence[Layer]", "()", DRAWS), "aov": ("Sequence[Layer]", "()", DRAWS),
     "reference_mode": ('Literal["direct", "shadowed", "path"]', '"direct"', TRACES), "bounces": ("int", "8", TRACES),
-    "threads": ("int", "0", ("load", "meshes")), "floor": ('Literal["off", "shadow", "stage"]', '"off"', ("load",)),
-    "env_size": ("int", "512", ("load", "meshes")), "env_samples": ("int", "1024", ("load", "meshes")),
-    "env_rotation": ("float", "0.0", ("load", "meshes")), "env_exposure": ("float", "0.0", ("load", "meshes")),
-    "cache": ("bool", "True", ("load", "meshes")),
+    "reference_textures": ('Literal["footprint", "full"]', '"footprint"', TRACES), "target_error": ("float | None", "None", TRACES),
+    "threads": ("int", "0", SCENES), "floor": ('Literal["off", "shadow", "stage"]', '"off"', LOADS), "light": ("str | Sequence[str]", "()", SCENES), "time": ("float | None", "None", LOADS),
+    "animation": ("int", "0", LOADS), "f0": ("Vector3 | None", "None", LOADS), "mip_filter": ("MipFilter", '"box"', LOADS),
+    "mip_kappa": ("float", "0.7", LOADS), "mip_gain": ('Literal["off", "on"]', '"off"', LOADS),
+    "fallback": ('Literal["auto", "off"]', '"auto"', LOADS), "couple": ('Literal["none", "albedo"]', '"none"', LOADS),
+    "color_kernel": ('Literal["box", "kaiser"]', '"box"', LOADS), "env_size": ("Literal[16, 32, 64, 128, 256, 512, 1024, 2048]", "512", LIGHTS),
+    "env_samples": ("int", "1024", LIGHTS), "env_rotation": ("float", "0.0", LIGHTS), "env_exposure": ("float", "0.0", LIGHTS),
+    "key_lights": ('int | Literal["auto", "off"]', '"auto"', LIGHTS), "cache": ("bool", "True", LIGHTS),
 }
 KINDS = {"number": "float", "vec2": "Vector2", "vec3": "Vector3", "vec4": "Vector4"}
 
@@ -141,16 +147,17 @@ def meanings(entries, indent):
 def stub(burnish):
     """Returns the text of __init__.pyi."""
     every, layers = keywords(burnish), [line[2] for line in lines_of("shading/layers.def", "BN_LAYER")] + ["object-id", "material-id"]
-    parts = {"TECHNIQUES": literal(["auto", *burnish.techniques()]), "LAYERS": literal(layers)}
-    for function in ("load", "meshes", "render", "reference"):
+    parts = {"TECHNIQUES": literal(["auto", *burnish.techniques()]), "LAYERS": literal(layers),
+             "FILTERS": literal([line[2] for line in lines_of("shading/models.def", "BN_MIP_FILTER")])}
+    for function in ("load", "meshes", "render", "reference", "set_environment"):
         parts[function.upper()] = [entry for entry in every if function in entry[3]]
     parts["FACTORS"] = factors()
-    parts["LIGHT"], parts["MESHES8"] = light_factors(), parts["MESHES"]
+    parts["LIGHT"] = light_factors()
     parts["MATERIAL"] = [(name, f"{shown} | None", "None") for name, shown, *_ in parts["FACTORS"]]
     for place, indent in (("LOAD", 4), ("MESHES", 4), ("RENDER", 8), ("REFERENCE", 8), ("FACTORS", 8), ("LIGHT", 8)):
         parts[place + "_MEANINGS"] = meanings(parts[place], " " * indent)
     for place, indent in (("LOAD", 4), ("MESHES", 4), ("RENDER", 8), ("REFERENCE", 8), ("FACTORS", 8), ("LIGHT", 8), ("MATERIAL", 8),
-                          ("MESHES8", 8)):
+                          ("SET_ENVIRONMENT", 8)):
         parts[place] = signature(parts[place], " " * indent)
     return re.sub(r"^ *@(\w+)@\n|@(\w+)@", lambda at: parts[at[1] or at[2]], (HERE / "stub.in").read_text(), flags=re.M)
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <utility>
 #include <vector>
 
 #include "core/scene/tangents.h"
@@ -10,6 +12,7 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kMost = 0x7fffffffu; // corners and vertices
+constexpr float kFarthest = 1e15f;         // metres; sums of areas beyond overflow
 
 // Returns the place of the first number that is NaN or infinite, or an empty text.
 template <class Vector> std::string not_finite_place(const char* name, std::span<const Vector> values)
@@ -22,14 +25,47 @@ template <class Vector> std::string not_finite_place(const char* name, std::span
     return "";
 }
 
+std::size_t corner_at(const MeshInput& mesh, std::size_t i)
+{
+    return mesh.triangles.empty() ? i : mesh.triangles[i];
+}
+
+glm::vec3 area_of(const MeshInput& mesh, std::size_t a, std::size_t b, std::size_t c)
+{
+    return glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+}
+
+// Checks numbers that are finite: sizes of positions, lengths of normals, areas of triangles.
+Status check_sizes(const MeshInput& mesh, const std::string& place, std::size_t corners)
+{
+    const auto fault = [&](const std::string& name, std::string reason) {
+        return Error{ExitCode::bad_input, "", place + name, std::move(reason)};
+    };
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (std::fabs(mesh.positions[i][k]) > kFarthest)
+                return fault(fmt::format("/positions/{}", 3 * i + static_cast<std::size_t>(k)),
+                             fmt::format("{:g} is too large: positions lie in -{:g}..{:g} m", mesh.positions[i][k], kFarthest, kFarthest));
+    for (std::size_t i = 0; !mesh.normals.empty() && i < corners; ++i)
+        if (const std::size_t v = corner_at(mesh, i); mesh.normals[v] == glm::vec3(0.0f))
+            return fault(fmt::format("/normals/{}", 3 * v), "the normal (0, 0, 0) has no direction");
+    for (std::size_t t = 0; t < corners; t += 3)
+        if (area_of(mesh, corner_at(mesh, t), corner_at(mesh, t + 1), corner_at(mesh, t + 2)) != glm::vec3(0.0f))
+            return {};
+    return fault("/triangles", "have no area in 32-bit floats: nothing can be seen");
+}
+
 Status check_mesh(const MeshInput& mesh, const std::string& place)
 {
-    const auto usage = [&](const char* name, const char* reason) { return Error{ExitCode::usage, "", place + name, reason}; };
+    const auto usage = [&](const char* name, std::string reason) { return Error{ExitCode::usage, "", place + name, std::move(reason)}; };
     const std::size_t vertices = mesh.positions.size(), corners = mesh.triangles.empty() ? vertices : mesh.triangles.size();
     if (mesh.positions.empty())
         return usage("/positions", "are missing");
-    if (corners < 3 || corners % 3 != 0)
-        return usage("/triangles", corners < 3 ? "are missing" : "are no multiple of 3");
+    if (corners < 3)
+        return usage("/triangles", "are missing");
+    if (corners % 3 != 0)
+        return usage("/triangles",
+                     fmt::format("{} {} are no multiple of 3", corners, mesh.triangles.empty() ? "vertices in order" : "indices"));
     if (corners > kMost || vertices > kMost)
         return usage("/triangles", "are too many");
     if (!mesh.normals.empty() && mesh.normals.size() != vertices)
@@ -47,12 +83,7 @@ Status check_mesh(const MeshInput& mesh, const std::string& place)
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         if (mesh.triangles[i] >= vertices)
             return Error{ExitCode::bad_input, "", place + "/triangles/" + std::to_string(i), "is beyond the vertices"};
-    return {};
-}
-
-std::size_t corner_at(const MeshInput& mesh, std::size_t i)
-{
-    return mesh.triangles.empty() ? i : mesh.triangles[i];
+    return check_sizes(mesh, place, corners);
 }
 
 // Returns a normal a vertex, of any length.
@@ -63,7 +94,7 @@ std::vector<glm::vec3> normals_of(const MeshInput& mesh, std::size_t corners)
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
     for (std::size_t t = 0; t < corners; t += 3) {
         const std::size_t a = corner_at(mesh, t), b = corner_at(mesh, t + 1), c = corner_at(mesh, t + 2);
-        const glm::vec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        const glm::vec3 normal = area_of(mesh, a, b, c);
         for (const std::size_t v : {a, b, c})
             normals[v] += normal;
     }
@@ -74,7 +105,8 @@ std::vector<glm::vec3> normals_of(const MeshInput& mesh, std::size_t corners)
 
 Result<std::int32_t> add_mesh(Scene& scene, const MeshInput& mesh)
 {
-    BN_TRY(check_mesh(mesh, "/meshes/" + std::to_string(scene.meshes.size())));
+    const std::string place = "/meshes/" + std::to_string(scene.meshes.size());
+    BN_TRY(check_mesh(mesh, place));
     // Gather the corners: triangles share no vertex
     const std::size_t corners = mesh.triangles.empty() ? mesh.positions.size() : mesh.triangles.size();
     const std::vector<glm::vec3> normals = normals_of(mesh, corners);
@@ -90,6 +122,9 @@ Result<std::int32_t> add_mesh(Scene& scene, const MeshInput& mesh)
         if (mapped)
             uv[i] = mesh.coordinates[v];
     }
+    if (!mapped && mesh.material.anisotropy_strength > 0.0f)
+        scene.warnings.push_back(
+            place + ": anisotropy needs coordinates, since the highlight runs along their first axis: the direction is arbitrary");
     // Fill the columns
     VertexTable& to = scene.vertices;
     Primitive primitive;

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define BURNISH_API_VERSION 2 /* grows when functions or members are added; what is there keeps its meaning */
+#define BURNISH_API_VERSION 3 /* grows when functions or members are added; what is there keeps its meaning */
 
 typedef struct burnish_session burnish_session; /* a scene under an environment, prepared for drawing */
 typedef struct burnish_frame burnish_frame;     /* a picture and its layers */
@@ -31,13 +31,19 @@ const char* burnish_error(void);   /* the last failure in this thread, one line;
 /* Lists: an index from 0; NULL past the end. The texts live as long as the library. */
 const char* burnish_option_name(int index); /* options of burnish_open, burnish_render and burnish_reference */
 const char* burnish_option_help(int index);
+const char* burnish_option_values(int index);  /* "int, 1 to 16384" */
+const char* burnish_option_default(int index); /* as a value; "" where the option is unset */
+/* The functions that read an option: bits. 0 past the end. */
+enum { BURNISH_OPEN = 1, BURNISH_OPEN_MESHES = 2, BURNISH_SET_ENVIRONMENT = 4, BURNISH_RENDER = 8, BURNISH_REFERENCE = 16 };
+unsigned burnish_option_calls(int index);
 const char* burnish_material_name(int index); /* options of materials */
 const char* burnish_light_name(int index);    /* options of lights */
 const char* burnish_technique_name(int index);
 const char* burnish_technique_help(int index);
 
 /* Options. NULL in place of options means that none is set. Values are texts: "0.5", "1280", "1,0,0", "lobe_line", "true". A name that is
- * unknown is refused here, a value out of range where the options are used. Options that a function does not read are ignored there. */
+ * unknown is refused here, and so is a value out of range. burnish_open, burnish_open_meshes, burnish_set_environment, burnish_render and
+ * burnish_reference may share options: each reads its own (burnish_option_calls). They refuse names of materials and lights. */
 int burnish_options_make(burnish_options** out);
 int burnish_options_set(burnish_options* options, const char* name, const char* value);
 /* Called about ten times a second by the calling thread while burnish_open, burnish_open_meshes, burnish_render, burnish_reference,
@@ -57,9 +63,9 @@ int burnish_open(const char* scene, const char* environment, const burnish_optio
 typedef struct burnish_mesh {
     size_t size;               /* sizeof(burnish_mesh), the same for all of an array */
     const float* positions;    /* 3 a vertex, metres */
-    const float* normals;      /* 3 a vertex; NULL: smooth ones are made */
+    const float* normals;      /* 3 a vertex, none of length 0; NULL: smooth ones are made */
     const float* coordinates;  /* 2 a vertex, (0,0) is the picture's upper left; NULL: none */
-    const uint32_t* triangles; /* 3 vertices each, counter-clockwise seen from the front; NULL: vertices in order */
+    const uint32_t* triangles; /* 3 vertices each, counter-clockwise seen from the front; NULL: vertices in order, a multiple of 3 */
     size_t vertex_count, triangle_count;
     const float* transform;          /* 16, column by column, to world space; NULL: identity */
     const burnish_options* material; /* by names of burnish_material_name; NULL: white, rough, not metallic */
@@ -83,6 +89,8 @@ const char* burnish_warning(const burnish_session* session, int index);
 int burnish_set_node(burnish_session* session, int node, const float* matrix);
 /* factors: by names of burnish_material_name; others stay as they are. Scenes with a floor refuse it. */
 int burnish_set_material(burnish_session* session, int material, const burnish_options* factors);
+/* Gives a primitive another material, both by index. Primitive i of burnish_open_meshes is mesh i. Scenes with a floor refuse it. */
+int burnish_set_primitive_material(burnish_session* session, int primitive, int material);
 /* factors: by names of burnish_light_name, of a point, spot or directional light; others stay as they are. */
 int burnish_set_light(burnish_session* session, int light, const burnish_options* factors);
 /* environment and options: as those of burnish_open. */
@@ -101,7 +109,9 @@ const float* burnish_frame_variance(const burnish_frame* frame); /* of the refer
 /* A layer asked for with the option "layers" ("depth", "normal", ...), `channels` values a pixel; NULL: not there. */
 const float* burnish_frame_layer(const burnish_frame* frame, const char* name, int* channels);
 uint64_t burnish_frame_hash(const burnish_frame* frame); /* over the pixels' bits: equal on every machine */
-/* The picture as PNG with pbr-neutral tones; the bytes live as long as the frame, until the next call.
+/* The tone curve of the 8-bit pictures that follow: "none", "pbr-neutral" or "aces". A new frame has pbr-neutral. */
+int burnish_frame_tonemap(burnish_frame* frame, const char* name);
+/* The picture as PNG; the bytes live as long as the frame, until the next call.
  * One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size);
 int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev); /* by extension: .exr .hdr .pfm .png .jpg .tif */

@@ -1,66 +1,19 @@
-// The C interface: each function catches everything and keeps the error of its thread.
+// The C interface: scenes, pictures, comparisons.
 #include <cstring>
-#include <exception>
 #include <functional>
 
-#include "core/base/exception.h"
-#include "core/base/version.h"
 #include "core/image/io/image_io.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
 #include "core/jobs/activity.h"
 #include "core/scene/add_mesh.h"
+#include "core/scene/area_light.h"
 #include "raster/frame/layers.h"
-#include "raster/session/burnish.h"
-#include "raster/session/c_options.h"
+#include "raster/session/c_calls.h"
 #include "raster/session/told.h"
-
-struct burnish_session {
-    burnish::Session session;
-};
-
-struct burnish_frame {
-    burnish::Frame frame;
-    burnish::NamedChannels layered;        // colours, then the layers asked for
-    std::vector<std::vector<float>> taken; // layers that were read
-    std::vector<std::pair<std::string, int>> names;
-    std::string png;
-};
 
 namespace burnish {
 namespace {
-
-std::string& last_error()
-{
-    thread_local std::string text;
-    return text;
-}
-
-int fails(const Error& error)
-{
-    last_error() = c_words(error.line());
-    return static_cast<int>(error.code);
-}
-
-// Calls a function that returns a Status. An exception becomes an error.
-template <class Call> int guarded_call(const Call& call)
-{
-    try {
-        const Status status = call();
-        return status ? 0 : fails(status.error());
-    } catch (...) {
-        try {
-            return fails(error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}));
-        } catch (...) { // no memory for the text
-            return static_cast<int>(ExitCode::bad_input);
-        }
-    }
-}
-
-Error usage(const std::string& place, const std::string& reason)
-{
-    return Error{ExitCode::usage, "", place, reason};
-}
 
 // Appends a mesh; `place` is its own.
 Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene)
@@ -71,7 +24,7 @@ Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene
         return usage(place + "/triangles", "are missing");
     if (mesh.triangle_count > 0x7fffffffu / 3 || mesh.vertex_count > 0x7fffffffu)
         return usage(place + "/triangle_count", "is too large");
-    const std::size_t whole = mesh.triangles ? mesh.vertex_count : mesh.vertex_count / 3 * 3, vertices = mesh.positions ? whole : 0;
+    const std::size_t vertices = mesh.positions ? mesh.vertex_count : 0;
     MeshInput input;
     input.positions = {reinterpret_cast<const glm::vec3*>(mesh.positions), vertices};
     if (mesh.normals)
@@ -147,6 +100,9 @@ Status make_frame(Frame frame, const std::vector<std::string>& layers, const Dra
 
 Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
 {
+    const MipSettings& mips = session.parts().scene->asked;
+    if ((takes_net(mips.filter) || mips.gains) && settings.desc.brdf != mips.brdf)
+        return usage("brdf", "the scene's mip levels are for the lobes of ggx: load it without a net and mip_gain");
     FrameDesc desc = settings.desc;
     const Result<View> view = view_of(settings, session);
     BN_TRY(view);
@@ -168,135 +124,21 @@ Status check_exposure(float exposure_ev)
     return std::fabs(exposure_ev) <= kMostExposure ? Status() : Status(usage("exposure", "must lie in -64..64"));
 }
 
-const char* text_at(const std::vector<std::string>& list, int index)
-{
-    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? list[static_cast<std::size_t>(index)].c_str() : nullptr;
-}
-
 } // namespace
 } // namespace burnish
 
 using namespace burnish;
-
-int burnish_api_version(void)
-{
-    return BURNISH_API_VERSION;
-}
-
-const char* burnish_version(void)
-{
-    return version();
-}
-
-const char* burnish_error(void)
-{
-    return last_error().c_str();
-}
-
-const char* burnish_option_name(int index)
-{
-    return index >= 0 && static_cast<std::size_t>(index) < c_options().size() ? c_options()[static_cast<std::size_t>(index)].name.c_str()
-                                                                              : nullptr;
-}
-
-const char* burnish_option_help(int index)
-{
-    return index >= 0 && static_cast<std::size_t>(index) < c_options().size() ? c_options()[static_cast<std::size_t>(index)].help.c_str()
-                                                                              : nullptr;
-}
-
-const char* burnish_material_name(int index)
-{
-    return text_at(c_material_options(), index);
-}
-
-const char* burnish_light_name(int index)
-{
-    return text_at(c_light_options(), index);
-}
-
-const char* burnish_technique_name(int index)
-{
-    return index >= 0 && static_cast<std::size_t>(index) < techniques().size() ? techniques()[static_cast<std::size_t>(index)].name
-                                                                               : nullptr;
-}
-
-const char* burnish_technique_help(int index)
-{
-    return index >= 0 && static_cast<std::size_t>(index) < techniques().size() ? techniques()[static_cast<std::size_t>(index)].summary
-                                                                               : nullptr;
-}
-
-int burnish_options_make(burnish_options** out)
-{
-    return guarded_call([&]() -> Status {
-        if (!out)
-            return usage("out", "is NULL");
-        *out = new burnish_options;
-        return {};
-    });
-}
-
-int burnish_options_set(burnish_options* options, const char* name, const char* value)
-{
-    return guarded_call([&]() -> Status {
-        if (!options || !name || !value)
-            return usage(!options ? "options" : !name ? "name" : "value", "is NULL");
-        const std::string known = c_name(name);
-        bool found = false;
-        for (const COption& option : c_options())
-            found = found || option.name == known;
-        for (const std::vector<std::string>* list : {&c_material_options(), &c_light_options()})
-            found = found || std::find(list->begin(), list->end(), known) != list->end();
-        if (!found)
-            return usage(name, "is no option");
-        options->values[known] = value;
-        return {};
-    });
-}
-
-int burnish_options_progress(burnish_options* options, burnish_progress progress, void* user)
-{
-    return guarded_call([&]() -> Status {
-        if (!options)
-            return usage("options", "is NULL");
-        options->progress = progress, options->user = user;
-        return {};
-    });
-}
-
-int burnish_options_environment(burnish_options* options, const float* pixels, int width, int height)
-{
-    return guarded_call([&]() -> Status {
-        if (!options)
-            return usage("options", "is NULL");
-        constexpr int kMostSide = 1 << 16;
-        if (pixels && (width < 1 || height < 1 || width > kMostSide || height > kMostSide))
-            return usage(width < 1 || width > kMostSide ? "width" : "height", "does not lie in 1..65536");
-        Image image;
-        if (pixels) {
-            image = make_image(width, height, 3, PixelType::f32);
-            std::memcpy(image.bytes.data(), pixels, image.bytes.size());
-        }
-        options->environment = std::move(image);
-        return {};
-    });
-}
-
-void burnish_options_free(burnish_options* options)
-{
-    delete options;
-}
 
 int burnish_open(const char* scene, const char* environment, const burnish_options* options, burnish_session** out)
 {
     return guarded_call([&]() -> Status {
         if (!scene || !out)
             return usage(scene ? "out" : "scene", "is NULL");
-        const Result<CSettings> settings = settings_of(options);
+        const Result<CSettings> settings = settings_of(options, BURNISH_OPEN);
         BN_TRY(settings);
         return run_told(teller(options), [&]() -> Status {
-            const auto loaded = load_scene_data(scene, settings->open.limits, {}, {}, {}, {}, settings->floor);
+            const auto loaded = load_scene_data(scene, settings->open.limits, settings->overrides, settings->mips, settings->moment,
+                                                settings->lights, settings->floor);
             BN_TRY(loaded);
             return finish_open(options, *settings, *loaded, environment, out);
         });
@@ -311,10 +153,8 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
             return usage(out ? "meshes" : "out", "is NULL");
         if (meshes->size < sizeof(burnish_mesh) || meshes->size % alignof(burnish_mesh) != 0)
             return usage("/meshes/0/size", "is not the size of burnish_mesh");
-        const Result<CSettings> settings = settings_of(options);
+        const Result<CSettings> settings = settings_of(options, BURNISH_OPEN_MESHES);
         BN_TRY(settings);
-        if (settings->floor.kind != FloorKind::off)
-            return usage("floor", "belongs to scenes from files");
         return run_told(teller(options), [&]() -> Status {
             const Activity activity("reading meshes");
             Scene scene;
@@ -323,6 +163,10 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
                 const auto* const mesh =
                     reinterpret_cast<const char*>(meshes) + i * meshes->size; // callers of a later version have larger ones
                 BN_TRY(add_mesh(*reinterpret_cast<const burnish_mesh*>(mesh), "/meshes/" + std::to_string(i), scene));
+            }
+            for (AreaLight light : settings->lights) {
+                BN_TRY(read_area_texture(scene, light, settings->open.limits));
+                add_area_light(scene, light);
             }
             const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
             BN_TRY(made);
@@ -431,6 +275,20 @@ int burnish_set_material(burnish_session* session, int material, const burnish_o
     });
 }
 
+int burnish_set_primitive_material(burnish_session* session, int primitive, int material)
+{
+    return guarded_call([&]() -> Status {
+        if (!session)
+            return usage("session", "is NULL");
+        const Scene& scene = session->session.scene();
+        BN_TRY(check_index("primitive", primitive, scene.primitives.size()));
+        BN_TRY(check_index("material", material, scene.materials.size()));
+        SceneChanges changes;
+        changes.primitives.emplace_back(primitive, material);
+        return session->session.change(std::move(changes));
+    });
+}
+
 int burnish_set_light(burnish_session* session, int light, const burnish_options* factors)
 {
     return guarded_call([&]() -> Status {
@@ -450,7 +308,7 @@ int burnish_set_environment(burnish_session* session, const char* environment, c
     return guarded_call([&]() -> Status {
         if (!session)
             return usage("session", "is NULL");
-        const Result<CSettings> settings = settings_of(options);
+        const Result<CSettings> settings = settings_of(options, BURNISH_SET_ENVIRONMENT);
         BN_TRY(settings);
         return run_told(teller(options), [&]() -> Status {
             const SessionParts& parts = session->session.parts();
@@ -468,7 +326,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
     return guarded_call([&]() -> Status {
         if (!session || !out)
             return usage(session ? "out" : "session", "is NULL");
-        const Result<CSettings> settings = settings_of(options);
+        const Result<CSettings> settings = settings_of(options, BURNISH_RENDER);
         BN_TRY(settings);
         const Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
@@ -483,12 +341,13 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
     return guarded_call([&]() -> Status {
         if (!session || !out)
             return usage(session ? "out" : "session", "is NULL");
-        Result<CSettings> settings = settings_of(options);
+        for (const char* name : {"layers", "aov"})
+            if (options && options->values.count(name))
+                return usage(name, "the reference has none");
+        Result<CSettings> settings = settings_of(options, BURNISH_REFERENCE);
         BN_TRY(settings);
-        if (!settings->layers.empty())
-            return usage("layers", "the reference has none");
-        if (settings->samples_given)
-            settings->reference.samples = static_cast<std::uint64_t>(std::max(1, settings->desc.samples));
+        if (settings->samples)
+            settings->reference.samples = static_cast<std::uint64_t>(*settings->samples);
         settings->desc.technique = "mc", settings->desc.samples = 1;
         const Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
@@ -543,13 +402,26 @@ uint64_t burnish_frame_hash(const burnish_frame* frame)
     return frame ? pixel_hash(frame->frame.color) : 0;
 }
 
+int burnish_frame_tonemap(burnish_frame* frame, const char* name)
+{
+    return guarded_call([&]() -> Status {
+        if (!frame || !name)
+            return usage(frame ? "name" : "frame", "is NULL");
+        const Result<Tonemap> tonemap = parse_tonemap(name);
+        if (!tonemap)
+            return usage("tonemap", tonemap.error().reason);
+        frame->tonemap = *tonemap;
+        return {};
+    });
+}
+
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size)
 {
     return guarded_call([&]() -> Status {
         if (!frame || !bytes || !size)
             return usage(!frame ? "frame" : !bytes ? "bytes" : "size", "is NULL");
         BN_TRY(check_exposure(exposure_ev));
-        Result<std::string> png = encode_png(tonemap_to_srgb8(frame->frame.color, Tonemap::pbr_neutral, exposure_ev));
+        Result<std::string> png = encode_png(tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
         BN_TRY(png);
         frame->png = std::move(*png);
         *bytes = reinterpret_cast<const unsigned char*>(frame->png.data()), *size = frame->png.size();
@@ -567,7 +439,7 @@ int burnish_write(const burnish_frame* frame, const char* path, float exposure_e
             return write_channels(path, frame->layered.image, frame->layered.names);
         if (stores_floats(path))
             return write_image(path, frame->frame.color);
-        return write_image(path, tonemap_to_srgb8(frame->frame.color, Tonemap::pbr_neutral, exposure_ev));
+        return write_image(path, tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
     });
 }
 

@@ -1,206 +1,83 @@
+// Options of the C interface: their checks, the settings that they make, and the view.
 #include "raster/session/c_options.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
-#include "raster/frame/comma_numbers.h"
-#include "raster/frame/layers.h"
+#include "raster/session/c_values.h"
 
 namespace burnish {
 namespace {
 
-Error wrong(const std::string& reason)
+// Reads a factor's value within its range.
+Status put(const std::string& text, float& to, double least, double most)
 {
-    return Error{ExitCode::usage, "", "", reason};
+    return put_within(text, to, least, most);
+}
+template <int n> Status put(const std::string& text, glm::vec<n, float>& to, double least, double most)
+{
+    return put_within(text, to, least, most);
 }
 
-// Reads `count` numbers with commas between.
-Result<std::vector<float>> numbers_of(const std::string& text, std::size_t count)
+Status put_factor(Material& to, const std::string& name, const std::string& value)
 {
-    const std::optional<std::vector<float>> numbers = comma_numbers(text);
-    if (!numbers)
-        return wrong("'" + text + "' is no number");
-    if (numbers->size() != count)
-        return wrong("'" + text + "' has " + std::to_string(numbers->size()) + " numbers, not " + std::to_string(count));
-    return *numbers;
+#define BN_FACTOR(kind, factor, fallback, path, least, most)                                                                               \
+    if (name == #factor)                                                                                                                   \
+        return put(value, to.factor, least, most);
+#define BN_FLAG(kind, flag, path)                                                                                                          \
+    if (name == #flag)                                                                                                                     \
+        return put_flag(value, to.flag);
+#include "core/scene/material.def"
+    return wrong_value("is no option of materials");
 }
 
-Status put(const std::string& text, float& to)
+Status put_factor(Light& to, const std::string& name, const std::string& value)
 {
-    const Result<std::vector<float>> numbers = numbers_of(text, 1);
-    BN_TRY(numbers);
-    to = (*numbers)[0];
+    if (name == "range" && put(value, to.range, 0.0, 0.0)) // unlimited
+        return {};
+#define BN_LIGHT_FACTOR(kind, factor, fallback, path, least, most)                                                                         \
+    if (name == #factor)                                                                                                                   \
+        return put(value, to.factor, least, most);
+#include "core/scene/light.def"
+    return wrong_value("is no option of lights");
+}
+
+template <class Of> Status set_factors(Of& to, const burnish_options* options)
+{
+    if (options)
+        for (const auto& [name, value] : options->values)
+            if (const Status set = put_factor(to, name, value); !set)
+                return Error{ExitCode::usage, "", name, set.error().reason};
     return {};
 }
 
-Status put(const std::string& text, int& to)
+bool in_list(const std::vector<std::string>& list, const std::string& name)
 {
-    const auto [next, failed] = std::from_chars(text.data(), text.data() + text.size(), to);
-    return failed == std::errc() && next == text.data() + text.size() ? Status() : Status(wrong("'" + text + "' is no whole number"));
+    return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-// Reads a whole number from `least` to `most`.
-Status put_within(const std::string& text, int& to, int least, int most)
+const COption* find_option(const std::string& name)
 {
-    int value = 0;
-    BN_TRY(put(text, value));
-    if (value < least || value > most)
-        return wrong("'" + text + "' does not lie in " + std::to_string(least) + ".." + std::to_string(most));
-    to = value;
-    return {};
+    const auto at = std::find_if(c_options().begin(), c_options().end(), [&](const COption& option) { return option.name == name; });
+    return at == c_options().end() ? nullptr : &*at;
 }
 
-Status put(const std::string& text, bool& to)
+// Refuses views that are chosen twice.
+Status check_view(const CSettings& settings)
 {
-    if (text != "true" && text != "false" && text != "1" && text != "0")
-        return wrong("'" + text + "' is neither true nor false");
-    to = text == "true" || text == "1";
-    return {};
-}
-
-template <int n> Status put_vector(const std::string& text, glm::vec<n, float>& to)
-{
-    const Result<std::vector<float>> numbers = numbers_of(text, n);
-    BN_TRY(numbers);
-    for (int i = 0; i < n; ++i)
-        to[i] = (*numbers)[static_cast<std::size_t>(i)];
-    return {};
-}
-Status put(const std::string& text, glm::vec2& to)
-{
-    return put_vector<2>(text, to);
-}
-Status put(const std::string& text, glm::vec3& to)
-{
-    return put_vector<3>(text, to);
-}
-Status put(const std::string& text, glm::vec4& to)
-{
-    return put_vector<4>(text, to);
-}
-template <class T> Status put(const std::string& text, std::optional<T>& to)
-{
-    return put(text, to.emplace());
-}
-
-std::vector<std::string> words_of(const std::string& text)
-{
-    std::vector<std::string> words;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
-Status set_floor(CSettings& to, const std::string& text)
-{
-    const std::pair<const char*, FloorKind> kinds[] = {{"off", FloorKind::off}, {"shadow", FloorKind::shadow}, {"stage", FloorKind::stage}};
-    for (const auto& [name, kind] : kinds)
-        if (text == name) {
-            to.floor.kind = kind;
-            return {};
-        }
-    return wrong("'" + text + "' is none of off, shadow, stage");
-}
-
-Status set_mode(CSettings& to, const std::string& text)
-{
-    const std::pair<const char*, ReferenceMode> modes[] = {
-        {"direct", ReferenceMode::direct}, {"shadowed", ReferenceMode::shadowed}, {"path", ReferenceMode::path}};
-    for (const auto& [name, mode] : modes)
-        if (text == name) {
-            to.reference.mode = mode;
-            return {};
-        }
-    return wrong("'" + text + "' is none of direct, shadowed, path");
-}
-
-Status set_layers(CSettings& to, const std::string& text)
-{
-    for (const std::string& word : words_of(text)) {
-        if (std::none_of(layers().begin(), layers().end(), [&](const LayerInfo& layer) { return layer.name == word; }))
-            return wrong("'" + word + "' is no layer");
-        to.layers.push_back(word);
-    }
+    const auto refuse = [](const char* name, const char* reason) { return Error{ExitCode::usage, "", name, reason}; };
+    if (!settings.camera.empty() && (settings.eye || settings.orbit_deg))
+        return refuse(settings.eye ? "eye" : "orbit", "cannot be combined with camera");
+    if (settings.eye && settings.orbit_deg)
+        return refuse("orbit", "cannot be combined with eye");
+    if (settings.eye && settings.target && *settings.eye == *settings.target)
+        return refuse("target", "is the same point as eye");
     return {};
 }
 
 } // namespace
-
-const std::vector<COption>& c_options()
-{
-    static const std::vector<COption> table = [] {
-        std::vector<COption> list = {
-            {"width", "Pixels", [](CSettings& to, const std::string& v) { return put(v, to.desc.width); }},
-            {"height", "Pixels", [](CSettings& to, const std::string& v) { return put(v, to.desc.height); }},
-            {"msaa", "Samples a pixel: 1, 2, 4, 8 or 16", [](CSettings& to, const std::string& v) { return put(v, to.desc.msaa); }},
-            {"technique", "Technique for light from the environment",
-             [](CSettings& to, const std::string& v) {
-                 to.desc.technique = v;
-                 return Status();
-             }},
-            {"samples", "Samples of the technique, or samples a pixel of the reference",
-             [](CSettings& to, const std::string& v) {
-                 to.samples_given = true;
-                 return put_within(v, to.desc.samples, 1, 0x7fffffff);
-             }},
-            {"roughness", "Overrides the roughness of every material, 0 to 1",
-             [](CSettings& to, const std::string& v) { return put(v, to.desc.roughness); }},
-            {"anisotropy", "Overrides the anisotropy of every material, -1 to 1",
-             [](CSettings& to, const std::string& v) {
-                 to.desc.override_anisotropy = true;
-                 return put(v, to.desc.anisotropy);
-             }},
-            {"background", "Draws the environment behind the scene",
-             [](CSettings& to, const std::string& v) { return put(v, to.desc.background); }},
-            {"texture_anisotropy", "Texture taps at most, 1 to 16",
-             [](CSettings& to, const std::string& v) { return put(v, to.desc.texture_anisotropy); }},
-            {"eye", "Camera position X,Y,Z, metres", [](CSettings& to, const std::string& v) { return put(v, to.eye); }},
-            {"target", "Point that the camera looks at", [](CSettings& to, const std::string& v) { return put(v, to.target); }},
-            {"orbit", "View of the whole scene from AZIMUTH,ELEVATION degrees",
-             [](CSettings& to, const std::string& v) { return put(v, to.orbit_deg); }},
-            {"fov", "Vertical field of view in degrees", [](CSettings& to, const std::string& v) { return put(v, to.fov_deg); }},
-            {"camera", "Camera of the scene, by index",
-             [](CSettings& to, const std::string& v) { return put_within(v, to.camera, 0, 0x7fffffff); }},
-            {"layers", "Layers of the picture, with commas between: depth, normal, albedo, ...", set_layers},
-            {"reference_mode", "Paths of the reference: direct, shadowed or path", set_mode},
-            {"bounces", "Bounces of the reference in mode path",
-             [](CSettings& to, const std::string& v) { return put_within(v, to.reference.bounces, 0, 1000); }},
-            {"threads", "Worker threads; 0: all cores",
-             [](CSettings& to, const std::string& v) { return put_within(v, to.open.threads, 0, 1024); }},
-            {"floor", "Floor below the scene: off, shadow or stage", set_floor},
-            {"env_size", "Texels along an edge of the environment's cube map",
-             [](CSettings& to, const std::string& v) { return put_within(v, to.open.environment.cube_size, 16, 2048); }},
-            {"env_samples", "Samples a texel of the prefiltered environment",
-             [](CSettings& to, const std::string& v) { return put_within(v, to.open.environment.samples, 1, 1 << 20); }},
-            {"env_rotation", "Rotation of the environment in degrees",
-             [](CSettings& to, const std::string& v) { return put(v, to.open.environment.rotation_deg); }},
-            {"env_exposure", "Exposure of the environment in stops",
-             [](CSettings& to, const std::string& v) { return put(v, to.open.environment.exposure_ev); }},
-            {"cache", "Keeps bakes in the cache",
-             [](CSettings& to, const std::string& v) { return put(v, to.open.environment.use_cache); }},
-        };
-        for (const ParameterInfo& p : parameters()) {
-            std::string help = p.summary;
-            if (const std::size_t at = help.find("{}"); at != std::string::npos) {
-                std::string names;
-                for (const std::string& name : choices_of(p))
-                    names += (names.empty() ? "" : ", ") + name;
-                help.replace(at, 2, names);
-            }
-            list.push_back({c_name(p.option), help, nullptr});
-        }
-        for (COption& option : list)
-            option.help = c_words(option.help);
-        return list;
-    }();
-    return table;
-}
 
 const std::vector<std::string>& c_material_options()
 {
@@ -230,7 +107,16 @@ std::string c_name(const std::string& name)
 
 std::string c_words(const std::string& text)
 {
+    static const std::pair<const char*, const char*> fields[] = {{"EnvironmentOptions::extracted_lights", "key_lights"},
+                                                                 {"MipSettings::filter", "mip_filter"},
+                                                                 {"MipSettings::kappa", "mip_kappa"},
+                                                                 {"MipSettings::gains", "mip_gain"},
+                                                                 {"Moment::animation", "animation"},
+                                                                 {"Moment::seconds", "time"}};
     std::string out = text;
+    for (const auto& [field, option] : fields)
+        for (std::size_t at = out.find(field); at != std::string::npos; at = out.find(field, at))
+            out.replace(at, std::string_view(field).size(), option);
     for (const std::string_view type : {"FrameDesc::", "SessionOptions::", "OpenOptions::", "EnvironmentOptions::"})
         for (std::size_t at = out.find(type); at != std::string::npos; at = out.find(type, at)) {
             out.erase(at, type.size());
@@ -246,97 +132,141 @@ std::string c_words(const std::string& text)
     return out;
 }
 
-Result<CSettings> settings_of(const burnish_options* options)
+Status check_option(const std::string& name, const std::string& value)
+{
+    Status checked = wrong_value("is no option");
+    if (const COption* option = find_option(name)) {
+        CSettings settings;
+        checked = option->set(settings, value);
+    }
+    if (Material material; !checked && in_list(c_material_options(), name))
+        checked = put_factor(material, name, value);
+    if (Light light; !checked && in_list(c_light_options(), name))
+        checked = put_factor(light, name, value);
+    return checked;
+}
+
+Result<CSettings> settings_of(const burnish_options* options, unsigned call)
 {
     CSettings settings;
     settings.desc.samples = automatic_technique().default_samples;
     settings.open.environment.quiet = true;
     if (!options)
         return settings;
+    for (const auto& [name, value] : options->values)
+        if (!find_option(name))
+            return Error{ExitCode::usage, "", name, in_list(c_material_options(), name) ? "belongs to materials" : "belongs to lights"};
     for (const COption& option : c_options()) {
         const auto at = options->values.find(option.name);
-        if (at == options->values.end())
+        if (at == options->values.end() || !(option.calls & call))
             continue;
-        Status set;
-        if (option.set)
-            set = option.set(settings, at->second);
-        else
-            for (const ParameterInfo& p : parameters())
-                if (c_name(p.option) == option.name)
-                    set = set_parameter(settings.desc, p.option, at->second);
-        if (!set)
+        if (const Status set = option.set(settings, at->second); !set)
             return Error{ExitCode::usage, "", option.name, set.error().reason};
     }
-    if (const TechniqueInfo* technique = find_technique(settings.desc.technique); technique && !settings.samples_given)
-        settings.desc.samples = technique->default_samples;
-    settings.floor.threads = settings.open.threads, settings.floor.use_cache = settings.open.environment.use_cache;
+    BN_TRY(check_view(settings));
+    if (const TechniqueInfo* technique = find_technique(settings.desc.technique); technique)
+        settings.desc.samples = settings.samples.value_or(technique->default_samples);
+    settings.floor.threads = settings.mips.threads = settings.open.threads;
+    settings.floor.use_cache = settings.mips.use_cache = settings.open.environment.use_cache;
     return settings;
 }
 
 Status set_material(Material& to, const burnish_options* options)
 {
-    if (!options)
-        return {};
-    for (const auto& [name, value] : options->values) {
-        Status set = wrong("is no option of materials");
-#define BN_FACTOR(kind, factor, fallback, path, least, most)                                                                               \
-    if (name == #factor)                                                                                                                   \
-        set = put(value, to.factor);
-#define BN_FLAG(kind, flag, path)                                                                                                          \
-    if (name == #flag)                                                                                                                     \
-        set = put(value, to.flag);
-#include "core/scene/material.def"
-        if (!set)
-            return Error{ExitCode::usage, "", name, set.error().reason};
-    }
-    return {};
+    return set_factors(to, options);
 }
 
 Status set_light(Light& to, const burnish_options* options)
 {
-    if (!options)
-        return {};
-    for (const auto& [name, value] : options->values) {
-        Status set = wrong("is no option of lights");
-#define BN_LIGHT_FACTOR(kind, factor, fallback, path, least, most)                                                                         \
-    if (name == #factor)                                                                                                                   \
-        set = put(value, to.factor);
-#include "core/scene/light.def"
-        if (!set)
-            return Error{ExitCode::usage, "", name, set.error().reason};
-    }
-    return {};
+    return set_factors(to, options);
 }
 
-Result<View> view_of(const CSettings& settings, const Session& session)
+namespace {
+
+bool is_placed(const Scene& scene, int camera)
+{
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) { return node.camera == camera; });
+}
+
+// Returns the index of a camera by name or index. An empty text means the first camera that a node places. Returns kNone where there is
+// none.
+Result<int> find_camera(const Scene& scene, const std::string& wanted)
+{
+    const int count = static_cast<int>(scene.cameras.size());
+    if (wanted.empty()) {
+        for (int camera = 0; camera < count; ++camera)
+            if (is_placed(scene, camera))
+                return camera;
+        return int{kNone};
+    }
+    int found = kNone;
+    for (int i = 0; i < count && found == kNone; ++i)
+        if (scene.cameras[static_cast<std::size_t>(i)].name == wanted)
+            found = i;
+    if (found == kNone && !put_whole(wanted, found, 0, count - 1))
+        return Error{ExitCode::usage, "", "camera", fmt::format("'{}' is no camera: the scene has {}", wanted, count)};
+    if (!is_placed(scene, found))
+        return Error{ExitCode::usage, "", "camera", fmt::format("no node places camera {}", found)};
+    return found;
+}
+
+// Applies fov and target to a camera of the scene.
+Result<View> changed(View view, const CSettings& settings, const glm::vec3& origin)
+{
+    const int width = settings.desc.width, height = settings.desc.height;
+    if (settings.fov_deg) {
+        if (view.orthographic)
+            return Error{ExitCode::usage, "", "fov", "the camera is orthographic: zoom changes what it shows"};
+        const float tan_half = make_view(view.eye, view.eye + view.forward, glm::radians(*settings.fov_deg), width, height).tan_half_y;
+        view.tan_half_x *= tan_half / view.tan_half_y, view.tan_half_y = tan_half;
+    }
+    if (settings.target) {
+        const glm::vec3 target = *settings.target - origin;
+        if (target == view.eye)
+            return Error{ExitCode::usage, "", "target", "is where the camera stands"};
+        const View turned = make_view(view.eye, target, 1.0f, width, height);
+        view.right = turned.right, view.up = turned.up, view.forward = turned.forward;
+    }
+    return view;
+}
+
+Result<View> wanted_view(const CSettings& settings, const Session& session)
 {
     constexpr float kUsualFov = 45.0f;
     const int width = settings.desc.width, height = settings.desc.height;
-    if (width < 1 || height < 1)
-        return Error{ExitCode::usage, "", width < 1 ? "width" : "height", "is below 1"};
     const float fov_rad = glm::radians(settings.fov_deg.value_or(kUsualFov));
-    if (!(fov_rad > 0.0f && fov_rad < 3.1f))
-        return Error{ExitCode::usage, "", "fov", "is no angle of view"};
     const glm::vec3 origin(session.scene().origin);
     if (settings.eye) {
         const glm::vec3 middle = 0.5f * (session.tables().bounds_min + session.tables().bounds_max);
         const glm::vec3 target = settings.target ? *settings.target - origin : middle;
         if (*settings.eye - origin == target)
-            return Error{ExitCode::usage, "", "eye", "is the target"};
+            return Error{ExitCode::usage, "", "eye", "is the centre of the scene: give a target"};
         return make_view(*settings.eye - origin, target, fov_rad, width, height);
     }
-    int camera = settings.camera;
-    if (camera < 0 && !settings.orbit_deg)
-        for (const Node& node : session.scene().nodes)
-            if (node.camera != kNone && (camera < 0 || node.camera < camera))
-                camera = node.camera;
-    if (camera >= 0 && !settings.orbit_deg)
-        return make_view(session.scene(), camera, width, height);
+    const Result<int> camera = settings.orbit_deg ? Result<int>(int{kNone}) : find_camera(session.scene(), settings.camera);
+    BN_TRY(camera);
+    if (*camera != kNone) {
+        const Result<View> own = make_view(session.scene(), *camera, width, height);
+        BN_TRY(own);
+        return changed(*own, settings, origin);
+    }
     Framing framing;
     framing.fov_y_rad = fov_rad;
+    if (settings.target)
+        framing.target = *settings.target - origin;
     if (settings.orbit_deg)
         framing.azimuth_rad = glm::radians(settings.orbit_deg->x), framing.elevation_rad = glm::radians(settings.orbit_deg->y);
     return session.framed(width, height, framing);
+}
+
+} // namespace
+
+Result<View> view_of(const CSettings& settings, const Session& session)
+{
+    Result<View> view = wanted_view(settings, session);
+    if (view)
+        view->tan_half_x /= settings.zoom, view->tan_half_y /= settings.zoom;
+    return view;
 }
 
 } // namespace burnish

@@ -166,6 +166,26 @@ class Applied {
     bool stays_ = false;
 };
 
+// Warns of changed materials that are anisotropic, on primitives without coordinates and tangents.
+void warn_of_directions(Scene& scene, const SceneChanges& changes)
+{
+    const auto changed = [](const auto& list, std::size_t index) {
+        return std::any_of(list.begin(), list.end(), [&](const auto& change) { return static_cast<std::size_t>(change.first) == index; });
+    };
+    const VertexTable& v = scene.vertices;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        const Primitive& p = scene.primitives[i];
+        const auto material = static_cast<std::size_t>(p.material);
+        if ((!changed(changes.materials, material) && !changed(changes.primitives, i)) || p.has_uv0 || p.vertex_count == 0 ||
+            !(scene.materials[material].anisotropy_strength > 0.0f))
+            continue;
+        if (v.tx[p.first_vertex] == 0.0f && v.ty[p.first_vertex] == 0.0f && v.tz[p.first_vertex] == 0.0f)
+            scene.warnings.push_back(fmt::format("/primitives/{}: anisotropy needs coordinates, since the highlight runs along their first "
+                                                 "axis: the direction is arbitrary",
+                                                 i));
+    }
+}
+
 // Makes everything that depends on the scene's tables.
 Status settle(SceneData& data, const SceneChanges& changes)
 {
@@ -176,6 +196,7 @@ Status settle(SceneData& data, const SceneChanges& changes)
     data.tables = make_draw_tables(data.scene);
     darken_vertices(data.tables, data.visibility);
     BN_TRY(check_draw_range(data.scene, data.tables, data.name));
+    warn_of_directions(data.scene, changes);
     if (changes.materials.empty())
         return {};
     SceneMips asked = asked_mips(data.asked, data.scene.materials.size());

@@ -102,7 +102,21 @@ Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings&
     return data.mips.baked ? check_mips(data.scene, data.mips, given.pyramid) : Status();
 }
 
-// Refuses nodes that draw a mesh without triangles.
+// Returns true where a triangle of the primitive has an area in floats.
+bool has_area(const Scene& scene, const Primitive& primitive)
+{
+    const VertexTable& v = scene.vertices;
+    const auto place = [&](std::uint32_t i) {
+        const std::uint32_t at = scene.indices[primitive.first_index + i];
+        return glm::vec3(v.px[at], v.py[at], v.pz[at]);
+    };
+    for (std::uint32_t t = 0; t < primitive.index_count; t += 3)
+        if (glm::cross(place(t + 1) - place(t), place(t + 2) - place(t)) != glm::vec3(0.0f)) // NaN: beyond floats, an area
+            return true;
+    return false;
+}
+
+// Refuses nodes that draw a mesh without triangles, or with triangles of which none has an area.
 Status check_meshes_drawn(const Scene& scene, const std::string& name)
 {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -110,10 +124,15 @@ Status check_meshes_drawn(const Scene& scene, const std::string& name)
             continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)];
         std::uint64_t indices = 0;
-        for (std::uint32_t k = 0; k < mesh.primitive_count; ++k)
-            indices += scene.primitives[mesh.first_primitive + k].index_count;
-        if (indices == 0)
-            return Error{ExitCode::bad_input, name, fmt::format("/nodes/{}/mesh", i), "has no triangles"};
+        bool seen = false;
+        for (std::uint32_t k = 0; k < mesh.primitive_count; ++k) {
+            const Primitive& primitive = scene.primitives[mesh.first_primitive + k];
+            indices += primitive.index_count;
+            seen = seen || has_area(scene, primitive);
+        }
+        if (!seen)
+            return Error{ExitCode::bad_input, name, fmt::format("/nodes/{}/mesh", i),
+                         indices == 0 ? "has no triangles" : "its triangles have no area in 32-bit floats"};
     }
     return {};
 }

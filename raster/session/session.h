@@ -52,7 +52,7 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
                                                          const FloorSettings& floor = {});
 // From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
 // left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
-// "/primitives/0/indices/17". A mesh without triangles, and a scene that draws nothing, are faults too.
+// "/primitives/0/indices/17". A mesh without triangles or without an area, and a scene that draws nothing, are faults too.
 Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name, Scene scene, const Limits& limits,
                                                          const MipSettings& mips = {});
 // "builtin:NAME", a path of an equirectangular picture, or of a .gltf or .glb file with an image-based light.

@@ -114,7 +114,7 @@ def errors(bench):
 scene = burnish.load('builtin:plate', {KEYWORDS})
 for code, words, call in ((4, 'absent.glb', lambda: burnish.load('absent.glb')), (2, 'widht', lambda: scene.render(widht=1)),
                           (2, 'technique', lambda: scene.render(technique='none')), (2, 'width', lambda: scene.render(width='wide')),
-                          (2, 'sides', lambda: scene.render(width=65536)), (2, 'msaa', lambda: scene.render(msaa=-1)),
+                          (2, 'width', lambda: scene.render(width=65536)), (2, 'msaa', lambda: scene.render(msaa=-1)),
                           (2, 'eye', lambda: scene.render(eye=(1, 2))), (2, 'layer', lambda: scene.render(layers=['none'])),
                           (2, 'samples', lambda: scene.render(samples=-5)), (2, 'threads', lambda: burnish.load('builtin:plate', threads=-1)),
                           (2, 'exposure', lambda: scene.render({FRAME}).png(130)), (2, 'exposure', lambda: scene.render({FRAME}).save('x.png', float('nan'))),

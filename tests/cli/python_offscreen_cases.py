@@ -187,6 +187,10 @@ renderer.render(scene_of(pr.PerspectiveCamera(0.8, zfar=5.0, aspectRatio=W / H),
 refused('aspectRatio', lambda: renderer.render(scene_of(pr.PerspectiveCamera(0.8, aspectRatio=1.0), FRONT, (mesh, None))))
 refused('xmag', lambda: renderer.render(scene_of(pr.OrthographicCamera(1, 1), FRONT, (mesh, None))))
 refused('cx', lambda: renderer.render(scene_of(pr.IntrinsicsCamera(48, 48, 30, 24), FRONT, (mesh, None))))
+class Picture:
+    shape = (1, 1, 3)
+    def __init__(self, values=(1, 2, 3)): self.values = values
+    def tolist(self): return [[self.values]]
 mirror = turn('x', 0); mirror[0][0] = -1
 double = turn('x', 0); double[1][1] = 2
 for words, call in (
@@ -202,7 +206,12 @@ for words, call in (
         ('intensity', lambda: pr.PointLight(intensity=-1)), ('point_size', lambda: pr.OffscreenRenderer(W, H, point_size=2.0)),
         ('eye', lambda: pr.OffscreenRenderer(W, H, eye=(1, 1, 1))), ('ambient_light', lambda: pr.Scene(environment='builtin:sky', ambient_light=(0.1, 0.1, 0.1))),
         ('seg_node_map', lambda: renderer.render(whole, pr.RenderFlags.SEG, {whole.mesh_nodes[0]: (1, 2, 300)})), ('viewport_width', lambda: pr.OffscreenRenderer(0, H).render(whole)),
-        ('node', lambda: pr.Node(mesh=mesh, camera=CAMERA)), ('techniqe', lambda: pr.OffscreenRenderer(W, H, techniqe='mc').render(whole))):
+        ('skin', lambda: pr.Node(skin=1)), ('matrix: cannot', lambda: pr.Node(matrix=FRONT, scale=2)), ('rotation: a quaternion', lambda: pr.Node(rotation=(0, 0, 0, 0))),
+        ('translation: 2 numbers', lambda: pr.Node(translation=(0, 0))), ('pose: its axes', lambda: pr.Node(camera=CAMERA, scale=2)), ('parent_name: 0 nodes', lambda: whole.add(mesh, parent_name='none')),
+        ('children', lambda: whole.add_node(whole.nodes[0])), ('source: a Node', lambda: pr.Texture(source=pr.Node())), ('sampler', lambda: pr.Texture(sampler=1)),
+        ('normalTexture', lambda: pr.MetallicRoughnessMaterial(normalTexture=object())), ('texcoord_0', lambda: pr.Primitive(SQUARE, material=pr.MetallicRoughnessMaterial(baseColorTexture=Picture()))),
+        ('source/2', lambda: pr.Texture(source=Picture((0.5, 0.5, 1.5)))),
+        ('techniqe', lambda: pr.OffscreenRenderer(W, H, techniqe='mc').render(whole))):
     refused(words, call)
 class Textured: kind, uv, material = 'texture', [(0, 0)] * 4, type('M', (), {'image': object()})()
 refused('image', lambda: pr.Mesh.from_trimesh(type('T', (), {'vertices': SQUARE, 'faces': FACES, 'visual': Textured})()))
@@ -211,3 +220,67 @@ renderer.render(whole)
 renderer.delete()
 assert not renderer._kept
 """)
+
+
+@case("python.offscreen_nodes_move_with_their_parents", budget=10)
+def nested(bench):
+    for program in pythons():
+        python(bench, HEAD + """
+s2 = math.sqrt(0.5)
+hand = pr.Node(name='hand', mesh=square(0.5), scale=2)
+arm = pr.Node(name='arm', translation=(1, 0.5, 0), children=[hand])
+scene = pr.Scene(nodes=[arm], ambient_light=(0.5, 0.5, 0.5))
+scene.add(CAMERA, pose=FRONT)
+assert box(renderer.render(scene)[1]) == (32, 55, 6, 29)
+listed = lambda values: [list(map(float, row)) for row in values]
+assert listed(scene.bounds) == [[0, -0.5, 0], [2, 1.5, 0]] and abs(scene.scale - math.sqrt(8)) < 1e-9 and list(scene.centroid) == [1, 0.5, 0] and list(scene.extents) == [2, 2, 0]
+assert listed(scene.get_pose(hand)) == [[2, 0, 0, 1], [0, 2, 0, 0.5], [0, 0, 2, 0], [0, 0, 0, 1]] and scene.get_pose(arm) is arm.matrix
+assert scene.get_nodes(name='hand') == scene.get_nodes(obj=hand.mesh) == scene.get_nodes(node=hand) == {hand} and scene.get_nodes(name='foot') == set()
+assert len(scene.nodes) == 3 and scene.mesh_nodes == [hand] and scene.meshes == {hand.mesh}
+scene.set_pose(arm, turn('z', 90, (-1, 0, 0)))
+assert box(renderer.render(scene)[1]) == (8, 31, 12, 35)
+# A camera on an arm: the arm's turn is the camera's
+rig = pr.Scene(ambient_light=(0.5, 0.5, 0.5))
+rig.add(square(doubleSided=True))
+mount = rig.add_node(pr.Node(name='mount', rotation=(0, s2, 0, s2), translation=(0, 0, 0)))     # about y by 90 degrees
+eye = rig.add(CAMERA, pose=turn('x', 0, (0, 0, 4)), parent_name='mount')
+assert [round(float(row[3]), 6) for row in rig.get_pose(eye)] == [4, 0, 0, 1]
+mount.rotation = (0, 1, 0, 0)
+assert abs(renderer.render(rig)[1][24, 32] - 4.0) < 1e-5
+mount.scale = 2
+refused('pose: its axes', lambda: renderer.render(rig))
+mount.scale = (1, 1, 1)
+rig.remove_node(mount)
+assert rig.main_camera_node is None and len(rig.nodes) == 1
+for quaternion in ((0.5, 0.5, 0.5, 0.5), (0.1, 0.2, -0.3, 0.4), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0.7, -0.1, 0.2, 0.05)):
+    node = pr.Node(rotation=quaternion, scale=(2, 3, 0.5), translation=(1, 2, 3))
+    length = math.sqrt(sum(value * value for value in quaternion))
+    assert abs(abs(sum(a * b for a, b in zip(quaternion, node.rotation))) / length - 1) < 1e-9, node.rotation
+    assert all(abs(a - b) < 1e-9 for a, b in zip(node.scale, (2, 3, 0.5))) and node.translation == [1, 2, 3]
+""", program)
+
+
+@case("python.offscreen_pictures_lie_on_meshes", budget=10)
+def textured(bench):
+    """(0, 0) is the lower left corner; alpha cuts holes into the coverage."""
+    for program in pythons():
+        python(bench, HEAD + """
+class Picture: # an array without numpy
+    def __init__(self, rows): self.rows, self.shape = rows, (len(rows), len(rows[0]), len(rows[0][0]))
+    def tolist(self): return self.rows
+RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
+def of(rows, **more):
+    material = pr.MetallicRoughnessMaterial(baseColorTexture=Picture(rows), metallicFactor=0.0, **more)
+    return pr.Mesh([pr.Primitive(SQUARE, indices=FACES, texcoord_0=[(0, 0), (1, 0), (1, 1), (0, 1)], material=material)])
+picture, _ = renderer.render(scene_of(CAMERA, FRONT, (of([[RED, GREEN], [BLUE, WHITE]]), None)), pr.RenderFlags.FLAT)
+def strongest(y, x): return [i for i, value in enumerate(rgb(picture, y, x)) if value > 180]
+assert [strongest(y, x) for y in (16, 31) for x in (24, 39)] == [[0], [1], [2], [0, 1, 2]]
+assert pr.Texture(source=Picture([[(1.0, 0.0, 0.0)]])).pixels == bytes(RED)
+holed = of([[WHITE + (0,)] * 2 + [WHITE + (255,)] * 2], alphaMode='MASK')
+clear, _ = renderer.render(scene_of(CAMERA, FRONT, (holed, None), bg_color=(0.0, 0.0, 0.0, 0.0)), pr.RenderFlags.RGBA)
+assert clear[24, 25, 3] == 0 and clear[24, 38, 3] == 255, (clear[24, 25, 3], clear[24, 38, 3])
+class Textured: kind, uv, material = 'texture', [(0, 0), (1, 0), (1, 1), (0, 1)], type('M', (), {'image': Picture([[RED]])})()
+mesh = pr.Mesh.from_trimesh(type('T', (), {'vertices': SQUARE, 'faces': FACES, 'visual': Textured})())
+red, _ = renderer.render(scene_of(CAMERA, FRONT, (mesh, None)), pr.RenderFlags.FLAT)
+assert rgb(red, 24, 32)[0] > 180 and rgb(red, 24, 32)[1] < 100, rgb(red, 24, 32)
+""", program)

@@ -68,6 +68,17 @@ int main(void)
     printf("%s\n", burnish_error());
     if (burnish_render(NULL, NULL, &frame) != 2 || burnish_compare(NULL, NULL, 1, 1, &figures) != 2 || burnish_open(NULL, NULL, NULL, NULL) != 2)
         return fail("NULL", 0);
+    /* Values are checked where they are given; each option belongs to some functions */
+    if (burnish_options_set(options, "width", "-5") != 2 || burnish_options_set(material, "metallic", "2") != 2 || burnish_option_calls(-1) != 0 ||
+        burnish_option_calls(0) != (BURNISH_RENDER | BURNISH_REFERENCE) || !burnish_option_values(0) || burnish_option_default(10000) ||
+        burnish_render(session, material, &frame) != 2)
+        return fail("options", 0);
+    mesh.triangles = NULL, mesh.vertex_count = 4;
+    if (burnish_open_meshes(&mesh, 1, NULL, options, &session) != 2)
+        return fail("4 vertices in order", 0);
+    if (burnish_set_primitive_material(session, 0, 0) || burnish_set_primitive_material(session, 1, 0) != 2 || burnish_frame_tonemap(frame, "film") != 2 ||
+        burnish_frame_tonemap(frame, "aces") || burnish_frame_png(frame, 0.0f, &png, &size))
+        return fail("materials and tones", 0);
     /* Changes between pictures: there and back gives the first picture's bits */
     {
         const float away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3f, 0, 0, 1}, home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

@@ -37,7 +37,8 @@ def techniques():
 
 
 def options():
-    """Keywords of load(), Scene.render() and Scene.reference(): {name: meaning}."""
+    """Keywords of load(), meshes(), Scene.render(), Scene.reference() and Scene.set_environment(): {name: meaning}. Their docstrings say which
+    call takes which."""
     return _native.listed("burnish_option_name", "burnish_option_help")
 
 
@@ -77,7 +78,7 @@ class Picture:
         return self._view(address, 3) if address else None
 
     def layer(self, name):
-        """A layer asked for by render(layers=[...]), height x width x channels. Raises KeyError."""
+        """A layer asked for by render(layers=[...]) or render(aov=[...]), height x width x channels. Raises KeyError."""
         channels = ctypes.c_int()
         address = library().burnish_frame_layer(self._frame, name.encode(), ctypes.byref(channels))
         if not address:
@@ -99,16 +100,20 @@ class Picture:
         """16 hexadecimal digits over the pixels' bits, as `burnish render` prints them."""
         return f"{library().burnish_frame_hash(self._frame):016x}"
 
-    def png(self, exposure=0.0):
-        """The picture as bytes of a PNG file. exposure: stops."""
+    def png(self, exposure=0.0, tonemap="pbr-neutral"):
+        """The picture as bytes of a PNG file. exposure: stops. tonemap: "none", "pbr-neutral" or "aces"."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
         with self._lock:
+            _native.call("burnish_frame_tonemap", self._frame, tonemap.encode())
             _native.call("burnish_frame_png", self._frame, exposure, ctypes.byref(data), ctypes.byref(size))
             return ctypes.string_at(data.value, size.value)
 
-    def save(self, path, exposure=0.0):
-        """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped)."""
-        _native.call("burnish_write", self._frame, _native.path(path), exposure)
+    def save(self, path, exposure=0.0, tonemap="pbr-neutral"):
+        """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped). exposure and tonemap: see png()."""
+        name = _native.path(path)
+        with self._lock:
+            _native.call("burnish_frame_tonemap", self._frame, tonemap.encode())
+            _native.call("burnish_write", self._frame, name, exposure)
 
     def _repr_png_(self):
         return self.png()
@@ -184,16 +189,16 @@ class Scene:
                 self._owner = None
 
     def render(self, progress=None, **keywords):
-        """Draws a Picture. Keywords: see options(). eye=(x, y, z), layers=["depth"], background=False, ... progress: see load()."""
+        """Draws a Picture. progress: see load()."""
         frame, free = ctypes.c_void_p(), library().burnish_frame_free
-        with _native.Options(keywords) as given, self._alone():
+        with _native.Options(keywords, "render()") as given, self._alone():
             _native.call_told("burnish_render", given, progress, self._session, given, ctypes.byref(frame), undo=lambda: free(frame))
         return Picture(frame, self._caption(keywords))
 
     def reference(self, samples=1024, progress=None, **keywords):
         """Draws a Picture by the Monte Carlo reference. progress: see load()."""
         frame, free = ctypes.c_void_p(), library().burnish_frame_free
-        with _native.Options({**keywords, "samples": samples}) as given, self._alone():
+        with _native.Options({**keywords, "samples": samples}, "reference()") as given, self._alone():
             _native.call_told("burnish_reference", given, progress, self._session, given, _native.POLL(), None, ctypes.byref(frame),
                               undo=lambda: free(frame))
         return Picture(frame, self._caption({"technique": "reference", "samples": samples}))
@@ -216,18 +221,27 @@ class Scene:
     def set_material(self, material, **factors):
         """Changes factors of a material, by name or index, for the pictures to come: roughness=0.2, base_color=(1, 0, 0, 1), ... Mesh i of
         meshes() has material i. Scenes with a floor refuse it."""
-        with _native.Options(factors) as given, self._alone():
+        with _native.Options(factors, "set_material()") as given, self._alone():
             index = self._index(material, "burnish_find_material", "material")
             _native.call_told("burnish_set_material", given, None, self._session, index, given)
+        self._warn(3)
+
+    def set_primitive_material(self, primitive, material):
+        """Gives a primitive, by index, another material, by name or index, for the pictures to come. Primitive i of meshes() is mesh i. Scenes
+        with a floor refuse it."""
+        with self._alone():
+            index = self._index(material, "burnish_find_material", "material")
+            _native.call("burnish_set_primitive_material", self._session, operator.index(primitive), index)
+        self._warn(3)
 
     def set_light(self, light, **factors):
         """Changes factors of a point, spot or directional light, by name or index, for the pictures to come: intensity=4, ..."""
-        with _native.Options(factors) as given, self._alone():
+        with _native.Options(factors, "set_light()") as given, self._alone():
             _native.call("burnish_set_light", self._session, self._index(light, "burnish_find_light", "light"), given)
 
     def set_environment(self, environment=None, progress=None, **keywords):
         """Lights the pictures to come by another environment. Arguments: see load()."""
-        with _native.Options(keywords) as given, self._alone():
+        with _native.Options(keywords, "set_environment()") as given, self._alone():
             light = _native.environment_of(environment, given)
             _native.call_told("burnish_set_environment", given, progress, self._session, light, given)
         self._warn(3)
@@ -261,13 +275,13 @@ class Mesh:
 
 
 def load(path, environment=None, progress=None, **keywords):
-    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME". Keywords: see options().
+    """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME".
 
     environment: a path, "builtin:NAME", or an equirectangular picture of height x width x 3 floats, linear Rec.709 radiance. None: the
     scene's own light, else builtin:studio. progress: called with the work's name and the share of its current step that is done, -1 where
     unknown, about ten times a second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then."""
     session = ctypes.c_void_p()
-    with _native.Options(keywords) as given:
+    with _native.Options(keywords, "load()") as given:
         light = _native.environment_of(environment, given)
         _native.call_told("burnish_open", given, progress, _native.path(path), light, given, ctypes.byref(session),
                           undo=lambda: library().burnish_close(session))
@@ -275,15 +289,15 @@ def load(path, environment=None, progress=None, **keywords):
 
 
 def meshes(*parts, environment=None, progress=None, **keywords):
-    """Makes a scene of Mesh objects. Keywords: see options(). environment and progress: see load()."""
+    """Makes a scene of Mesh objects. environment and progress: see load()."""
     session = ctypes.c_void_p()
-    materials = [_native.Options(part.material) for part in parts]
+    materials = [_native.Options(part.material, "Mesh()") for part in parts]
     try:
         structs = (_native.MeshStruct * len(parts))(*(
             _native.MeshStruct(ctypes.sizeof(_native.MeshStruct), part.positions, part.normals, part.coordinates, part.triangles, part.vertices,
                                0 if part.triangles is None else len(part.triangles) // 3, part.transform, material.__enter__())
             for part, material in zip(parts, materials)))
-        with _native.Options(keywords) as given:
+        with _native.Options(keywords, "meshes()") as given:
             light = _native.environment_of(environment, given)
             _native.call_told("burnish_open_meshes", given, progress, structs, len(parts), light, given, ctypes.byref(session),
                               undo=lambda: library().burnish_close(session))
@@ -318,3 +332,15 @@ def compare(reference, test):
     figures = _native.ComparisonStruct(ctypes.sizeof(_native.ComparisonStruct))
     _native.call("burnish_compare", a[0], b[0], a[1], a[2], ctypes.byref(figures))
     return Comparison(figures, reference, test)
+
+
+def _describe():
+    """Adds each call's keywords to its docstring, as the library lists them."""
+    for function, indent, more in ((load, 4, {}), (meshes, 4, {}), (Scene.render, 8, {}), (Scene.reference, 8, {"samples": 1024}),
+                                   (Scene.set_environment, 8, {})):
+        lines = _native.keyword_lines(function.__name__ + "()", " " * indent, **more)
+        function.__doc__ += f"\n\n{' ' * indent}Keywords:\n\n{lines}\n{' ' * indent}"
+
+
+with contextlib.suppress(ImportError):  # the first use of the library says why it is not there
+    _describe()

@@ -8,14 +8,19 @@ import functools
 import os
 import pathlib
 import signal
+import sys
+import textwrap
 import threading
 
 from . import _dlpack, _show
 
-API_VERSION = 2
+API_VERSION = 3
 USAGE, STOPPED = 2, 130  # exit codes of the program
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double)
+
+CALLS = {1: "load()", 2: "meshes()", 4: "set_environment()", 8: "render()", 16: "reference()"}  # bits of burnish_option_calls
+MACHINES = {3: "x86", 40: "Arm", 62: "x86-64", 183: "AArch64", 243: "RISC-V"}  # e_machine of ELF files
 
 _loaded = None
 
@@ -52,26 +57,57 @@ def _candidates():
     return beside + ([found] if found else [])
 
 
+def _machine_of(name):
+    """Returns (word size, machine) of an ELF file, or None."""
+    try:
+        with open(name, "rb") as file:
+            head = file.read(20)
+    except OSError:
+        return None
+    return (head[4], int.from_bytes(head[18:20], "big" if head[5] == 2 else "little")) if len(head) == 20 and head[:4] == b"\x7fELF" else None
+
+
+def _fault_of(name, reason):
+    """Returns why a library cannot be loaded, in one line. reason: the loader's words."""
+    if not os.path.exists(name):
+        return f"libburnish.so is not found; BURNISH_LIBRARY may name it; {reason}"
+    machine, own = _machine_of(name), _machine_of(sys.executable)
+    if machine is None:
+        return f"libburnish.so cannot be loaded; {name}: is no shared library"
+    if own and machine != own:
+        its, ours = (MACHINES.get(number, f"number {number}") for _, number in (machine, own))
+        return f"libburnish.so cannot be loaded; {name}: is for another machine, {its} in place of {ours}"
+    return f"libburnish.so cannot be loaded; {reason}"
+
+
+def _opened():
+    """Returns the first library that loads. Raises ImportError."""
+    faults = []
+    for name in _candidates():
+        try:
+            lib = ctypes.CDLL(name)
+            lib.burnish_api_version
+            return lib
+        except OSError as error:
+            faults.append(_fault_of(name, str(error)))
+        except AttributeError:
+            faults.append(f"libburnish.so cannot be loaded; {name}: is another library")
+    raise ImportError(faults[0] if faults else "libburnish.so is not found; BURNISH_LIBRARY may name it") from None
+
+
 def library():
     """The loaded library. Raises ImportError where it is not found or has another interface."""
     global _loaded
     if _loaded:
         return _loaded
-    reasons = []
-    for name in _candidates():
-        try:
-            lib = ctypes.CDLL(name)
-            break
-        except OSError as error:
-            reasons.append(str(error))
-    else:
-        raise ImportError("libburnish.so is not found; BURNISH_LIBRARY may name it" + "".join("; " + r for r in reasons))
+    lib = _opened()
     if lib.burnish_api_version() < API_VERSION:
         raise ImportError(f"libburnish.so has version {lib.burnish_api_version()} of its interface, {API_VERSION} is needed")
     text, pointer, whole, size = ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t
     for name, result, arguments in (
             ("burnish_version", text, []), ("burnish_error", text, []), ("burnish_option_name", text, [whole]),
-            ("burnish_option_help", text, [whole]), ("burnish_material_name", text, [whole]), ("burnish_technique_name", text, [whole]),
+            ("burnish_option_help", text, [whole]), ("burnish_option_values", text, [whole]), ("burnish_option_default", text, [whole]),
+            ("burnish_option_calls", ctypes.c_uint, [whole]), ("burnish_material_name", text, [whole]), ("burnish_technique_name", text, [whole]),
             ("burnish_light_name", text, [whole]), ("burnish_technique_help", text, [whole]), ("burnish_options_make", whole, [pointer]),
             ("burnish_options_set", whole, [pointer, text, text]), ("burnish_options_free", None, [pointer]),
             ("burnish_options_progress", whole, [pointer, PROGRESS, pointer]),
@@ -81,13 +117,15 @@ def library():
             ("burnish_scene_light", text, [pointer, whole]), ("burnish_warning", text, [pointer, whole]),
             ("burnish_set_node", whole, [pointer, whole, ctypes.POINTER(ctypes.c_float)]),
             ("burnish_set_material", whole, [pointer, whole, pointer]), ("burnish_set_light", whole, [pointer, whole, pointer]),
+            ("burnish_set_primitive_material", whole, [pointer, whole, whole]),
             ("burnish_set_environment", whole, [pointer, text, pointer]),
             ("burnish_open", whole, [text, text, pointer, pointer]),
             ("burnish_open_meshes", whole, [ctypes.POINTER(MeshStruct), size, text, pointer, pointer]), ("burnish_close", None, [pointer]),
             ("burnish_render", whole, [pointer, pointer, pointer]), ("burnish_reference", whole, [pointer, pointer, POLL, pointer, pointer]),
             ("burnish_frame_width", whole, [pointer]), ("burnish_frame_height", whole, [pointer]), ("burnish_frame_pixels", pointer, [pointer]),
             ("burnish_frame_variance", pointer, [pointer]), ("burnish_frame_layer", pointer, [pointer, text, pointer]),
-            ("burnish_frame_hash", ctypes.c_uint64, [pointer]), ("burnish_frame_png", whole, [pointer, ctypes.c_float, pointer, pointer]),
+            ("burnish_frame_hash", ctypes.c_uint64, [pointer]), ("burnish_frame_tonemap", whole, [pointer, text]),
+            ("burnish_frame_png", whole, [pointer, ctypes.c_float, pointer, pointer]),
             ("burnish_write", whole, [pointer, text, ctypes.c_float]), ("burnish_frame_free", None, [pointer]),
             ("burnish_compare", whole, [pointer, pointer, whole, whole, ctypes.POINTER(ComparisonStruct)])):
         function = getattr(lib, name)
@@ -123,9 +161,53 @@ def listed(names, helps):
 
 
 @functools.lru_cache(None)
+def calls():
+    """Returns {name: [call, ...]} of all options and of the factors of materials and lights."""
+    found = {}
+    for index, name in enumerate(listed("burnish_option_name", "burnish_option_help")):
+        bits = library().burnish_option_calls(index)
+        found[name] = [call for bit, call in CALLS.items() if bits & bit]
+    for name in texts("burnish_material_name"):
+        found.setdefault(name, []).extend(("Mesh()", "set_material()"))
+    for name in texts("burnish_light_name"):
+        found.setdefault(name, []).append("set_light()")
+    return found
+
+
 def known():
     """Returns the names of all options and of the factors of materials and lights."""
-    return {*listed("burnish_option_name", "burnish_option_help"), *texts("burnish_material_name"), *texts("burnish_light_name")}
+    return set(calls())
+
+
+def check_call(name, call):
+    """Refuses a keyword that is unknown, or that another call takes."""
+    takers = calls().get(name)
+    if takers is None:
+        raise Error(USAGE, f"{name}: is no option")
+    if call not in takers:
+        raise Error(USAGE, f"{name}: belongs to {', '.join(takers[:-1])}{' and ' if takers[1:] else ''}{takers[-1]}")
+
+
+def shown_default(text):
+    """Returns a default of the library as Python writes it."""
+    if text in ("true", "false"):
+        return text.capitalize()
+    try:
+        float(text.replace(",", "0"))
+    except ValueError:
+        return f'"{text}"' if text else "None"
+    return f"({text.replace(',', ', ')})" if "," in text else text
+
+
+def keyword_lines(call, indent, **defaults):
+    """Returns a docstring's lines: each keyword of a call with its values, default and meaning. defaults: those that the call replaces."""
+    lines = []
+    for index, (name, meaning) in enumerate(listed("burnish_option_name", "burnish_option_help").items()):
+        if call in calls()[name]:
+            values, default = (getattr(library(), "burnish_option_" + part)(index).decode() for part in ("values", "default"))
+            text = f"{name}: {values}; default {defaults.get(name, shown_default(default))}. {meaning.rstrip('. ')}."
+            lines += textwrap.wrap(text, 140, initial_indent=indent, subsequent_indent=indent + "    ", break_on_hyphens=False)
+    return "\n".join(lines)
 
 
 def path(of):
@@ -148,18 +230,17 @@ def text_of(value):
 
 
 class Options:
-    """The library's options of keywords, within a `with` block. None and empty lists leave a keyword's default."""
+    """The library's options of a call's keywords, within a `with` block. None and empty lists leave a keyword's default."""
 
-    def __init__(self, keywords):
+    def __init__(self, keywords, call_name):
         self.handle = ctypes.c_void_p()
         call("burnish_options_make", ctypes.byref(self.handle))
         try:
             for name, value in keywords.items():
+                check_call(name, call_name)
                 if value is None or (isinstance(value, (list, tuple)) and not value):
-                    if name not in known():
-                        raise Error(USAGE, f"{name}: is no option")
                     continue
-                text = text_of(value)
+                text = ";".join(value) if name == "light" and not isinstance(value, str) else text_of(value)
                 if "\0" in name + text:
                     raise ValueError(f"{name}: holds a zero character")
                 call("burnish_options_set", self.handle, name.encode(), text.encode())

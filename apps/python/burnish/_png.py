@@ -1,4 +1,4 @@
-"""PNG files of 8-bit RGB: written for notebooks, and read back where a script wants display values."""
+"""PNG files of RGB: written for notebooks, and read back where a script wants display values."""
 
 import struct
 import zlib
@@ -12,11 +12,12 @@ MAGIC = b"\x89PNG\r\n\x1a\n"
 PAETH = 4  # the filter of the library's files
 
 
-def encode(width, height, rgb, bits=8):
-    """Returns the bytes of a PNG file. rgb: bytes by rows from the top, 3 numbers of 8 or 16 bits a pixel (the high byte first)."""
-    stride = 3 * width * bits // 8
+def encode(width, height, rgb, bits=8, channels=3):
+    """Returns the bytes of a PNG file. rgb: bytes by rows from the top, numbers of 8 or 16 bits (the high byte first). channels: 3, or 4 with
+    alpha."""
+    stride = channels * width * bits // 8
     rows = b"".join(b"\0" + bytes(rgb[stride * y : stride * (y + 1)]) for y in range(height))
-    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b""))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, bits, {3: 2, 4: 6}[channels], 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b""))
     return MAGIC + b"".join(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks)
 
 

@@ -72,9 +72,20 @@ const BadScene kColumnsAndRanges[] = {
     {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 2; }},
     {"/meshes/0/primitive_count", [](Scene& s) { s.meshes[0].primitive_count = 0xffffffffu; }},
     {"/meshes/0/first_primitive", [](Scene& s) { s.meshes[0].first_primitive = 7; }},
-    // Empty
+    // Empty, or without an area
     {"/nodes/0/mesh", [](Scene& s) { s.meshes[0].primitive_count = 0; }},
     {"/nodes/0/mesh", [](Scene& s) { s.primitives[0].index_count = 0; }},
+    {"/nodes/0/mesh",
+     [](Scene& s) {
+         for (std::size_t i = 0; i < s.vertices.size(); ++i)
+             s.vertices.px[i] = s.vertices.py[i] = s.vertices.pz[i];
+     }},
+    {"/nodes/0/mesh",
+     [](Scene& s) {
+         for (Column<float>* c : {&s.vertices.px, &s.vertices.py, &s.vertices.pz})
+             for (float& v : *c)
+                 v *= 1e-30f;
+     }},
     {"/nodes", [](Scene& s) { s.nodes.clear(); }},
     {"/nodes", [](Scene& s) { s.nodes.resize(1), s.nodes[0].local *= 0.0f; }},
     {"/nodes", [](Scene& s) { s.nodes.resize(1), s.nodes[0].mesh = kNone; }},

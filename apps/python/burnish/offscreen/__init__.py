@@ -6,14 +6,14 @@
     scene.add(pyrender.PerspectiveCamera(yfov=0.8), pose=pose)
     colour, depth = pyrender.OffscreenRenderer(640, 480).render(scene)
 
-A pose is a 4 x 4 matrix in rows. It maps the thing's own space to world space, right-handed with y upwards. Cameras, suns and spot lights
-look along their own -z. A call that burnish cannot honour raises burnish.Error, which names the argument.
+A pose is a 4 x 4 matrix in rows. It maps the node's own space to its parent's, or to world space, right-handed with y upwards. Cameras, suns
+and spot lights look along their own -z. A call that burnish cannot honour raises burnish.Error, which names the argument.
 """
 
-from .meshes import Mesh, MetallicRoughnessMaterial, Primitive
+from .meshes import Mesh, MetallicRoughnessMaterial, Primitive, Texture
 from .renderer import OffscreenRenderer, RenderFlags
 from .scene import Node, Scene
 from .views import DirectionalLight, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera, PointLight, SpotLight
 
 __all__ = ["DirectionalLight", "IntrinsicsCamera", "Mesh", "MetallicRoughnessMaterial", "Node", "OffscreenRenderer", "OrthographicCamera",
-           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight"]
+           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight", "Texture"]

@@ -17,8 +17,8 @@ class Writer:
     def __init__(self):
         self.binary = bytearray()
         self.file = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [],
-                     "accessors": [], "bufferViews": [], "cameras": []}
-        self.lights, self.extensions = [], set()
+                     "accessors": [], "bufferViews": [], "cameras": [], "images": [], "textures": []}
+        self.lights, self.extensions, self.pictures = [], set(), {}
 
     def accessor(self, values, each, target=ARRAY, bounds=False):
         """Adds a ctypes array of floats or whole numbers. Returns its index."""
@@ -31,6 +31,17 @@ class Writer:
         self.binary += bytes(values)
         self.file["accessors"].append(entry)
         return len(self.file["accessors"]) - 1
+
+    def texture(self, png):
+        """Adds a picture, the bytes of a PNG file. Returns the texture's index."""
+        if png not in self.pictures:
+            self.pictures[png] = len(self.file["textures"])
+            self.binary += bytes(-len(self.binary) % 4)
+            self.file["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(png)})
+            self.binary += png + bytes(-len(png) % 4)
+            self.file["images"].append({"bufferView": len(self.file["bufferViews"]) - 1, "mimeType": "image/png"})
+            self.file["textures"].append({"source": len(self.file["images"]) - 1})
+        return self.pictures[png]
 
     def material(self, members, extensions):
         """Adds a material. extensions: {name: object}. Returns its index."""

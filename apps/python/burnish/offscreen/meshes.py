@@ -1,8 +1,9 @@
 """Materials and meshes, with pyrender's names and arguments."""
 
+import itertools
 import math
 
-from .. import _native
+from .. import _native, _png
 from . import gltf
 from .checks import colour, number, refuse, refuse_given
 
@@ -10,17 +11,68 @@ TRIANGLES = 4
 ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
 
+class Texture:
+    """A picture of sRGB colours: height x width x 1, 3 or 4 values by rows from the top, whole numbers of 0 to 255 or floats of 0 to 1; an array
+    or a PIL picture. It repeats, and (0, 0) is its lower left corner."""
+
+    def __init__(self, name=None, sampler=None, source=None, source_channels=None, width=None, height=None, tex_type=None, data_format=None):
+        refuse_given(sampler=sampler, width=width, height=height, tex_type=tex_type, data_format=data_format)
+        if source_channels not in (None, "RGB", "RGBA"):
+            refuse("source_channels", f"{source_channels!r} is neither RGB nor RGBA")
+        self.name, (self.width, self.height, self.pixels, self.channels) = name, _picture_of(source, "source")
+        self.png = _png.encode(self.width, self.height, self.pixels, channels=self.channels)
+
+    def coverage(self):
+        """Returns the PNG of white with the picture's alpha, or None where the picture covers everything."""
+        if self.channels == 3:
+            return None
+        white = b"".join(b"\xff\xff\xff" + self.pixels[i : i + 1] for i in range(3, len(self.pixels), 4))
+        return _png.encode(self.width, self.height, white, channels=4)
+
+
+def _picture_of(source, name):
+    """Returns (width, height, bytes, 3 or 4 channels) of an array or a PIL picture."""
+    if hasattr(source, "convert") and hasattr(source, "tobytes"):  # PIL
+        kind = "RGBA" if "A" in source.mode or "transparency" in getattr(source, "info", {}) else "RGB"
+        return (*source.size, source.convert(kind).tobytes(), len(kind))
+    shape = tuple(getattr(source, "shape", ()) or ())
+    if len(shape) not in (2, 3) or 0 in shape or (len(shape) == 3 and shape[2] not in (1, 3, 4)):
+        refuse(name, f"{type(source).__name__} of shape {shape} is no picture of height x width x 1, 3 or 4 values" if shape else
+               f"a {type(source).__name__} is no picture")
+    height, width = shape[:2]
+    channels = shape[2] if len(shape) == 3 else 1
+    kind = getattr(getattr(source, "dtype", None), "kind", "")
+    flat = list(_native.flat(source.tolist() if hasattr(source, "tolist") else source))
+    whole = kind in "ui" if kind else all(isinstance(value, int) for value in flat)
+    values = [value if whole else round(255 * value) if value == value else -1 for value in flat]
+    for i, value in enumerate(values):
+        if not 0 <= value <= 255:
+            refuse(f"{name}/{i}", f"{flat[i]} does not lie in 0..{255 if whole else 1}")
+    if channels == 1:
+        values, channels = [value for value in values for _ in range(3)], 3
+    return width, height, bytes(values), channels
+
+
+def _texture_of(given, name):
+    """Returns the Texture of a Texture or a picture, or None."""
+    if given is None or isinstance(given, Texture):
+        return given
+    _picture_of(given, name)  # an error names the argument
+    return Texture(source=given)
+
+
 class MetallicRoughnessMaterial:
-    """glTF's metallic-roughness material without textures. Colours are linear, 0 to 1; roughness is perceptual. anisotropyStrength (0 to 1)
-    and anisotropyRotation (radians from the first texture axis) are burnish's own."""
+    """glTF's metallic-roughness material; baseColorTexture, a Texture or a picture, is its only texture. Colours are linear, 0 to 1; roughness
+    is perceptual. anisotropyStrength (0 to 1) and anisotropyRotation (radians from the first texture axis) are burnish's own."""
 
     def __init__(self, name=None, normalTexture=None, occlusionTexture=None, emissiveTexture=None, emissiveFactor=None, alphaMode=None,
                  alphaCutoff=None, doubleSided=False, smooth=True, wireframe=False, baseColorFactor=None, baseColorTexture=None,
                  metallicFactor=1.0, roughnessFactor=1.0, metallicRoughnessTexture=None, *, anisotropyStrength=0.0, anisotropyRotation=0.0):
         refuse_given(normalTexture=normalTexture, occlusionTexture=occlusionTexture, emissiveTexture=emissiveTexture,
-                      baseColorTexture=baseColorTexture, metallicRoughnessTexture=metallicRoughnessTexture, wireframe=wireframe or None)
+                      metallicRoughnessTexture=metallicRoughnessTexture, wireframe=wireframe or None)
         if (alphaMode or "OPAQUE") not in ALPHA_MODES:
             refuse("alphaMode", f"{alphaMode!r} is none of {', '.join(ALPHA_MODES)}")
+        self.baseColorTexture = _texture_of(baseColorTexture, "baseColorTexture")
         self.name, self.smooth, self.doubleSided, self.alphaMode = name, smooth, bool(doubleSided), alphaMode or "OPAQUE"
         self.alphaCutoff = number(0.5 if alphaCutoff is None else alphaCutoff, "alphaCutoff", 0)
         self.baseColorFactor = colour([1.0] * 4 if baseColorFactor is None else baseColorFactor, "baseColorFactor", 1)
@@ -29,11 +81,17 @@ class MetallicRoughnessMaterial:
         self.anisotropyStrength = number(anisotropyStrength, "anisotropyStrength", 0, 1)
         self.anisotropyRotation = number(anisotropyRotation, "anisotropyRotation")
 
-    def write(self, to, flat, both_sides, coverage):
+    def write(self, to, flat, both_sides, coverage, mapped):
+        """Adds the material to a file. mapped: the primitive has texture coordinates."""
         members = {"doubleSided": self.doubleSided or both_sides, "alphaMode": self.alphaMode}
         if self.alphaMode == "MASK":
             members["alphaCutoff"] = self.alphaCutoff
         shine = {"baseColorFactor": [1.0, 1.0, 1.0, self.baseColorFactor[3]] if coverage else self.baseColorFactor}
+        picture = self.baseColorTexture.png if self.baseColorTexture else None
+        if coverage and picture:
+            picture = self.baseColorTexture.coverage()
+        if picture and mapped:
+            shine["baseColorTexture"] = {"index": to.texture(picture)}
         if flat or coverage:
             return to.material({**members, "pbrMetallicRoughness": shine}, {"KHR_materials_unlit": {}})
         shine.update(metallicFactor=self.metallicFactor, roughnessFactor=self.roughnessFactor)
@@ -64,6 +122,13 @@ class Primitive:
         if self.indices is not None and max(self.indices) >= self.count:
             refuse(f"indices/{list(self.indices).index(max(self.indices))}", f"{max(self.indices)} is beyond {self.count} vertices")
         self.material = MetallicRoughnessMaterial() if material is None else material
+        if getattr(self.material, "baseColorTexture", None) and self.texcoord_0 is None:
+            refuse("texcoord_0", "the material's baseColorTexture needs it")
+
+    @property
+    def bounds(self):
+        """((x, y, z), (x, y, z)): the least and the largest corner."""
+        return tuple(tuple(of(self.positions[i::3]) for i in range(3)) for of in (min, max))
 
     def _check(self, values, each, name):
         for i, value in enumerate(values or ()):
@@ -79,10 +144,15 @@ class Primitive:
     def write(self, to, *ways):
         named = {"NORMAL": (self.normals, 3), "TEXCOORD_0": (self.texcoord_0, 2), "COLOR_0": (self.color_0, 4)}
         attributes = {name: to.accessor(values, each) for name, (values, each) in named.items() if values is not None and not (name == "COLOR_0" and ways[-1])}
-        entry = {"attributes": {"POSITION": to.accessor(self.positions, 3, bounds=True), **attributes}, "material": self.material.write(to, *ways)}
+        entry = {"attributes": {"POSITION": to.accessor(self.positions, 3, bounds=True), **attributes}, "material": self.material.write(to, *ways, self.texcoord_0 is not None)}
         if self.indices is not None:
             entry["indices"] = to.accessor(self.indices, 1, gltf.ELEMENTS)
         return entry
+
+
+def corners_of(bounds):
+    """Returns the 8 corners of a box."""
+    return list(itertools.product(*zip(*bounds)))
 
 
 class Mesh:
@@ -92,10 +162,16 @@ class Mesh:
         refuse_given(weights=weights)
         self.primitives, self.name, self.is_visible = list(primitives), name, is_visible
 
+    @property
+    def bounds(self):
+        """((x, y, z), (x, y, z)): the least and the largest corner of the primitives. Zeros without primitives."""
+        boxes = [part.bounds for part in self.primitives]
+        return tuple(tuple(of(box[side][i] for box in boxes) if boxes else 0.0 for i in range(3)) for side, of in ((0, min), (1, max)))
+
     @classmethod
     def from_trimesh(cls, mesh, material=None, is_visible=True, poses=None, wireframe=False, smooth=True):
         """Returns a Mesh of an object with `vertices` and `faces`, such as trimesh's, or of a list of them. `vertex_normals` give smooth
-        shading. `visual.vertex_colors` colours a mesh without a material. A texture raises burnish.Error."""
+        shading. `visual.vertex_colors` colours a mesh without a material, and so does a texture of base colours. Others raise burnish.Error."""
         refuse_given(poses=poses, wireframe=wireframe or None)
         parts = mesh if isinstance(mesh, (list, tuple)) else [mesh]
         return cls([_primitive_of(part, material, smooth) for part in parts], is_visible=is_visible)
@@ -108,10 +184,12 @@ def _primitive_of(part, material, smooth):
     uv = getattr(visual, "uv", None) if kind == "texture" else None
     if material is None and kind == "texture":
         given = getattr(visual, "material", None)
-        for name in ("image", "baseColorTexture", "metallicRoughnessTexture", "normalTexture", "emissiveTexture", "occlusionTexture"):
+        for name in ("metallicRoughnessTexture", "normalTexture", "emissiveTexture", "occlusionTexture"):
             refuse_given(**{name: getattr(given, name, None)})
         names = ("baseColorFactor", "metallicFactor", "roughnessFactor", "emissiveFactor", "doubleSided", "alphaMode", "alphaCutoff")
         factors = {name: getattr(given, name, None) for name in names}
+        pictures = {name: getattr(given, name, None) for name in ("image", "baseColorTexture")}
+        factors["baseColorTexture"] = next((_texture_of(picture, name) for name, picture in pictures.items() if picture is not None), None)
         material = MetallicRoughnessMaterial(**{name: value for name, value in factors.items() if value is not None})
     colours = visual.vertex_colors if material is None and kind == "vertex" else None
     if material is None:

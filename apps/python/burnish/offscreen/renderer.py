@@ -5,7 +5,7 @@ import math
 import os
 import tempfile
 
-from .. import _png, load
+from .. import _native, _png, load
 from . import gltf
 from .checks import number, refuse
 from .display import over
@@ -18,7 +18,6 @@ except ImportError:
 SAMPLES = 4  # of a pixel, as pyrender takes them
 EVEN_LIGHT = {"env_size": 16, "env_samples": 1, "cache": False}  # an even light needs no more
 MIDDLES = {"msaa": 1, "technique": "split_isotropic"}  # one sample, in the pixel's middle, and hardly any shading
-OPEN = ("threads", "env_size", "env_samples", "env_rotation", "env_exposure", "cache")
 
 
 class RenderFlags:
@@ -35,7 +34,7 @@ class OffscreenRenderer:
     def __init__(self, viewport_width, viewport_height, point_size=1.0, **keywords):
         if point_size != 1.0:
             refuse("point_size", "burnish draws no points")
-        for name in ("width", "height", "layers", "floor", "camera", "eye", "target", "orbit", "fov", "background"):
+        for name in ("width", "height", "layers", "aov", "floor", "camera", "eye", "target", "orbit", "fov", "background"):
             if name in keywords:
                 refuse(name, "the scene and the viewport decide it")
         self.viewport_width, self.viewport_height, self.keywords = viewport_width, viewport_height, keywords
@@ -66,7 +65,7 @@ class OffscreenRenderer:
             return depth
         if seg:
             return _shaped(_segments(middles, scene.drawn(), seg_node_map or {}), height, width, 3), depth
-        size.update({"msaa": SAMPLES, **{name: value for name, value in self.keywords.items() if name not in OPEN}})
+        size.update({"msaa": SAMPLES, **{name: value for name, value in self.keywords.items() if not _loads(name)}})
         picture = opened.render(**{**size, "background": scene.environment is not None and scene.bg_color is None})
         colours = _png.decode(picture.png())[2]
         alpha = None
@@ -96,7 +95,7 @@ class OffscreenRenderer:
         """Opens the scene by files in a new folder, unless it is as it was."""
         data, environment = scene.write(width, height, **ways), scene.environment
         light, stops = gltf.even_light(scene.ambient_light) if environment is None else (None, 0.0)
-        given = {name: value for name, value in self.keywords.items() if name in OPEN}
+        given = {name: value for name, value in self.keywords.items() if _loads(name)}
         key = data, environment, light, stops
         if self._kept.get(role, (None,))[0] != key:
             with tempfile.TemporaryDirectory(prefix="burnish") as folder:
@@ -108,6 +107,11 @@ class OffscreenRenderer:
                               **{**given, **({} if environment else {**EVEN_LIGHT, "env_exposure": stops})})
             self._kept[role] = key, opened
         return self._kept[role][1]
+
+
+def _loads(keyword):
+    """Returns true for keywords of load()."""
+    return "load()" in _native.calls().get(keyword, ())
 
 
 def _shaped(data, *shape):

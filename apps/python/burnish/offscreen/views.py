@@ -52,7 +52,8 @@ def _check_aspect(given, name, width, height):
 
 
 class Light:
-    def __init__(self, kind, color, intensity, range=None):
+    def __init__(self, kind, color, intensity, range=None, name=None):
+        self.name = name
         self.entry = {"type": kind, "color": colour([1.0] * 3 if color is None else color, "color", 1)[:3],
                        "intensity": number(1.0 if intensity is None else intensity, "intensity", 0)}
         if range is not None:
@@ -63,21 +64,21 @@ class DirectionalLight(Light):
     """A sun. intensity: lux."""
 
     def __init__(self, color=None, intensity=None, name=None):
-        super().__init__("directional", color, intensity)
+        super().__init__("directional", color, intensity, name=name)
 
 
 class PointLight(Light):
     """intensity: candela. range: metres, None for no limit."""
 
     def __init__(self, color=None, intensity=None, range=None, name=None):
-        super().__init__("point", color, intensity, range)
+        super().__init__("point", color, intensity, range, name)
 
 
 class SpotLight(Light):
     """intensity: candela. range: metres. innerConeAngle, outerConeAngle: half angles in radians."""
 
     def __init__(self, color=None, intensity=None, range=None, innerConeAngle=0.0, outerConeAngle=math.pi / 4, name=None):
-        super().__init__("spot", color, intensity, range)
+        super().__init__("spot", color, intensity, range, name)
         outer = number(outerConeAngle, "outerConeAngle", 1e-6, math.pi / 2)
         self.entry["spot"] = {"innerConeAngle": number(innerConeAngle, "innerConeAngle", 0, outer), "outerConeAngle": outer}
 
