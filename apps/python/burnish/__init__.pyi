@@ -13,6 +13,8 @@ Vector3 = Sequence[float]
 Vector4 = Sequence[float]
 Technique = Literal["auto", "split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "lobe_line", "filtered_is", "filtered_is_ggx", "mc", "as_mc"]
 Layer = Literal["depth", "normal", "albedo", "roughness", "tangent", "anisotropy", "metalness", "lod", "object-id", "material-id"]
+MipFilter = Literal["box", "lean", "baseline", "covariance", "leadr", "ssgt", "kappa", "mipnet", "teacher"]
+Tonemap = Literal["none", "pbr-neutral", "aces"]
 Path = str | os.PathLike[str]
 
 class Floats(Protocol):
@@ -72,11 +74,11 @@ class Picture:
     def __dlpack_device__(self) -> tuple[int, int]: ...
     def __dlpack__(self, **keywords: Any) -> Any: ...
     def layer(self, name: Layer) -> Values:
-        """Returns a layer asked for by render(layers=[...]). Raises KeyError."""
-    def png(self, exposure: float = 0.0) -> bytes:
+        """Returns a layer asked for by render(layers=[...]) or render(aov=[...]). Raises KeyError."""
+    def png(self, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral") -> bytes:
         """Returns the bytes of a PNG file. exposure: stops, -64 to 64."""
-    def save(self, path: Path, exposure: float = 0.0) -> None:
-        """Writes .exr .hdr .pfm .png .jpg or .tif. exposure: stops, -64 to 64."""
+    def save(self, path: Path, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral") -> None:
+        """Writes .exr .hdr .pfm .png .jpg or .tif. exposure: stops, -64 to 64. Floats have neither exposure nor tone curve."""
     def _repr_png_(self) -> bytes: ...
     def _repr_html_(self) -> str: ...
 
@@ -109,9 +111,11 @@ class Scene:
         eye: Vector3 | None = None,
         target: Vector3 | None = None,
         orbit: Vector2 | None = None,
-        fov: float = 45.0,
-        camera: int | None = None,
+        fov: float | None = None,
+        zoom: float = 1.0,
+        camera: int | str | None = None,
         layers: Sequence[Layer] = (),
+        aov: Sequence[Layer] = (),
         axis_k: float = 1.0,
         axis_beta: float = 2.3,
         brdf: Literal[
@@ -148,11 +152,13 @@ class Scene:
         background: Draws the environment behind the scene.
         texture_anisotropy: Texture taps at most, 1 to 16.
         eye: Camera position X,Y,Z, metres.
-        target: Point that the camera looks at.
+        target: Point that the camera looks at; without eye it turns the scene's camera, or moves the framed view.
         orbit: View of the whole scene from AZIMUTH,ELEVATION degrees.
-        fov: Vertical field of view in degrees.
-        camera: Camera of the scene, by index.
+        fov: Vertical field of view in degrees; unset: the camera's, else 45.
+        zoom: Magnification: shows the scene so many times as large.
+        camera: Camera of the scene, by index or name; unset: the first, else the whole scene is shown.
         layers: Layers of the picture, with commas between: depth, normal, albedo.
+        aov: Another name of layers.
         axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
         axis_beta: Overlap of samples on the major axis, 0 to 100.
         brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
@@ -191,10 +197,13 @@ class Scene:
         eye: Vector3 | None = None,
         target: Vector3 | None = None,
         orbit: Vector2 | None = None,
-        fov: float = 45.0,
-        camera: int | None = None,
+        fov: float | None = None,
+        zoom: float = 1.0,
+        camera: int | str | None = None,
         reference_mode: Literal["direct", "shadowed", "path"] = "direct",
         bounces: int = 8,
+        reference_textures: Literal["footprint", "full"] = "footprint",
+        target_error: float | None = None,
         brdf: Literal[
             "ggx_aniso", "ggx", "ellipsoid", "ggx_aniso_separable", "beckmann", "ashikhmin_shirley", "ward", "ward_cheap",
             "heidrich_seidel", "ellipsoid_correlated",
@@ -224,12 +233,15 @@ class Scene:
         background: Draws the environment behind the scene.
         texture_anisotropy: Texture taps at most, 1 to 16.
         eye: Camera position X,Y,Z, metres.
-        target: Point that the camera looks at.
+        target: Point that the camera looks at; without eye it turns the scene's camera, or moves the framed view.
         orbit: View of the whole scene from AZIMUTH,ELEVATION degrees.
-        fov: Vertical field of view in degrees.
-        camera: Camera of the scene, by index.
+        fov: Vertical field of view in degrees; unset: the camera's, else 45.
+        zoom: Magnification: shows the scene so many times as large.
+        camera: Camera of the scene, by index or name; unset: the first, else the whole scene is shown.
         reference_mode: Paths of the reference: direct, shadowed or path.
         bounces: Bounces of the reference in mode path.
+        reference_textures: Texture reads of the reference: footprint (filtered over a pixel) or full (at each ray's hit).
+        target_error: Relative error at which the reference stops early.
         brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
             ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated.
         diffuse: Diffuse part: lambert (scaled by the light that the lobe lets through) or ashikhmin-shirley (reciprocal, darker at grazing
@@ -318,6 +330,8 @@ class Scene:
         unlit: glTF: KHR_materials_unlit.
         lean: glTF: extras/burnish/lean.
         """
+    def set_primitive_material(self, primitive: int, material: int | str) -> None:
+        """Gives a primitive another material, by index or name. Primitive i of meshes() is mesh i."""
     def set_light(
         self,
         light: int | str,
@@ -341,11 +355,11 @@ class Scene:
         environment: Path | Picture | Values | Floats | None = None,
         progress: Progress | None = None,
         *,
-        threads: int = 0,
-        env_size: int = 512,
+        env_size: Literal[16, 32, 64, 128, 256, 512, 1024, 2048] = 512,
         env_samples: int = 1024,
         env_rotation: float = 0.0,
         env_exposure: float = 0.0,
+        key_lights: int | Literal["auto", "off"] = "auto",
         cache: bool = True,
     ) -> None:
         """Lights the pictures to come by another environment. Arguments: see load()."""
@@ -460,10 +474,21 @@ def load(
     *,
     threads: int = 0,
     floor: Literal["off", "shadow", "stage"] = "off",
-    env_size: int = 512,
+    light: str | Sequence[str] = (),
+    time: float | None = None,
+    animation: int = 0,
+    f0: Vector3 | None = None,
+    mip_filter: MipFilter = "box",
+    mip_kappa: float = 0.7,
+    mip_gain: Literal["off", "on"] = "off",
+    fallback: Literal["auto", "off"] = "auto",
+    couple: Literal["none", "albedo"] = "none",
+    color_kernel: Literal["box", "kaiser"] = "box",
+    env_size: Literal[16, 32, 64, 128, 256, 512, 1024, 2048] = 512,
     env_samples: int = 1024,
     env_rotation: float = 0.0,
     env_exposure: float = 0.0,
+    key_lights: int | Literal["auto", "off"] = "auto",
     cache: bool = True,
 ) -> Scene:
     """Opens a scene: a .gltf, .glb or .obj file, or "builtin:NAME".
@@ -474,10 +499,21 @@ def load(
         second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then.
     threads: Worker threads; 0: all cores.
     floor: Floor below the scene: off, shadow or stage.
+    light: Area lights, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; several with ';' between.
+    time: Time in the scene's animation, seconds; unset: the scene at rest.
+    animation: Animation that time refers to, by index.
+    f0: Reflectance at normal incidence of all materials.
+    mip_filter: Filter for distant normal and roughness maps.
+    mip_kappa: Share of the normals' covariance that widens lobes, for the kappa filter and taps under mipnet and teacher.
+    mip_gain: Scales each level's colours to reflect as much lamp light as the finest level, under ssgt, kappa, mipnet and teacher.
+    fallback: Closed forms where the net of the mipnet filter is worse: auto or off.
+    couple: Weights of base colours and metalness in mip levels: none, or albedo (texels that face light and eye weigh more).
+    color_kernel: Averaging kernel for base colours and metalness in mip levels.
     env_size: Texels along an edge of the environment's cube map.
     env_samples: Samples a texel of the prefiltered environment.
     env_rotation: Rotation of the environment in degrees.
     env_exposure: Exposure of the environment in stops.
+    key_lights: Small strong lights to extract from the environment and shade one by one, at most.
     cache: Keeps bakes in the cache.
     """
 
@@ -486,19 +522,23 @@ def meshes(
     environment: Path | Picture | Values | Floats | None = None,
     progress: Progress | None = None,
     threads: int = 0,
-    env_size: int = 512,
+    light: str | Sequence[str] = (),
+    env_size: Literal[16, 32, 64, 128, 256, 512, 1024, 2048] = 512,
     env_samples: int = 1024,
     env_rotation: float = 0.0,
     env_exposure: float = 0.0,
+    key_lights: int | Literal["auto", "off"] = "auto",
     cache: bool = True,
 ) -> Scene:
     """Makes a scene of meshes. environment and progress: see load().
 
     threads: Worker threads; 0: all cores.
+    light: Area lights, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; several with ';' between.
     env_size: Texels along an edge of the environment's cube map.
     env_samples: Samples a texel of the prefiltered environment.
     env_rotation: Rotation of the environment in degrees.
     env_exposure: Exposure of the environment in stops.
+    key_lights: Small strong lights to extract from the environment and shade one by one, at most.
     cache: Keeps bakes in the cache.
     """
 
