@@ -12,7 +12,7 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kMost = 0x7fffffffu; // corners and vertices
-constexpr float kLargestPosition = 1e15f;         // metres; sums of areas beyond overflow
+constexpr float kLargestPosition = 1e15f;  // metres; sums of areas beyond overflow
 
 // Returns the place of the first number that is NaN or infinite, or an empty text.
 template <class Vector> std::string not_finite_place(const char* name, std::span<const Vector> values)
@@ -45,7 +45,8 @@ Status check_sizes(const MeshInput& mesh, const std::string& place, std::size_t 
         for (int k = 0; k < 3; ++k)
             if (std::fabs(mesh.positions[i][k]) > kLargestPosition)
                 return fault(fmt::format("/positions/{}", 3 * i + static_cast<std::size_t>(k)),
-                             fmt::format("{:g} is too large: positions lie in -{:g}..{:g} m", mesh.positions[i][k], kLargestPosition, kLargestPosition));
+                             fmt::format("{:g} is too large: positions lie in -{:g}..{:g} m", mesh.positions[i][k], kLargestPosition,
+                                         kLargestPosition));
     for (std::size_t i = 0; !mesh.normals.empty() && i < corners; ++i)
         if (const std::size_t v = corner_at(mesh, i); mesh.normals[v] == glm::vec3(0.0f))
             return fault(fmt::format("/normals/{}", 3 * v), "the normal (0, 0, 0) has no direction");

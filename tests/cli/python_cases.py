@@ -213,7 +213,7 @@ def from_c(bench):
     done = subprocess.run([str(bench.folder / "plate")], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True, timeout=120)
     check(done.returncode == 0, f"ended with {done.returncode}: {done.stderr}")
     lines = done.stdout.splitlines()
-    check(lines[1] == hash_of(bench, "builtin:spheres", *SMALL) and lines[0] != lines[1], lines)
+    check(lines[1] == hash_of(bench, "builtin:spheres", *SMALL, "--fov", "40") and lines[0] != lines[1], lines)
     for line, words in zip(lines[2:], ("widht", "/meshes/0/triangles/5", "absent.glb")):
         check(words in line, lines)
     check((bench.folder / "plate.png").exists(), "no picture")
