@@ -243,7 +243,7 @@ std::vector<Row> scene_rows()
         {"threads", "Worker threads; 0: all cores", "0", kLoads, whole(0, 1024, [](CSettings& to) -> int& { return to.open.threads; })},
         {"floor", "Floor below the scene: off, shadow or stage", "off", BURNISH_OPEN,
          name({"off", "shadow", "stage"}, [](CSettings& to, std::size_t i) { to.floor.kind = static_cast<FloorKind>(i); })},
-        {"light", "Area lights in the words of burnish render --light; several with ';' between", "", kLoads, area_lights()},
+        {"light", "Area lights in the words that the program takes, several with ';' between", "", kLoads, area_lights()},
         {"time", "Time in the scene's animation, seconds; unset: the scene at rest", "", BURNISH_OPEN,
          number(0, 1e6, [](CSettings& to) -> float& { return to.moment.seconds.emplace(); })},
         {"animation", "Animation that time refers to, by index", "0", BURNISH_OPEN,

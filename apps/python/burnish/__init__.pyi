@@ -499,7 +499,7 @@ def load(
         second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then.
     threads: Worker threads; 0: all cores.
     floor: Floor below the scene: off, shadow or stage.
-    light: Area lights in the words of burnish render --light; several with ';' between.
+    light: Area lights in the words that the program takes, several with ';' between.
     time: Time in the scene's animation, seconds; unset: the scene at rest.
     animation: Animation that time refers to, by index.
     f0: Reflectance at normal incidence of all materials.
@@ -533,7 +533,7 @@ def meshes(
     """Makes a scene of meshes. environment and progress: see load().
 
     threads: Worker threads; 0: all cores.
-    light: Area lights in the words of burnish render --light; several with ';' between.
+    light: Area lights in the words that the program takes, several with ';' between.
     env_size: Texels along an edge of the environment's cube map.
     env_samples: Samples a texel of the prefiltered environment.
     env_rotation: Rotation of the environment in degrees.
