@@ -181,15 +181,15 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
     if (const Status written = show(*picture, 0.0f, shown + ".png"); !written)
         return fails(written.error().line());
     // Judge it
-    if (!file_exists(result.golden)) {
-        result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
-        return result;
-    }
     const auto judged = [&] {
         if (row.limits.operations && result.verdict != GoldenVerdict::failed)
             judge_operations(results + result.picture + ".stats.json", *row.limits.operations, result);
         return result;
     };
+    if (!file_exists(result.golden)) {
+        result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
+        return judged();
+    }
     if (row.hash_alone) {
         judge_hash(row, result.golden, *picture, result);
         return judged();

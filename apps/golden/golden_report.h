@@ -15,7 +15,7 @@ struct GoldenCounts {
 GoldenCounts count_of(const std::vector<GoldenResult>& results);
 int exit_code_of(const GoldenCounts& counts); // bad_input where a picture was not made, else differ, else golden_missing
 
-bool can_bless(const GoldenResult& result); // a new golden would let the row pass
+bool can_bless(const GoldenResult& result); // a new golden would change the picture's verdict
 
 std::string results_text(const std::vector<GoldenResult>& results); // an object a line
 // Reads results.jsonl of a results' folder. Errors: ExitCode::bad_input with the line.

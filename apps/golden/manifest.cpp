@@ -264,18 +264,21 @@ class DuplicateMembers {
         std::set<std::string> names;
     };
 
-    void next_element()
-    {
-        if (!levels_.empty() && levels_.back().is_array)
-            levels_.back().at = std::to_string(levels_.back().next++);
-    }
-
+  public:
+    // Returns the JSON path of the last member.
     std::string place() const
     {
         std::string text;
         for (const Level& level : levels_)
             text += "/" + level.at;
         return text;
+    }
+
+  private:
+    void next_element()
+    {
+        if (!levels_.empty() && levels_.back().is_array)
+            levels_.back().at = std::to_string(levels_.back().next++);
     }
 
     std::vector<Level> levels_;
@@ -323,17 +326,17 @@ Result<GoldenManifest> read_manifest(const std::string& path)
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostManifestBytes);
     BN_TRY(bytes);
     JsonValue json;
+    DuplicateMembers members;
     try {
-        DuplicateMembers duplicates;
-        const auto hear = [&duplicates](int, JsonValue::parse_event_t event, const JsonValue& parsed) {
-            duplicates.hear(event, parsed);
+        const auto hear = [&members](int, JsonValue::parse_event_t event, const JsonValue& parsed) {
+            members.hear(event, parsed);
             return true;
         };
         json = JsonValue::parse(bytes->begin(), bytes->end(), hear);
     } catch (const JsonValue::parse_error& e) {
         return Error{ExitCode::bad_input, path, line_and_column(*bytes, e.byte), "is no JSON here; JSON has no comments"};
-    } catch (const JsonValue::out_of_range&) { // its message says where not
-        return Error{ExitCode::bad_input, path, "", "holds a number that no double can hold"};
+    } catch (const JsonValue::out_of_range&) {
+        return Error{ExitCode::bad_input, path, members.place(), "holds a number that no double can hold"};
     } catch (const Mistake& mistake) {
         return Error{ExitCode::bad_input, path, mistake.place, mistake.reason};
     }
@@ -348,7 +351,11 @@ Result<GoldenManifest> read_manifest(const std::string& path)
 Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
                                          const std::string& mask)
 {
-    const bool by_pattern = expected.find('*') != std::string::npos || actual.find('*') != std::string::npos;
+    std::error_code ignored;
+    const auto is_pattern = [&](const std::string& path) {
+        return path.find('*') != std::string::npos && !fs::is_directory(path, ignored);
+    };
+    const bool by_pattern = is_pattern(expected) || is_pattern(actual);
     const Result<std::vector<std::string>> names = by_pattern ? covered_parts(expected, actual) : picture_names(expected, actual);
     BN_TRY(names);
     GoldenManifest manifest;
@@ -362,10 +369,13 @@ Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std:
         const fs::path relative = by_pattern ? fs::path(row.golden).filename() : fs::path(name);
         row.name = printable(relative.string()), row.extension = fs::path(row.picture).extension().string();
         row.mask = mask_of(mask, relative);
-        if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal())
+        if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal() ||
+            fs::equivalent(row.golden, row.picture, ignored))
             return Error{ExitCode::usage, "", "PATH", "'" + row.picture + "' is expected and actual"};
         manifest.rows.push_back(std::move(row));
     }
+    if (!mask.empty() && std::all_of(manifest.rows.begin(), manifest.rows.end(), [](const GoldenRow& row) { return row.mask.empty(); }))
+        return Error{ExitCode::bad_input, mask, "", "holds no mask with the name of an expected picture"};
     return manifest;
 }
 

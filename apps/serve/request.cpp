@@ -34,7 +34,7 @@ void add_files(std::vector<fs::path> found, const fs::path& folder, ServedLists&
         const ServedFile file{path.lexically_relative(folder).string(), path.string()};
         if (ends_in(path, {"gltf", "glb", "obj"}) && lists.scenes.size() < kMostServed)
             lists.scenes.push_back(file);
-        if (ends_in(path, {"hdr", "exr"}) && lists.environments.size() < kMostServed)
+        if (ends_in(path, {"hdr", "exr", "pfm"}) && lists.environments.size() < kMostServed)
             lists.environments.push_back(file);
     }
 }
@@ -185,6 +185,8 @@ Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
                 std::find_if(table.options().begin(), table.options().end(), [&](const Option& o) { return o.name == name; });
             if (known == table.options().end() || !is_served(*known) || !value.is_string())
                 return usage_error(name, "cannot be set by a page");
+            if (name == "--light" && value.get<std::string>().find("texture=") != std::string::npos)
+                return usage_error(name, "texture= names a file, which a page cannot do");
             request.options.emplace_back(name, value.get<std::string>());
         }
     for (const auto& [name, to, low, high] : {std::tuple{"width", &request.width, 1, kMostSide},
@@ -222,7 +224,8 @@ Json served_options(const OptionTable& table)
         if (is_served(option)) {
             Json row = {{"name", option.name},
                         {"group", option.group},
-                        {"help", option.meaning()},
+                        {"help", option.name == "--light" ? "One area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9"
+                                                          : option.meaning()},
                         {"kind", kKinds[static_cast<std::size_t>(option.value.kind)]},
                         {"value", option.value_name},
                         {"names", option.value.names},

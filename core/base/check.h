@@ -1,5 +1,5 @@
 // Contract checks. BN_CHECK is always on: where a caller breaks a function's condition, the function throws CheckFailed with both values.
-// Functions that return a Result turn that into an Error. BN_DCHECK vanishes in release builds.
+// Functions of sessions turn that into an Error. BN_DCHECK vanishes in release builds.
 #pragma once
 #include <stdexcept>
 

@@ -30,9 +30,9 @@ std::size_t corner_at(const MeshInput& mesh, std::size_t i)
     return mesh.triangles.empty() ? i : mesh.triangles[i];
 }
 
-glm::vec3 area_of(const MeshInput& mesh, std::size_t a, std::size_t b, std::size_t c)
+glm::vec3 area_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
 {
-    return glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    return glm::cross(b - a, c - a);
 }
 
 // Checks numbers that are finite: sizes of positions, lengths of normals, areas of triangles.
@@ -50,8 +50,9 @@ Status check_sizes(const MeshInput& mesh, const std::string& place, std::size_t 
     for (std::size_t i = 0; !mesh.normals.empty() && i < corners; ++i)
         if (const std::size_t v = corner_at(mesh, i); mesh.normals[v] == glm::vec3(0.0f))
             return fault(fmt::format("/normals/{}", 3 * v), "the normal (0, 0, 0) has no direction");
+    const auto placed = [&](std::size_t i) { return glm::vec3(mesh.transform * glm::vec4(mesh.positions[corner_at(mesh, i)], 1.0f)); };
     for (std::size_t t = 0; t < corners; t += 3)
-        if (area_of(mesh, corner_at(mesh, t), corner_at(mesh, t + 1), corner_at(mesh, t + 2)) != glm::vec3(0.0f))
+        if (area_of(placed(t), placed(t + 1), placed(t + 2)) != glm::vec3(0.0f))
             return {};
     return fault("/triangles", "have no area in 32-bit floats: nothing can be seen");
 }
@@ -95,7 +96,7 @@ std::vector<glm::vec3> normals_of(const MeshInput& mesh, std::size_t corners)
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f));
     for (std::size_t t = 0; t < corners; t += 3) {
         const std::size_t a = corner_at(mesh, t), b = corner_at(mesh, t + 1), c = corner_at(mesh, t + 2);
-        const glm::vec3 normal = area_of(mesh, a, b, c);
+        const glm::vec3 normal = area_of(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
         for (const std::size_t v : {a, b, c})
             normals[v] += normal;
     }

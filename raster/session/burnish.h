@@ -124,6 +124,9 @@ typedef struct burnish_comparison {
     double mse, rel_mse, max_abs, differing_fraction;
 } burnish_comparison;
 int burnish_compare(const float* reference, const float* test, int width, int height, burnish_comparison* out);
+/* The same. Tells its progress to the function of the options, which may stop it. */
+int burnish_compare_told(const float* reference, const float* test, int width, int height, const burnish_options* options,
+                         burnish_comparison* out);
 
 #ifdef __cplusplus
 }

@@ -341,9 +341,6 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
     return guarded_call([&]() -> Status {
         if (!session || !out)
             return usage(session ? "out" : "session", "is NULL");
-        for (const char* name : {"layers", "aov"})
-            if (options && options->values.count(name))
-                return usage(name, "the reference has none");
         Result<CSettings> settings = settings_of(options, BURNISH_REFERENCE);
         BN_TRY(settings);
         if (settings->samples)
@@ -450,6 +447,12 @@ void burnish_frame_free(burnish_frame* frame)
 
 int burnish_compare(const float* reference, const float* test, int width, int height, burnish_comparison* out)
 {
+    return burnish_compare_told(reference, test, width, height, nullptr, out);
+}
+
+int burnish_compare_told(const float* reference, const float* test, int width, int height, const burnish_options* options,
+                         burnish_comparison* out)
+{
     return guarded_call([&]() -> Status {
         if (!reference || !test || !out)
             return usage(!reference ? "reference" : !test ? "test" : "out", "is NULL");
@@ -462,10 +465,13 @@ int burnish_compare(const float* reference, const float* test, int width, int he
         std::memcpy(b.bytes.data(), test, b.bytes.size());
         if (not_finite_pixels(a, b))
             return Error{ExitCode::not_finite, "", "", "a pixel is NaN or Inf"};
-        const Jobs jobs;
-        const ErrorSummary flip = summarise_errors(flip_hdr(a, b, {}, jobs).error);
-        const PixelFigures pixels = pixel_figures(a, b, jobs);
-        *out = {out->size, flip.mean, flip.p99, flip.max, pixels.mse, pixels.rel_mse, pixels.max_abs, pixels.differing_fraction};
-        return {};
+        return run_told(teller(options), [&]() -> Status {
+            const Activity activity("comparing");
+            const Jobs jobs;
+            const ErrorSummary flip = summarise_errors(flip_hdr(a, b, {}, jobs).error);
+            const PixelFigures pixels = pixel_figures(a, b, jobs);
+            *out = {out->size, flip.mean, flip.p99, flip.max, pixels.mse, pixels.rel_mse, pixels.max_abs, pixels.differing_fraction};
+            return {};
+        });
     });
 }

@@ -166,18 +166,27 @@ class Applied {
     bool stays_ = false;
 };
 
-// Warns of changed materials that are anisotropic, on primitives without coordinates and tangents.
+// Warns of materials that became anisotropic, on primitives without coordinates and tangents. changes: hold what was before.
 void warn_of_directions(Scene& scene, const SceneChanges& changes)
 {
     const auto changed = [](const auto& list, std::size_t index) {
         return std::any_of(list.begin(), list.end(), [&](const auto& change) { return static_cast<std::size_t>(change.first) == index; });
+    };
+    const auto was_anisotropic = [&](std::size_t primitive, std::size_t material) {
+        for (const auto& [index, before] : changes.primitives)
+            if (static_cast<std::size_t>(index) == primitive)
+                material = static_cast<std::size_t>(before);
+        for (const auto& [index, before] : changes.materials)
+            if (static_cast<std::size_t>(index) == material)
+                return before.anisotropy_strength > 0.0f;
+        return scene.materials[material].anisotropy_strength > 0.0f && changed(changes.primitives, primitive);
     };
     const VertexTable& v = scene.vertices;
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         const Primitive& p = scene.primitives[i];
         const auto material = static_cast<std::size_t>(p.material);
         if ((!changed(changes.materials, material) && !changed(changes.primitives, i)) || p.has_uv0 || p.vertex_count == 0 ||
-            !(scene.materials[material].anisotropy_strength > 0.0f))
+            !(scene.materials[material].anisotropy_strength > 0.0f) || was_anisotropic(i, material))
             continue;
         if (v.tx[p.first_vertex] == 0.0f && v.ty[p.first_vertex] == 0.0f && v.tz[p.first_vertex] == 0.0f)
             scene.warnings.push_back(fmt::format("/primitives/{}: anisotropy needs coordinates, since the highlight runs along their first "

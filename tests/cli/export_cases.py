@@ -59,13 +59,14 @@ def undefined(bench):
 @case("export.every_technique_compiles_alone_and_reads_nothing_undefined", budget=20)
 def compiles_alone(bench):
     compiler()
-    optimises = shutil.which("spirv-opt") and shutil.which("spirv-dis")
+    if not (shutil.which("spirv-opt") and shutil.which("spirv-dis")):
+        raise Skipped("no spirv-opt, or no spirv-dis")
     for name, _ in TECHNIQUES:
         text = exported(bench, name)
         good, said = compiles(bench, ENGINE.format(text=text, name=name))
         check(good, f"{name}:\n{said[:800]}")
-        check(not optimises or not undefined(bench), f"{name} reads undefined values")
-        if name == "mc" and optimises:
+        check(not undefined(bench), f"{name} reads undefined values")
+        if name == "mc":
             check("x.s.exact = 0;" in text and compiles(bench, ENGINE.format(text=text.replace("x.s.exact = 0;", ""), name=name))[0]
                   and undefined(bench), "a member that nobody fills is not seen")
     check(not compiles(bench, ENGINE.format(text="", name=name))[0], "an engine without the file compiles too")

@@ -140,10 +140,11 @@ assert scene.render({FRAME}, progress=hears).hash == before
 @case("python.ctrl_c_stops_every_call", budget=20)
 def interrupt(bench):
     for work in ("scene.render(width=1280, height=720, technique='mc', samples=8192)",
-                 "burnish.load('builtin:spheres', env_size=2048, env_samples=65536, cache=False)"):
+                 "burnish.load('builtin:spheres', env_size=2048, env_samples=65536, cache=False)", "burnish.compare(large, large)"):
         child = subprocess.Popen([sys.executable, "-c", f"""
 import burnish
 scene = burnish.load('builtin:teapot', {KEYWORDS})
+large = memoryview(bytearray(12 * 8192 * 4096)).cast('f', [4096, 8192, 3])
 print('ready', flush=True)
 try: {work}
 except KeyboardInterrupt: print('stopped', scene.render({FRAME}).hash)

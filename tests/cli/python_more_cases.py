@@ -14,7 +14,8 @@ from python_cases import FRAME, KEYWORDS, ROOT, environment, library, python, py
 
 PACKAGE, EXAMPLES = ROOT / "apps/python/burnish", ROOT / "apps/examples/python"
 STUB = PACKAGE / "__init__.pyi"
-FUNCTIONS = {"load": (None, "load"), "meshes": (None, "meshes"), "render": ("Scene", "render"), "reference": ("Scene", "reference"), "Mesh": ("Mesh", "__init__"), "set_material": ("Scene", "set_material"), "set_light": ("Scene", "set_light")}
+FUNCTIONS = {"load": (None, "load"), "meshes": (None, "meshes"), "render": ("Scene", "render"), "reference": ("Scene", "reference"), "Mesh": ("Mesh", "__init__"), "set_material": ("Scene", "set_material"), "set_light": ("Scene", "set_light"),
+             "set_environment": ("Scene", "set_environment")}
 
 
 def keywords_of(function):

@@ -252,6 +252,13 @@ refused('pose: its axes', lambda: renderer.render(rig))
 mount.scale = (1, 1, 1)
 rig.remove_node(mount)
 assert rig.main_camera_node is None and len(rig.nodes) == 1
+mirrored = pr.Node(scale=(1, -1, 1), rotation=(0, 0, 0, 1))
+assert [list(row)[:3] for row in mirrored.matrix][:3] == [[1, 0, 0], [0, -1, 0], [0, 0, 1]], mirrored.matrix
+mirrored.scale = (1, -1, 1)
+assert list(mirrored.scale) == [1, -1, 1] and mirrored.matrix[1][1] == -1, mirrored.matrix
+assert [pr.Node(scale=(-1, -1, 1), rotation=(0, 0, 0, 1)).matrix[i][i] for i in range(3)] == [-1, -1, 1]
+flat = pr.Node(scale=(1, 1, 0), rotation=(0.5 ** 0.5, 0, 0, 0.5 ** 0.5), translation=(1, 2, 3))
+assert abs(flat.matrix[2][1] - 1) < 1e-9 and abs(flat.matrix[1][1]) < 1e-9 and flat.matrix[2][3] == 3, flat.matrix
 for quaternion in ((0.5, 0.5, 0.5, 0.5), (0.1, 0.2, -0.3, 0.4), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0.7, -0.1, 0.2, 0.05)):
     node = pr.Node(rotation=quaternion, scale=(2, 3, 0.5), translation=(1, 2, 3))
     length = math.sqrt(sum(value * value for value in quaternion))

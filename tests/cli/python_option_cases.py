@@ -177,7 +177,7 @@ assert 'tilt: 2 floats, -80 to 80; default (0, 0).' in text and 'default 1024' i
 @case("python.stubs_and_docstrings_agree", budget=10)
 def agree(bench):
     """The stubs have each call's keywords, with the library's defaults."""
-    given = {name: {k: ast.literal_eval(d) for k, (_, d) in keywords_of(name).items() if k not in ("environment", "progress")} for name in ("load", "meshes", "render", "reference")}
+    given = {name: {k: ast.literal_eval(d) for k, (_, d) in keywords_of(name).items() if k not in ("environment", "progress")} for name in ("load", "meshes", "render", "reference", "set_environment")}
     python(bench, f"""
 from burnish import _native
 def value(text): return eval(_native.shown_default(text))

@@ -238,6 +238,11 @@ def saves(bench):
         check(listed() == 0, "a list that is as it was")
         shutil.copy(model, bench.folder / "models/another.glb")
         check(listed() == 1 and listed() == 1, "a new model was not seen")
+        bench.run("render", "builtin:plate", "--size", "32x16", "-q", "-o", "models/sky.pfm").expect(0)
+        check(listed() == 2 and "sky.pfm" in json.loads(served.ask("/lists")[2])["environments"], "a new environment was not seen")
+        secret = {"light": "sphere:points=0,1,0:radius=0.1:radiance=9,9,9:texture=/etc/passwd"}
+        status, _, answer = served.ask("/draw", wish("lamp.glb", **secret))
+        check(status == 400 and b"names a file" in answer, f"a page names a file: {answer}")
         check(json.loads(served.ask("/lists")[2])["scenes"][:2] == ["another.glb", "lamp.glb"], "the new model is not listed")
         check(served.ask("/draw", wish("another.glb"))[0] == 200, "the new model is not drawn")
         check(json.loads(served.ask("/draw", wish("lamp.glb"))[1]["X-Burnish"])["hash"] != before, "another file, the same picture")

@@ -324,13 +324,14 @@ class Comparison:
         return _show.comparison(self, _native.floats_at(a), _native.floats_at(b), width, height)
 
 
-def compare(reference, test):
-    """Compares two Pictures, or buffers of height x width x 3 floats. Returns a Comparison."""
+def compare(reference, test, progress=None):
+    """Compares two Pictures, or buffers of height x width x 3 floats. Returns a Comparison. progress: as in load()."""
     a, b = _native.picture_of(reference), _native.picture_of(test)
     if a[1:] != b[1:]:
         raise ValueError(f"{a[1]}x{a[2]} and {b[1]}x{b[2]} pixels cannot be compared")
     figures = _native.ComparisonStruct(ctypes.sizeof(_native.ComparisonStruct))
-    _native.call("burnish_compare", a[0], b[0], a[1], a[2], ctypes.byref(figures))
+    with _native.Options({}, "render()") as given:
+        _native.call_told("burnish_compare_told", given, progress, a[0], b[0], a[1], a[2], given, ctypes.byref(figures))
     return Comparison(figures, reference, test)
 
 
@@ -339,7 +340,8 @@ def _describe():
     for function, indent, more in ((load, 4, {}), (meshes, 4, {}), (Scene.render, 8, {}), (Scene.reference, 8, {"samples": 1024}),
                                    (Scene.set_environment, 8, {})):
         lines = _native.keyword_lines(function.__name__ + "()", " " * indent, **more)
-        function.__doc__ += f"\n\n{' ' * indent}Keywords:\n\n{lines}\n{' ' * indent}"
+        if function.__doc__:  # python -OO drops them
+            function.__doc__ += f"\n\n{' ' * indent}Keywords:\n\n{lines}\n{' ' * indent}"
 
 
 with contextlib.suppress(ImportError):  # the first use of the library says why it is not there

@@ -542,5 +542,5 @@ def meshes(
     cache: Keeps bakes in the cache.
     """
 
-def compare(reference: Picture | Values | Floats, test: Picture | Values | Floats) -> Comparison:
+def compare(reference: Picture | Values | Floats, test: Picture | Values | Floats, progress: Progress | None = None) -> Comparison:
     """Compares two pictures of height x width x 3 floats."""

@@ -58,12 +58,9 @@ def _candidates():
 
 
 def _machine_of(name):
-    """Returns (word size, machine) of an ELF file, or None."""
-    try:
-        with open(name, "rb") as file:
-            head = file.read(20)
-    except OSError:
-        return None
+    """Returns (word size, machine) of an ELF file, or None. Raises OSError where it cannot be read."""
+    with open(name, "rb") as file:
+        head = file.read(20)
     return (head[4], int.from_bytes(head[18:20], "big" if head[5] == 2 else "little")) if len(head) == 20 and head[:4] == b"\x7fELF" else None
 
 
@@ -71,8 +68,11 @@ def _fault_of(name, reason):
     """Returns why a library cannot be loaded, in one line. reason: the loader's words."""
     if not os.path.exists(name):
         return f"libburnish.so is not found; BURNISH_LIBRARY may name it; {reason}"
-    machine, own = _machine_of(name), _machine_of(sys.executable)
-    if machine is None:
+    try:
+        machine, own = _machine_of(name), _machine_of(sys.executable)
+    except OSError as error:
+        return f"libburnish.so cannot be loaded; {error}"
+    if machine is None and own:
         return f"libburnish.so cannot be loaded; {name}: is no shared library"
     if own and machine != own:
         its, ours = (MACHINES.get(number, f"number {number}") for _, number in (machine, own))
@@ -127,8 +127,11 @@ def library():
             ("burnish_frame_hash", ctypes.c_uint64, [pointer]), ("burnish_frame_tonemap", whole, [pointer, text]),
             ("burnish_frame_png", whole, [pointer, ctypes.c_float, pointer, pointer]),
             ("burnish_write", whole, [pointer, text, ctypes.c_float]), ("burnish_frame_free", None, [pointer]),
-            ("burnish_compare", whole, [pointer, pointer, whole, whole, ctypes.POINTER(ComparisonStruct)])):
-        function = getattr(lib, name)
+            ("burnish_compare_told", whole, [pointer, pointer, whole, whole, pointer, ctypes.POINTER(ComparisonStruct)])):
+        try:
+            function = getattr(lib, name)
+        except AttributeError:
+            raise ImportError(f"libburnish.so has no {name}: it is older than this package") from None
         function.restype, function.argtypes = result, arguments
     _loaded = lib
     return lib
@@ -240,7 +243,11 @@ class Options:
                 check_call(name, call_name)
                 if value is None or (isinstance(value, (list, tuple)) and not value):
                     continue
-                text = ";".join(value) if name == "light" and not isinstance(value, str) else text_of(value)
+                if name == "light" and not isinstance(value, str):
+                    if not isinstance(value, (list, tuple)) or not all(isinstance(one, str) for one in value):
+                        raise ValueError(f"light: {value!r} is neither a text nor a list of texts")
+                    value = ";".join(value)
+                text = text_of(value)
                 if "\0" in name + text:
                     raise ValueError(f"{name}: holds a zero character")
                 call("burnish_options_set", self.handle, name.encode(), text.encode())

@@ -182,7 +182,7 @@ Image run_pass(const Image& reference, const Image& test, const FlipOptions& opt
 
     const int columns = (error.width + kTileWidth - 1) / kTileWidth, rows = (error.height + kTileHeight - 1) / kTileHeight;
     std::vector<TileWorker> workers(static_cast<std::size_t>(jobs.threads()));
-    jobs.parallel_for_whole(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i, int worker) {
+    jobs.parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t i, int worker) {
         const int x0 = static_cast<int>(i) % columns * kTileWidth, y0 = static_cast<int>(i) / columns * kTileHeight;
         workers[static_cast<std::size_t>(worker)].run(
             pass, {x0, y0, std::min(kTileWidth, error.width - x0), std::min(kTileHeight, error.height - y0)});

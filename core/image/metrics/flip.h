@@ -42,6 +42,7 @@ struct FlipResult {
 
 // Returns the LDR-FLIP error. Both functions take two images of one size, with any channels and types. Alpha is
 // ignored, and gray becomes R = G = B. 8 and 16 bits are sRGB, floats are linear Rec.709. No pixel may be NaN or Inf.
+// Throws as the functions of metrics.h do.
 FlipResult flip_ldr(const Image& reference, const Image& test, const FlipOptions& options, const Jobs& jobs);
 // Returns each pixel's largest LDR-FLIP error over a range of exposures.
 FlipResult flip_hdr(const Image& reference, const Image& test, const FlipOptions& options, const Jobs& jobs);

@@ -95,7 +95,7 @@ PixelFigures pixel_figures(const Image& reference, const Image& test, const Jobs
 {
     check_pair(reference, test);
     std::vector<RowSums> rows(static_cast<std::size_t>(reference.height));
-    jobs.parallel_for_whole(rows.size(), [&](std::size_t y, int) { rows[y] = sums_of_row(reference, test, static_cast<int>(y)); });
+    jobs.parallel_for(rows.size(), [&](std::size_t y, int) { rows[y] = sums_of_row(reference, test, static_cast<int>(y)); });
     RowSums all;
     for (const RowSums& row : rows) {
         all.square += row.square;

@@ -23,7 +23,8 @@ struct PixelFigures {
     double differing_fraction = 0.0; // share of pixels that differ in any channel
 };
 
-// Functions of two images expect equal sizes and channel counts; either both images store floats, or neither does.
+// Functions of two images expect equal sizes and channel counts; either both images store floats, or neither does. They throw CheckFailed
+// otherwise, and Stopped where the calling thread's work is to stop (core/jobs/control.h).
 PixelFigures pixel_figures(const Image& reference, const Image& test, const Jobs& jobs);
 
 // Returns the structural similarity, 1 for equal images: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality

@@ -25,7 +25,7 @@ struct Grid {
     std::size_t size() const { return width * height; }
     template <class Body> void each_row(const Body& body) const
     {
-        jobs.parallel_for_whole(height, [&](std::size_t y, int) { body(y); });
+        jobs.parallel_for(height, [&](std::size_t y, int) { body(y); });
     }
 };
 

@@ -132,7 +132,7 @@ double ssim(const Image& reference, const Image& test, const Jobs& jobs)
     const Centres rows = centres_of(reference.height), columns = centres_of(reference.width);
     const int strips = (rows.end - rows.begin + kStripHeight - 1) / kStripHeight;
     std::vector<double> sums(static_cast<std::size_t>(rows.end));
-    jobs.parallel_for_whole(static_cast<std::size_t>(strips), [&](std::size_t strip, int) {
+    jobs.parallel_for(static_cast<std::size_t>(strips), [&](std::size_t strip, int) {
         const int begin = rows.begin + static_cast<int>(strip) * kStripHeight;
         const int end = std::min(begin + kStripHeight, rows.end);
         const int first = std::max(0, begin - kRadius), last = std::min(reference.height - 1, end - 1 + kRadius);

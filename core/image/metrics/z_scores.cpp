@@ -79,7 +79,7 @@ ZTest z_test(const Image& reference, const Image& test, const Image& reference_v
 
     // Test each channel of each pixel
     std::vector<RowResult> rows(static_cast<std::size_t>(reference.height));
-    jobs.parallel_for_whole(rows.size(), [&](std::size_t y, int) {
+    jobs.parallel_for(rows.size(), [&](std::size_t y, int) {
         for (std::size_t i = y * width * channels; i < (y + 1) * width * channels; i += channels) {
             bool rejected = false;
             for (std::size_t c = i; c < i + colours; ++c) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
 #include "core/jobs/control.h"
 #include "raster/session/session.h"
@@ -126,7 +127,7 @@ TEST(control, makes_errors_of_exceptions)
 }
 
 // A function of progress may draw with another session, and comparisons go on.
-TEST(control, leaves_comparisons_and_its_own_function_alone)
+TEST(control, stops_comparisons_and_leaves_its_own_function_alone)
 {
     Result<Session> other = Session::open("builtin:plate", "builtin:studio", open_options(2));
     ASSERT_TRUE(other);
@@ -142,7 +143,8 @@ TEST(control, leaves_comparisons_and_its_own_function_alone)
                                  }});
     EXPECT_FALSE(Session::open("builtin:teapot", "builtin:studio", open_options(2)));
     EXPECT_EQ(calls, 1);
-    EXPECT_EQ(pixel_figures(picture, picture, Jobs(2)).max_abs, 0.0);
+    EXPECT_THROW((void)pixel_figures(picture, picture, Jobs(2)), Stopped);
+    EXPECT_THROW((void)flip_hdr(picture, picture, {}, Jobs(2)), Stopped);
 }
 
 // A stopped reference keeps its passes for a later run.

@@ -20,6 +20,8 @@ class Texture:
         if source_channels not in (None, "RGB", "RGBA"):
             refuse("source_channels", f"{source_channels!r} is neither RGB nor RGBA")
         self.name, (self.width, self.height, self.pixels, self.channels) = name, _picture_of(source, "source")
+        if source_channels == "RGB" and self.channels == 4:
+            self.pixels, self.channels = b"".join(self.pixels[i : i + 3] for i in range(0, len(self.pixels), 4)), 3
         self.png = _png.encode(self.width, self.height, self.pixels, channels=self.channels)
 
     def coverage(self):
@@ -44,10 +46,12 @@ def _picture_of(source, name):
     kind = getattr(getattr(source, "dtype", None), "kind", "")
     flat = list(_native.flat(source.tolist() if hasattr(source, "tolist") else source))
     whole = kind in "ui" if kind else all(isinstance(value, int) for value in flat)
-    values = [value if whole else round(255 * value) if value == value else -1 for value in flat]
-    for i, value in enumerate(values):
-        if not 0 <= value <= 255:
-            refuse(f"{name}/{i}", f"{flat[i]} does not lie in 0..{255 if whole else 1}")
+    for i, value in enumerate(flat):
+        if not isinstance(value, (int, float)):
+            refuse(f"{name}/{i}", f"{value!r} is no number")
+        if not 0 <= value <= (255 if whole else 1):
+            refuse(f"{name}/{i}", f"{value} does not lie in 0..{255 if whole else 1}")
+    values = [value if whole else round(255 * value) for value in flat]
     if channels == 1:
         values, channels = [value for value in values for _ in range(3)], 3
     return width, height, bytes(values), channels

@@ -34,7 +34,7 @@ class OffscreenRenderer:
     def __init__(self, viewport_width, viewport_height, point_size=1.0, **keywords):
         if point_size != 1.0:
             refuse("point_size", "burnish draws no points")
-        for name in ("width", "height", "layers", "aov", "floor", "camera", "eye", "target", "orbit", "fov", "background"):
+        for name in ("width", "height", "layers", "aov", "floor", "camera", "eye", "target", "orbit", "fov", "zoom", "background"):
             if name in keywords:
                 refuse(name, "the scene and the viewport decide it")
         self.viewport_width, self.viewport_height, self.keywords = viewport_width, viewport_height, keywords

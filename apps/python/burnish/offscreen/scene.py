@@ -66,6 +66,7 @@ class Node:
         self.name, self.camera, self.mesh, self.light, self.children = name, camera, mesh, light, list(children or ())
         if matrix is not None and (rotation is not None or scale is not None or translation is not None):
             refuse("matrix", "cannot be combined with translation, rotation and scale")
+        self._given = None  # translation, rotation and scale, once one of them was set
         self.matrix = IDENTITY if matrix is None else matrix
         for part, value in (("scale", scale), ("rotation", rotation), ("translation", translation)):
             if value is not None:
@@ -77,13 +78,20 @@ class Node:
 
     @matrix.setter
     def matrix(self, pose):
+        self._pose(pose)
+        self._given = None
+
+    def _pose(self, pose):
         columns = matrix(pose, "pose")
         if self.camera is not None or self.light is not None:
             check_rotation(columns, "pose")
         self._matrix, self.columns = pose, columns
 
     def _parts(self):
-        """Returns translation, rotation and scale. A mirroring pose has a negative x scale. Shears are left out."""
+        """Returns translation, rotation and scale: as they were set, else those of the matrix. A mirroring matrix has a negative x scale. Shears
+        are left out."""
+        if self._given:
+            return self._given
         axes = [self.columns[4 * i : 4 * i + 3] for i in range(3)]
         scale = [math.sqrt(sum(value * value for value in axis)) for axis in axes]
         (a, b, c), (d, e, f), (g, h, i) = axes
@@ -93,14 +101,18 @@ class Node:
             return self.columns[12:15], [0.0, 0.0, 0.0, 1.0], scale
         return self.columns[12:15], _quaternion([[value / size for value in axis] for axis, size in zip(axes, scale)]), scale
 
+    def _set_parts(self, translation, rotation, scale):
+        self._pose(_composed(translation, rotation, scale))
+        size = math.sqrt(sum(value * value for value in rotation))
+        self._given = translation, [value / size for value in rotation], scale
+
     @property
     def translation(self):
         return self._parts()[0]
 
     @translation.setter
     def translation(self, value):
-        _, rotation, scale = self._parts()
-        self.matrix = _composed(_vector(value, "translation", 3), rotation, scale)
+        self._set_parts(_vector(value, "translation", 3), *self._parts()[1:])
 
     @property
     def rotation(self):
@@ -109,7 +121,7 @@ class Node:
     @rotation.setter
     def rotation(self, value):
         translation, _, scale = self._parts()
-        self.matrix = _composed(translation, _vector(value, "rotation", 4), scale)
+        self._set_parts(translation, _vector(value, "rotation", 4), scale)
 
     @property
     def scale(self):
@@ -118,7 +130,7 @@ class Node:
     @scale.setter
     def scale(self, value):
         translation, rotation, _ = self._parts()
-        self.matrix = _composed(translation, rotation, _vector(value if hasattr(value, "__iter__") else [value] * 3, "scale", 3))
+        self._set_parts(translation, rotation, _vector(value if hasattr(value, "__iter__") else [value] * 3, "scale", 3))
 
 
 class Scene:
