@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import stat
 import struct
 import xml.etree.ElementTree
@@ -460,6 +461,7 @@ def operations(bench):
         write(bench, [{**row, "hold": {"operations": limit}}])
         if code == 0:
             bench.run("golden", "check", "m.json").expect(5)
+            check(results(bench)["plate"]["operations"] == usual, "a row without a golden says no operations")
             bench.run("golden", "bless", "m.json").expect(0)
         bench.run("golden", "check", "m.json").expect(code)
         found = results(bench)["plate"]
@@ -470,6 +472,22 @@ def operations(bench):
     check("nothing to bless" in bench.run("golden", "bless", "m.json").expect(0).out, "the row was blessed")
     (bench.folder / "list.txt").write_text("plate\n")
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("plate", "operations", "manifest")
+
+
+@case("golden.folders_are_no_pictures_of_themselves", budget=10)
+def of_themselves(bench):
+    for folder in ("one", "st*r", "masks"):
+        (bench.folder / folder).mkdir()
+    bench.run("render", "builtin:plate", "--size", "16x16", "-q", "-o", "one/a.png").expect(0)
+    shutil.copy(bench.folder / "one/a.png", bench.folder / "st*r/a.png")
+    bench.run("golden", "check", "one/*.png", str(bench.folder / "one/*.png")).expect(2).expect_one_line("expected and actual")
+    (bench.folder / "link").symlink_to("one")
+    bench.run("golden", "check", "one", "link").expect(2).expect_one_line("expected and actual")
+    bench.run("golden", "check", "st*r", "one").expect(0)  # a folder, whatever its name
+    shutil.copy(bench.folder / "one/a.png", bench.folder / "masks/other.png")
+    bench.run("golden", "check", "st*r", "one", "--mask", "masks").expect(4).expect_one_line("masks", "no mask")
+    (bench.folder / "m.json").write_text('{"rows": [{"name": "a", "seconds": 1e999}]}')
+    bench.run("golden", "check", "m.json").expect(4).expect_one_line("/rows/0/seconds")
 
 
 @case("golden.the_schema_takes_what_the_program_takes")
