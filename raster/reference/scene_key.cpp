@@ -7,6 +7,7 @@
 
 #include "core/base/hash.h"
 #include "raster/frame/frame_record.h"
+#include "raster/reference/sobol.h"
 #include "shading/bake/mip/settings.h"
 #include "shading/bake/mipnet/weights.h"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
 
 namespace burnish {

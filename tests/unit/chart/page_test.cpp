@@ -46,7 +46,7 @@ TEST(chart_page, it_says_what_the_reference_s_noise_is_worth)
     ChartReport report = report_with_pictures();
     EXPECT_NE(chart_page(report)->find("Its noise alone makes a mean HDR-FLIP of about 0.003"), std::string::npos);
     EXPECT_NE(chart_page(report)->find("within 1 %"), std::string::npos);
-    report.references.begin()->second.noise = {64, INFINITY, NAN};
+    report.references.begin()->second.noise = {64, static_cast<double>(INFINITY), static_cast<double>(NAN)};
     EXPECT_NE(chart_page(report)->find("too few to tell its noise"), std::string::npos);
 }
 
