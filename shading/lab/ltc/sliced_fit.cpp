@@ -1,5 +1,5 @@
-// Minimises the sliced Wasserstein distance between samples from a lobe and from a transformed cosine: transport by its length (L1), fresh
-// samples and axes in every step, gradient steps by Adam (Kingma, Ba 2015). KT, Heitz, Dupuy, Narayanan 2022, section 4.2.
+// Minimises the sliced Wasserstein distance between samples from a lobe and from a transformed cosine. Transport counts by its length (L1).
+// Every step draws fresh samples and axes, and follows Adam (Kingma, Ba 2015). KT, Heitz, Dupuy, Narayanan 2022, section 4.2.
 #include <algorithm>
 #include <array>
 #include <random>
