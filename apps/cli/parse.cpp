@@ -98,17 +98,6 @@ Result<std::uint64_t> parse_bytes(const std::string& option, const std::string& 
     return value << shift;
 }
 
-std::vector<std::string> split(const std::string& text, char at)
-{
-    std::vector<std::string> parts(1);
-    for (const char c : text)
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
-
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text)
 {
     const Result<AreaLight> light = area_light_of(text, did_you_mean);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/text.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
@@ -23,7 +24,6 @@ Result<std::uint64_t> parse_bytes(const std::string& option,
                                   const std::string& text); // "500", "64K", "512M", "4G"
 // As area_light_of(), with hints at names.
 Result<AreaLight> parse_area_light(const std::string& option, const std::string& text);
-std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 
 std::vector<std::string> technique_names(); // auto, then all techniques in registry order
 

@@ -155,11 +155,12 @@ real4 grid_of_four(settings f, int first, integer set)
 #define BN_TECHNIQUE_TEXTS
 #include "shading/models.def"
 
-// Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain, perpendicular to n; all unit,
-// world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual, alpha = roughness^2. anisotropy: in
-// [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy) across. dfg: directional albedo of the lobe
-// as f0 x + f90 y, from your table or dfg_fit(). pixel: y * width + x, seed of random numbers. For lobe_line_shared(), set normal_dx
-// and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels around count as alike.
+// Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain,
+// perpendicular to n; all unit, world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual,
+// alpha = roughness^2. anisotropy: in [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy)
+// across. dfg: directional albedo of the lobe as f0 x + f90 y, from your table or dfg_fit(). pixel: y * width + x, seed of
+// random numbers. For lobe_line_shared(), set normal_dx and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels
+// around count as alike.
 shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
 {
     real alpha = roughness * roughness;

@@ -94,4 +94,15 @@ std::string printable_lines(const std::string& text)
     return shown(text, true);
 }
 
+std::vector<std::string> split(const std::string& text, char at)
+{
+    std::vector<std::string> parts(1);
+    for (const char c : text)
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    return parts;
+}
+
 } // namespace burnish

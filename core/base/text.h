@@ -1,6 +1,7 @@
-// Makes text from files and file names safe for a terminal, a page or a log.
+// Makes text from files and file names safe for a terminal, a page or a log; splits texts.
 #pragma once
 #include <string>
+#include <vector>
 
 namespace burnish {
 
@@ -20,6 +21,8 @@ inline std::string first_line(const std::string& text)
         line.pop_back();
     return line;
 }
+
+std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 
 // Returns the number with the float's shortest decimal: 0.4 for 0.4f, where a conversion gives 0.4000000059604645.
 double shortest_decimal(float value);

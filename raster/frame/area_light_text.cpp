@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "core/base/text.h"
 #include "core/scene/area_light.h"
 #include "raster/frame/comma_numbers.h"
 
 namespace burnish {
 namespace {
-
-std::vector<std::string> split(const std::string& text, char at)
-{
-    std::vector<std::string> parts(1);
-    for (const char c : text)
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    return parts;
-}
 
 std::string joined(const std::vector<std::string>& names)
 {
