@@ -119,13 +119,13 @@ bool OptionTable::given(const std::string& name) const
     return false;
 }
 
-Status OptionTable::set(const std::string& name, const std::string& text)
+Status OptionTable::set_all(const std::string& name, const std::vector<std::string>& texts)
 {
     Option* option = find(name);
     if (!option)
         return usage_error(name, "is no option");
     option->given = true;
-    return option->value.set(option->name, {text});
+    return option->value.set(option->name, texts);
 }
 
 Status OptionTable::check_needs() const

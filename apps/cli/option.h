@@ -67,8 +67,9 @@ class OptionTable {
     Option* find(const std::string& name); // "--size" or "size"; null if unknown
     bool given(const std::string& name) const;
     // Reads `text` into the option's target, as the command line does.
-    Status set(const std::string& name, const std::string& text);
-    Status check_needs() const; // fails if a given option needs another option's value
+    Status set(const std::string& name, const std::string& text) { return set_all(name, {text}); }
+    Status set_all(const std::string& name, const std::vector<std::string>& texts); // of an option that was given several times
+    Status check_needs() const;                                                     // fails if a given option needs another option's value
 
   private:
     std::vector<Option> options_;

@@ -16,6 +16,7 @@
 #include "core/scene/scene.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/session/floor.h"
+#include "raster/session/shadows.h"
 #include "raster/tile/tile_renderer.h"
 #include "raster/vulkan/vulkan_renderer.h"
 #include "shading/bake/environment/environment.h"
@@ -23,7 +24,6 @@
 
 namespace burnish {
 
-enum class Shadows { off, ratio, on };                        // ratio: of area lights; on: of punctual and extracted lights too
 enum class FloorChoice { off, shadow, stage, mirror, usual }; // usual: as floor_of() says
 
 struct RenderOptions {

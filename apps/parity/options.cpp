@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
 
 #include "apps/cli/outputs.h"
 #include "apps/cli/parse.h"
@@ -78,6 +79,7 @@ Status set_words(const std::string& words, OptionTable& table)
 {
     std::vector<std::string> parts = split(words, ' ');
     parts.erase(std::remove(parts.begin(), parts.end(), ""), parts.end());
+    std::map<std::string, std::vector<std::string>> given;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Option* option = table.find(parts[i]);
         if (!option || parts[i] != option->name || !changes_look(*option))
@@ -85,10 +87,11 @@ Status set_words(const std::string& words, OptionTable& table)
         const bool takes = option->takes_value();
         if (takes && i + 1 == parts.size())
             return usage_error("--also", fmt::format("{} needs a value", parts[i]));
-        if (const Status set = table.set(parts[i], takes ? parts[i + 1] : ""); !set)
-            return set;
+        given[parts[i]].push_back(takes ? parts[i + 1] : "");
         i += takes;
     }
+    for (const auto& [name, texts] : given)
+        BN_TRY(table.set_all(name, texts));
     return parts.empty() ? usage_error("--also", "needs options such as '--tilt 20,-10'") : table.check_needs();
 }
 

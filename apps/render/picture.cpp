@@ -10,12 +10,11 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/options/scene_with_view.h"
-#include "apps/render/mirror.h"
-#include "apps/render/shadows.h"
 #include "core/base/check.h"
 #include "core/image/image.h"
 #include "core/image/io/image_io.h"
 #include "raster/frame/upload.h"
+#include "raster/session/mirror.h"
 #include "raster/tile/twins.h"
 #include "shading/bake/tables/phong_files.h"
 #include "shading/lang/records.h"
@@ -196,7 +195,8 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     BN_TRY(ask_for_layers(options.aov, desc));
     if (options.show == Shown::lod && session.parts().scene->scene.textures.empty())
         return usage_error("--show", fmt::format("lod: nothing in {} has a texture", options.scene));
-    const bool shadows = casts_shadows(options, desc, session);
+    const ShadowSettings shadow_settings{options.shadows, options.shadow_samples, options.isa, options.quiet};
+    const bool shadows = casts_shadows(shadow_settings, desc, session);
     const bool mirrors = options.floor == FloorChoice::mirror && options.backend != "reference";
     desc.triangle_ids = desc.triangle_ids || mirrors;
     desc.layers = desc.layers || shadows || options.show != Shown::light;
@@ -224,11 +224,11 @@ Result<Rendered> render_frames(const RenderOptions& options, FrameDesc desc, Ses
     }
     // Add shadows, reflections, false colours and risks
     if (shadows) {
-        BN_TRY(add_shadows(options, desc, session, last));
+        BN_TRY(add_shadows(shadow_settings, desc, session, last));
         figures.hash = pixel_hash(last.color);
     }
     if (mirrors) {
-        BN_TRY(add_reflection(options, desc, session, last));
+        BN_TRY(add_reflection(shadow_settings, desc, session, last));
         figures.hash = pixel_hash(last.color);
     }
     if (options.show != Shown::light)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -160,6 +161,18 @@ Result<Json> request_json(const std::string& text)
     return json.is_discarded() ? Result<Json>(usage_error("request", "is no JSON")) : Result<Json>(std::move(json));
 }
 
+// Returns the words of area lights, which ';' separates.
+std::vector<std::string> lights_of(const std::string& text)
+{
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(';', begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
+}
+
 Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
 {
     if (!json.is_object())
@@ -187,7 +200,8 @@ Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists)
                 return usage_error(name, "cannot be set by a page");
             if (name == "--light" && value.get<std::string>().find("texture=") != std::string::npos)
                 return usage_error(name, "texture= names a file, which a page cannot do");
-            request.options.emplace_back(name, value.get<std::string>());
+            for (std::string& word : name == "--light" ? lights_of(value.get<std::string>()) : std::vector{value.get<std::string>()})
+                request.options.emplace_back(name, std::move(word));
         }
     for (const auto& [name, to, low, high] : {std::tuple{"width", &request.width, 1, kMostSide},
                                               {"height", &request.height, 1, kMostSide},
@@ -224,8 +238,9 @@ Json served_options(const OptionTable& table)
         if (is_served(option)) {
             Json row = {{"name", option.name},
                         {"group", option.group},
-                        {"help", option.name == "--light" ? "One area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9"
-                                                          : option.meaning()},
+                        {"help", option.name == "--light"
+                                     ? "Area lights, with ; between, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9"
+                                     : option.meaning()},
                         {"kind", kKinds[static_cast<std::size_t>(option.value.kind)]},
                         {"value", option.value_name},
                         {"names", option.value.names},
@@ -247,8 +262,11 @@ Result<RenderOptions> render_options_of(const DrawRequest& request, const Limits
         BN_TRY(set("--env", request.environment));
     BN_TRY(set("--size",
                fmt::format("{}x{}", std::max(1, request.width / request.reduction), std::max(1, request.height / request.reduction))));
+    std::map<std::string, std::vector<std::string>> given;
     for (const auto& [name, text] : drawn_options(request))
-        BN_TRY(set(name, text));
+        given[name].push_back(text);
+    for (const auto& [name, texts] : given)
+        BN_TRY(table.set_all(name, texts));
     if (request.reference_samples > 0) {
         BN_TRY(set("--backend", "reference"));
         BN_TRY(set("--samples", std::to_string(request.reference_samples)));

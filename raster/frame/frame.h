@@ -64,6 +64,7 @@ struct FrameDesc {
     // Techniques and samples of the scene's materials, by index, in place of the two fields above; empty: those for all. A technique that
     // reads the box-filtered environment cannot be one of them.
     std::vector<MaterialTechnique> by_material;
+    // Options of techniques (shading/models.def). raster/frame/choices.h names the numbers of fields that choose.
 #define BN_DESC_number(id, fallback) float id = static_cast<float>(fallback);
 #define BN_DESC_whole(id, fallback) std::uint32_t id = fallback;
 #define BN_DESC_flag(id, fallback) bool id = (fallback) != 0;

@@ -7,5 +7,8 @@
 #include "core/scene/add_mesh.h"
 #include "core/scene/builtin/builtin.h"
 #include "core/scene/gltf/gltf.h"
+#include "raster/frame/choices.h"
 #include "raster/frame/layers.h"
+#include "raster/session/mirror.h"
 #include "raster/session/session.h"
+#include "raster/session/shadows.h"

@@ -10,6 +10,7 @@
 #include "core/scene/area_light.h"
 #include "raster/frame/layers.h"
 #include "raster/session/c_calls.h"
+#include "raster/session/mirror.h"
 #include "raster/session/told.h"
 
 namespace burnish {
@@ -66,7 +67,7 @@ Status finish_open(const burnish_options* options, const CSettings& settings, st
     parts.environment = *loaded;
     Result<Session> session = Session::make(std::move(parts));
     BN_TRY(session);
-    *out = new burnish_session{std::move(*session)};
+    *out = new burnish_session{std::move(*session), settings.floor.kind == FloorKind::mirror};
     return {};
 }
 
@@ -109,6 +110,19 @@ Result<FrameDesc> desc_of(const CSettings& settings, const Session& session)
     desc.view = *view;
     BN_TRY(ask_for_layers(settings.layers, desc));
     return desc;
+}
+
+// Draws a frame with the shadows and the reflection that were asked for.
+Result<Frame> draw(const ShadowSettings& shadows, FrameDesc desc, burnish_session& of)
+{
+    const bool shaded = casts_shadows(shadows, desc, of.session);
+    desc.layers = desc.layers || shaded, desc.triangle_ids = desc.triangle_ids || of.mirrors;
+    Result<Frame> frame = of.session.render(desc);
+    if (frame && shaded)
+        BN_TRY(add_shadows(shadows, desc, of.session, *frame));
+    if (frame && of.mirrors)
+        BN_TRY(add_reflection(shadows, desc, of.session, *frame));
+    return frame;
 }
 
 std::function<int(const char*, double)> teller(const burnish_options* options)
@@ -330,7 +344,7 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
         BN_TRY(settings);
         const Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
-        Result<Frame> frame = run_told(teller(options), [&] { return session->session.render(*desc); });
+        Result<Frame> frame = run_told(teller(options), [&] { return draw(settings->shadows, *desc, *session); });
         BN_TRY(frame);
         return make_frame(std::move(*frame), settings->layers, session->session.tables(), out);
     });
@@ -343,6 +357,8 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return usage(session ? "out" : "session", "is NULL");
         Result<CSettings> settings = settings_of(options, BURNISH_REFERENCE);
         BN_TRY(settings);
+        if (session->mirrors && settings->reference.mode == ReferenceMode::direct)
+            return usage("reference_mode", "direct: the reference reflects on a mirror floor in mode path alone");
         if (settings->samples)
             settings->reference.samples = static_cast<std::uint64_t>(*settings->samples);
         settings->desc.technique = "mc", settings->desc.samples = 1;

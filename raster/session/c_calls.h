@@ -13,6 +13,7 @@
 
 struct burnish_session {
     burnish::Session session;
+    bool mirrors = false; // on its floor
 };
 
 struct burnish_frame {

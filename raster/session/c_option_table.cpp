@@ -209,6 +209,10 @@ std::vector<Row> picture_rows()
               to.camera = text;
               return {};
           }}},
+        {"shadows", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)", "off",
+         BURNISH_RENDER, name({"off", "ratio", "on"}, [](CSettings& to, std::size_t i) { to.shadows.of = static_cast<Shadows>(i); })},
+        {"shadow_samples", "Samples a pixel for shadows, in steps of 16", "16", BURNISH_RENDER,
+         whole(1, 1 << 20, [](CSettings& to) -> int& { return to.shadows.samples; })},
         {"layers", "Layers of the picture, with commas between: depth, normal, albedo, ...", "", BURNISH_RENDER, layer_names()},
         {"aov", "Another name of layers", "", BURNISH_RENDER, layer_names()},
     };
@@ -241,8 +245,8 @@ std::vector<Row> scene_rows()
 {
     return {
         {"threads", "Worker threads; 0: all cores", "0", kLoads, whole(0, 1024, [](CSettings& to) -> int& { return to.open.threads; })},
-        {"floor", "Floor below the scene: off, shadow or stage", "off", BURNISH_OPEN,
-         name({"off", "shadow", "stage"}, [](CSettings& to, std::size_t i) { to.floor.kind = static_cast<FloorKind>(i); })},
+        {"floor", "Floor below the scene: off, shadow, stage or mirror", "off", BURNISH_OPEN,
+         name({"off", "shadow", "stage", "mirror"}, [](CSettings& to, std::size_t i) { to.floor.kind = static_cast<FloorKind>(i); })},
         {"light", "Area lights in the words that the program takes, several with ';' between", "", kLoads, area_lights()},
         {"time", "Time in the scene's animation, seconds; unset: the scene at rest", "", BURNISH_OPEN,
          number(0, 1e6, [](CSettings& to) -> float& { return to.moment.seconds.emplace(); })},

@@ -8,6 +8,7 @@
 
 #include "raster/session/burnish.h"
 #include "raster/session/session.h"
+#include "raster/session/shadows.h"
 
 struct burnish_options {
     std::map<std::string, std::string> values; // by name, with '_'
@@ -27,6 +28,7 @@ struct CSettings {
     std::vector<AreaLight> lights;
     MipSettings mips;
     FrameDesc desc;
+    ShadowSettings shadows;
     std::optional<int> samples;
     ReferenceOptions reference;
     std::optional<glm::vec3> eye, target;

@@ -117,6 +117,8 @@ def commands(bench):
         check(f"\n{code}warning::hello.png FLIP 0." in "\n" + done.out, done.describe())
         piped = bench.run("compare", "expected", "actual", "--csv", "-", env=env).expect(4)
         check(piped.out.count("::warning::hello.png") == 3 and not any(line.strip().startswith("::") for line in piped.out.splitlines()), piped.describe())
+        listed = bench.run("compare", "expected", "actual", "--json", "-", env=env).expect(4)
+        check("##[" not in listed.out and "##[error]c.png" in str(json.loads(listed.out)), listed.describe())
         for line in (done.out + done.err).splitlines() if env else ():
             check(not line.strip().startswith("::") and "##[" not in line, done.describe())
 

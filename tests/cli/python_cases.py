@@ -57,6 +57,24 @@ print(burnish.load('builtin:sphere', {KEYWORDS}).render({FRAME}, eye=(1, 0.5, 1)
         check(done.stdout.split() == [pot, ball], f"{program}: {done.stdout} {pot} {ball}")
 
 
+@case("python.shadows_and_mirrors_are_the_program_s", budget=20)
+def shadows(bench):
+    words = ("builtin:lights", *SMALL[:-1])
+    shaded = hash_of(bench, *words, "off", "--shadows", "ratio", "--shadow-samples", "32")
+    mirrored = hash_of(bench, *words, "mirror")
+    both = hash_of(bench, *words, "mirror", "--shadows", "on")
+    check(len({shaded, mirrored, both, hash_of(bench, *words, "off")}) == 4, "pictures that should differ")
+    done = python(bench, f"""
+print(burnish.load('builtin:lights', {KEYWORDS}).render({FRAME}, shadows='ratio', shadow_samples=32).hash)
+mirror = burnish.load('builtin:lights', {KEYWORDS}, floor='mirror')
+print(mirror.render({FRAME}).hash, mirror.render({FRAME}, shadows='on').hash)
+try: mirror.reference(16, {FRAME})
+except burnish.Error as error: assert 'path' in str(error) or error.code == 77, error
+else: raise SystemExit('a reference without the reflection')
+""")
+    check(done.stdout.split() == [shaded, mirrored, both], f"{done.stdout} {shaded} {mirrored} {both}")
+
+
 @case("python.pixels_are_buffers", budget=10)
 def buffers(bench):
     for program in pythons():

@@ -65,7 +65,7 @@ for name, values in {choices}.items():
     try: scene.render(**tiny, **{{name: 'none such'}})
     except burnish.Error as error: assert name in str(error), error
     else: raise SystemExit(name)
-for floor in ('shadow', 'stage'): load(floor=floor)
+for floor in ('shadow', 'stage', 'mirror'): load(floor=floor)
 for name in ('auto', *burnish.techniques()): scene.render(**tiny, technique=name)
 try: scene.render(widht=None)
 except burnish.Error as error: assert 'widht' in str(error)

@@ -25,7 +25,7 @@ LACKING = {
     "the program prints or writes: a script does so itself": "quiet verbose stats trace count-operations variance frames",
     "the program draws many pictures: a script loops": "animate steps turntable fps",
     "a script chooses by comparisons": "budget budget-ms plan plan-out verify",
-    "parts of the program beyond the library draw it": "shadows shadow-samples show risks resolve",
+    "parts of the program beyond the library draw it": "show risks resolve",
     "the picture does not change": "tile-size isa",
     "the library draws by the tile renderer and the reference alone": "backend device sampler pipeline validate",
     "maps come with a scene's file": "material normal-map quaternion-map height-map normal-y direction-map rotation-map rotation-encoding strokes "
@@ -85,7 +85,7 @@ _native.call('burnish_options_make', ctypes.byref(options))
 def put(name, value): _native.call('burnish_options_set', options, name.encode(), value.encode())
 for name, value in (('width', '-5'), ('width', '16385'), ('msaa', '99'), ('technique', 'none'), ('roughness', '1.5'), ('anisotropy', '-2'), ('env_size', '100'),
                     ('env_exposure', '1e9'), ('env_rotation', 'nan'), ('fov', '190'), ('zoom', '0'), ('eye', '1,2'), ('f0', '0,0,2'), ('time', '-1'), ('layers', 'none'),
-                    ('aov', 'depth,depth'), ('key_lights', '9'), ('mip_filter', 'none'), ('mip_kappa', '5'), ('floor', 'mirror'), ('axis_k', '0'), ('brdf', 'none'),
+                    ('aov', 'depth,depth'), ('key_lights', '9'), ('mip_filter', 'none'), ('mip_kappa', '5'), ('floor', 'lake'), ('shadows', 'yes'), ('shadow_samples', '0'), ('axis_k', '0'), ('brdf', 'none'),
                     ('metallic', '2'), ('base_color', '1,1,1'), ('intensity', '-1'), ('samples', '0'), ('camera', '-1'), ('target_error', '0')):
     refused(name + ': ', lambda: put(name, value))
 for name, value in (('range', '0'), ('roughness', '1'), ('key_lights', 'off'), ('tilt', '80,-80'), ('camera', 'front')): put(name, value)

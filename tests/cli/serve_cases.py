@@ -241,6 +241,10 @@ def saves(bench):
         bench.run("render", "builtin:plate", "--size", "32x16", "-q", "-o", "models/sky.pfm").expect(0)
         check(listed() == 2 and "sky.pfm" in json.loads(served.ask("/lists")[2])["environments"], "a new environment was not seen")
         secret = {"light": "sphere:points=0,1,0:radius=0.1:radiance=9,9,9:texture=/etc/passwd"}
+        two = {"light": "sphere:points=0,1,0:radius=0.1:radiance=9,9,9;sphere:points=1,1,0:radius=0.1:radiance=0,9,0"}
+        drawn = json.loads(served.ask("/draw", wish("lamp.glb", **two))[1]["X-Burnish"])
+        check(drawn["command"].count("--light") == 2, f"not two lights: {drawn}")
+        check(drawn["hash"] == hash_of_command(bench, drawn["command"]), f"two lights draw another picture than their command: {drawn}")
         status, _, answer = served.ask("/draw", wish("lamp.glb", **secret))
         check(status == 400 and b"names a file" in answer, f"a page names a file: {answer}")
         check(json.loads(served.ask("/lists")[2])["scenes"][:2] == ["another.glb", "lamp.glb"], "the new model is not listed")

@@ -114,6 +114,8 @@ class Scene:
         fov: float | None = None,
         zoom: float = 1.0,
         camera: int | str | None = None,
+        shadows: Literal["off", "ratio", "on"] = "off",
+        shadow_samples: int = 16,
         layers: Sequence[Layer] = (),
         aov: Sequence[Layer] = (),
         axis_k: float = 1.0,
@@ -157,6 +159,8 @@ class Scene:
         fov: Vertical field of view in degrees; unset: the camera's, else 45.
         zoom: Magnification: shows the scene so many times as large.
         camera: Camera of the scene, by index or name; unset: the first, else the whole scene is shown.
+        shadows: Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too).
+        shadow_samples: Samples a pixel for shadows, in steps of 16.
         layers: Layers of the picture, with commas between: depth, normal, albedo.
         aov: Another name of layers.
         axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
@@ -473,7 +477,7 @@ def load(
     progress: Progress | None = None,
     *,
     threads: int = 0,
-    floor: Literal["off", "shadow", "stage"] = "off",
+    floor: Literal["off", "shadow", "stage", "mirror"] = "off",
     light: str | Sequence[str] = (),
     time: float | None = None,
     animation: int = 0,
@@ -498,7 +502,7 @@ def load(
     progress: Called with the work's name and the share of its current step that is done, -1 where unknown, about ten times a
         second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then.
     threads: Worker threads; 0: all cores.
-    floor: Floor below the scene: off, shadow or stage.
+    floor: Floor below the scene: off, shadow, stage or mirror.
     light: Area lights in the words that the program takes, several with ';' between.
     time: Time in the scene's animation, seconds; unset: the scene at rest.
     animation: Animation that time refers to, by index.

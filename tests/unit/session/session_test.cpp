@@ -3,10 +3,12 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <thread>
+#include <tuple>
 
 #include "core/base/check.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
+#include "raster/frame/choices.h"
 #include "raster/frame/pyramids.h"
 #include "raster/session/session.h"
 #include "tests/unit/data.h"
@@ -170,6 +172,55 @@ TEST(session, says_what_is_wrong)
     const Result<Frame> frame = session->render(wrong);
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ExitCode::usage);
+}
+
+TEST(session, numbers_of_choices_have_the_names_of_options)
+{
+    const std::vector<std::tuple<std::string, std::string, int>> named = {
+        {"brdf", "ggx-aniso", choice::brdf::ggx_aniso},
+        {"brdf", "beckmann", choice::brdf::beckmann},
+        {"brdf", "ashikhmin-shirley", choice::brdf::ashikhmin_shirley},
+        {"area-lights", "off", choice::area_way::off},
+        {"area-lights", "ltc", choice::area_way::ltc},
+        {"area-lights", "ltc-clipless", choice::area_way::ltc_clipless},
+        {"area-lights", "mc", choice::area_way::mc},
+        {"area-lights", "ltc-isotropic", choice::area_way::ltc_isotropic},
+        {"diffuse", "lambert", choice::diffuse_model::lambert},
+        {"diffuse", "ashikhmin-shirley", choice::diffuse_model::ashikhmin_shirley},
+        {"masking", "correlated", choice::masking::correlated},
+        {"masking", "separable", choice::masking::separable},
+        {"dfg", "table", choice::dfg_fit::table},
+        {"dfg", "fit", choice::dfg_fit::fit},
+        {"fresnel", "schlick", choice::fresnel::schlick},
+        {"fresnel", "conductor", choice::fresnel::conductor},
+        {"fresnel", "dielectric", choice::fresnel::dielectric},
+        {"frame-map", "gram-schmidt", choice::frame_map::gram_schmidt},
+        {"frame-map", "quaternion", choice::frame_map::quaternion},
+        {"frame-map", "normal-only", choice::frame_map::normal_only},
+        {"frame-map", "off", choice::frame_map::off},
+        {"pom-metric", "uv", choice::pom_metric::uv},
+        {"pom-metric", "surface", choice::pom_metric::surface},
+        {"horizon", "off", choice::horizon::off},
+        {"horizon", "on", choice::horizon::on},
+        {"as-tables", "on", choice::as_tables::on},
+        {"as-tables", "off", choice::as_tables::off},
+        {"glass", "interface", choice::glass::interface},
+        {"glass", "body", choice::glass::body},
+    };
+    for (const ParameterInfo& p : parameters()) {
+        const std::vector<std::string> names = choices_of(p);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto at = std::find_if(named.begin(), named.end(),
+                                         [&](const auto& n) { return std::get<0>(n) == p.option && std::get<1>(n) == names[i]; });
+            if (std::string(p.option) == "brdf" && at == named.end())
+                continue; // made from the same lines as the names
+            ASSERT_NE(at, named.end()) << p.option << " " << names[i];
+            EXPECT_EQ(std::get<2>(*at), static_cast<int>(i)) << p.option << " " << names[i];
+            FrameDesc desc;
+            ASSERT_TRUE(set_parameter(desc, p.option, names[i]));
+            EXPECT_EQ(desc.*p.choice, std::get<2>(*at)) << p.option << " " << names[i];
+        }
+    }
 }
 
 TEST(session, options_of_techniques_go_by_name)

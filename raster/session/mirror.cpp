@@ -1,9 +1,9 @@
-#include "apps/render/mirror.h"
+#include "raster/session/mirror.h"
 
 #include <algorithm>
 #include <glm/glm.hpp>
 
-#include "apps/render/shadows.h"
+#include "raster/session/session.h"
 
 namespace burnish {
 namespace {
@@ -53,7 +53,7 @@ struct FloorMirror {
 
 } // namespace
 
-Status add_reflection(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
+Status add_reflection(const ShadowSettings& shadows, const FrameDesc& desc, Session& session, Frame& lit)
 {
     const std::vector<Draw>& draws = session.tables().draws;
     const auto floor = std::find_if(draws.begin(), draws.end(), [](const Draw& draw) { return draw.stage; });
@@ -62,12 +62,12 @@ Status add_reflection(const RenderOptions& options, const FrameDesc& desc, Sessi
     FrameDesc plain = desc;
     plain.layers = plain.parts = plain.triangle_ids = plain.stages = plain.profile = false;
     plain.view = mirrored(desc.view, floor->bounds_max.y);
-    const bool shadows = casts_shadows(options, plain, session);
-    plain.layers = shadows;
+    const bool shaded = casts_shadows(shadows, plain, session);
+    plain.layers = shaded;
     Result<Frame> below = session.render(plain);
     BN_TRY(below);
-    if (shadows)
-        BN_TRY(add_shadows(options, plain, session, *below));
+    if (shaded)
+        BN_TRY(add_shadows(shadows, plain, session, *below));
     const FloorMirror mirror{desc, *floor, *below};
     const auto msaa = static_cast<std::size_t>(desc.msaa);
     // Returns the share of a pixel's sample that shows the floor.

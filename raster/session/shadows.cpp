@@ -1,9 +1,11 @@
-#include "apps/render/shadows.h"
+#include "raster/session/shadows.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "core/jobs/jobs.h"
 #include "raster/frame/shadow_ratio.h"
+#include "raster/session/session.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
@@ -11,26 +13,26 @@ namespace {
 
 enum class Lights { area, lamps }; // lamps: punctual and extracted lights
 
-bool shade(Lights kind, const RenderOptions& options, const FrameDesc& desc, const Session& session)
+bool shade(Lights kind, const ShadowSettings& settings, const FrameDesc& desc, const Session& session)
 {
     if (kind == Lights::area)
-        return options.shadows != Shadows::off && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
-    return options.shadows == Shadows::on && (!session.tables().lights.empty() || !session.parts().environment->extracted_lights.empty());
+        return settings.of != Shadows::off && desc.area_way != kAreaWay_off && !session.tables().area_lights.empty();
+    return settings.of == Shadows::on && (!session.tables().lights.empty() || !session.parts().environment->extracted_lights.empty());
 }
 
 // Traces the light of one kind, with and without occluders, and returns the ratio.
-Result<Image> traced_ratio(Lights kind, const RenderOptions& options, const FrameDesc& desc, const Session& session, const Frame& lit)
+Result<Image> traced_ratio(Lights kind, const ShadowSettings& settings, const FrameDesc& desc, const Session& session, const Frame& lit)
 {
     Image light[2];
     for (const bool open : {false, true}) {
         const TraceSpan span(open ? "lights without shadows" : "lights with shadows");
         SessionOptions rays;
-        rays.backend = Backend::reference, rays.isa = options.isa;
+        rays.backend = Backend::reference, rays.isa = settings.isa;
         rays.reference.mode = open ? ReferenceMode::direct : ReferenceMode::shadowed;
         rays.reference.own_rays = true, rays.reference.shades = 1;
-        rays.reference.samples = static_cast<std::uint64_t>(options.shadow_samples);
+        rays.reference.samples = static_cast<std::uint64_t>(settings.samples);
         (kind == Lights::area ? rays.reference.area_lights_only : rays.reference.lamps_only) = true;
-        rays.reference.quiet = options.quiet;
+        rays.reference.quiet = settings.quiet;
         Result<Session> traced = Session::make(session.parts(), rays);
         BN_TRY(traced);
         Result<Frame> frame = traced->render(desc);
@@ -43,21 +45,21 @@ Result<Image> traced_ratio(Lights kind, const RenderOptions& options, const Fram
 
 } // namespace
 
-bool casts_shadows(const RenderOptions& options, const FrameDesc& desc, const Session& session)
+bool casts_shadows(const ShadowSettings& settings, const FrameDesc& desc, const Session& session)
 {
-    return shade(Lights::area, options, desc, session) || shade(Lights::lamps, options, desc, session);
+    return shade(Lights::area, settings, desc, session) || shade(Lights::lamps, settings, desc, session);
 }
 
-Status add_shadows(const RenderOptions& options, const FrameDesc& desc, Session& session, Frame& lit)
+Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit)
 {
     FrameDesc plain = desc; // only the colour is needed
     plain.layers = plain.triangle_ids = plain.parts = false;
     const Image open = lit.color;
     const std::vector<PixelPart> open_parts = lit.parts;
     for (const Lights kind : {Lights::area, Lights::lamps}) {
-        if (!shade(kind, options, desc, session))
+        if (!shade(kind, settings, desc, session))
             continue;
-        const Result<Image> ratio = traced_ratio(kind, options, plain, session, lit);
+        const Result<Image> ratio = traced_ratio(kind, settings, plain, session, lit);
         BN_TRY(ratio);
         FrameDesc without = plain;
         without.parts = desc.parts;
