@@ -312,7 +312,7 @@ def wrong_options(bench):
                               (("--also", "--env builtin:sky"), "--also"), (("--also", "--tilt"), "--also"), (("--also", " "), "--also"),
                               (("--also", "--size=8x8"), "--also"), (("--also", "--technique mc --masking none"), "--masking"),
                               (("--also", "--technique bent_normal --brdf beckmann"), "--technique"),
-                              (("--also", " ".join(["--light sphere:points=0,1,0:radius=0.1"] * 257)), "257 are given"),
+                              (("--also", " ".join(["--light sphere:points=0,1,0:radius=0.1:radiance=9,9,9"] * 257)), "257 are given"),
                               (("--pipeline", "backward"), "--pipeline"), (("--sampler", "native"), "--sampler"), (("--msaa", "1,"), "--msaa")):
         done = bench.run("parity", *arguments)
         if done.code == 77:
