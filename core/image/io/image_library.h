@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,9 @@ struct ImageLibrary {
     Status (*read)(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
     // Encodes a file. `format` is the library's name: openexr or hdr for float pixels, jpeg for 8-bit pixels. `path`
     // names the file in errors, which have ExitCode::output_failed. `channels` holds names; empty selects the default
-    // names for the channel count.
+    // names for the channel count. A request to stop makes an error.
     Result<std::vector<std::uint8_t>> (*encode)(const std::string& path, const Image& image, const char* format,
-                                                const std::vector<std::string>& channels);
+                                                const std::vector<std::string>& channels, const std::stop_token& stop);
     // Encodes OpenEXR mip levels as half floats in 64-pixel tiles. Each side is half the previous level's, rounded
     // down, at least 1.
     Result<std::vector<std::uint8_t>> (*encode_levels)(const std::string& path, const std::vector<Image>& levels);

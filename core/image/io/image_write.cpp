@@ -12,6 +12,7 @@
 #include "core/image/io/image_library.h"
 #include "core/image/io/plain_formats.h"
 #include "core/image/io/png_write.h"
+#include "core/jobs/control.h"
 
 namespace burnish {
 namespace {
@@ -92,8 +93,17 @@ void clamp_to_rgbe(Image& image)
         values[i] = values[i] > 0.0f ? std::min(values[i], kRgbeMax) : 0.0f;
 }
 
+Result<Bytes> encode_by_library(const ImageLibrary& library, const std::string& path, const Image& image, const char* format,
+                                const std::vector<std::string>& channels)
+{
+    Result<Bytes> bytes = library.encode(path, image, format, channels, stop_here());
+    check_stop(); // in place of an error that says so
+    return bytes;
+}
+
 Result<Bytes> encode_image(const std::string& path, const Image& image, const Format& format)
 {
+    check_stop();
     Image fitted = fit_channels(image, format);
     if (std::strcmp(format.name, "pfm") == 0)
         return encode_pfm(fitted);
@@ -105,7 +115,7 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
         clamp_to_rgbe(fitted);
     const Result<const ImageLibrary*> library = image_library(path);
     BN_TRY(library);
-    return (*library)->encode(path, fitted, format.name, {});
+    return encode_by_library(**library, path, fitted, format.name, {});
 }
 
 } // namespace
@@ -149,7 +159,7 @@ Status write_channels(const std::string& path, const Image& image, const std::ve
     try {
         const Result<const ImageLibrary*> library = image_library(path);
         BN_TRY(library);
-        const Result<Bytes> bytes = (*library)->encode(path, image, format_of(path).name, names);
+        const Result<Bytes> bytes = encode_by_library(**library, path, image, format_of(path).name, names);
         BN_TRY(bytes);
         return write_file_atomic(path, bytes->data(), bytes->size());
     } catch (...) {

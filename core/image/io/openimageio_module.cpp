@@ -186,7 +186,14 @@ bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_byt
     return true;
 }
 
-Result<Bytes> encode(const std::string& path, const Image& image, const char* format, const std::vector<std::string>& channels)
+// Ends the library's writing where its argument, a stop token, says so.
+bool ends(void* stop, float)
+{
+    return static_cast<const std::stop_token*>(stop)->stop_requested();
+}
+
+Result<Bytes> encode(const std::string& path, const Image& image, const char* format, const std::vector<std::string>& channels,
+                     const std::stop_token& stop)
 {
     const auto error = [&](const char* what, const std::string& message) {
         return Error{ExitCode::output_failed, path, "", fmt::format("{}: {}", what, first_line(message))};
@@ -201,8 +208,13 @@ Result<Bytes> encode(const std::string& path, const Image& image, const char* fo
     output->threads(kThreads);
     OIIO::ImageSpec spec = spec_of(image, format, channels);
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    if (!output->open(path, spec) || !output->write_image(spec.format, image.bytes.data()) || !output->close())
+    std::stop_token ended = stop;
+    if (!output->open(path, spec) ||
+        !output->write_image(spec.format, image.bytes.data(), OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, ends, &ended) ||
+        !output->close())
         return error("the image cannot be encoded", output->geterror());
+    if (stop.stop_requested())
+        return error("the image cannot be encoded", "stopped");
     if (std::strcmp(format, "openexr") == 0 && !has_all_chunks(bytes, (static_cast<std::size_t>(image.height) + 15) / 16, 4))
         return error("the image cannot be encoded", "not all rows were written");
     return bytes;

@@ -6,8 +6,10 @@
 #include <csetjmp>
 #include <cstring>
 #include <new>
+#include <stop_token>
 
 #include "core/base/check.h"
+#include "core/jobs/control.h"
 
 namespace burnish {
 namespace {
@@ -20,6 +22,7 @@ constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, 
 struct Output {
     std::vector<std::uint8_t> bytes;
     char message[128] = "";
+    std::stop_token stop = stop_here();
 };
 
 void append(png_structp png, png_bytep data, png_size_t size)
@@ -62,8 +65,11 @@ bool write(png_structp png, png_infop info, const Image& image, Output& output)
     png_write_info(png, info);
     const png_const_bytep pixels = reinterpret_cast<png_const_bytep>(image.bytes.data());
     const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
+    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
+        if (output.stop.stop_requested())
+            png_error(png, "stopped");
         png_write_row(png, pixels + y * row);
+    }
     png_write_end(png, info);
     return true;
 }
@@ -78,6 +84,7 @@ Result<std::vector<std::uint8_t>> png_bytes(const std::string& path, const Image
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const bool written = info && write(png, info, image, output);
     png_destroy_write_struct(&png, &info);
+    check_stop();
     if (!written)
         return Error{ExitCode::output_failed, path, "",
                      std::string("the image cannot be encoded: ") + (*output.message ? output.message : "libpng does not start")};

@@ -1,6 +1,7 @@
 // Stop and progress of sessions.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/image/io/image_io.h"
 #include "core/image/metrics/flip.h"
 #include "core/image/metrics/metrics.h"
 #include "core/jobs/control.h"
@@ -192,6 +194,52 @@ TEST(control, belongs_to_its_thread)
         EXPECT_NO_THROW(check_stop());
     }
     EXPECT_THROW(check_stop(), Stopped);
+}
+
+// A large picture of noise: its file takes long.
+Image noise(int side, PixelType type)
+{
+    Image image = make_image(side, side, 3, type);
+    std::uint32_t state = 1;
+    for (std::size_t i = 0; i < image.bytes.size(); ++i)
+        state = state * 1664525u + 1013904223u, image.bytes[i] = static_cast<std::byte>((state >> 24) & 0x3f);
+    return image;
+}
+
+TEST(control, stops_the_writing_of_pictures)
+{
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    for (const std::string extension : {"exr", "hdr", "pfm", "png", "jpg", "tif"}) {
+        const std::string path = (folder / ("stopped_picture." + extension)).string();
+        std::filesystem::remove(path);
+        const Image picture = noise(64, stores_floats(path) ? PixelType::f32 : PixelType::u8);
+        {
+            const Controlled controlled({requested_stop(), {}});
+            const Status refused = write_image(path, picture);
+            ASSERT_FALSE(refused) << path;
+            EXPECT_EQ(refused.error().code, ExitCode::stopped) << path;
+            EXPECT_FALSE(std::filesystem::exists(path)) << path;
+        }
+        EXPECT_TRUE(write_image(path, picture)) << path;
+        std::filesystem::remove(path);
+    }
+    for (const std::string extension : {"exr", "png"}) { // within
+        const std::string path = (folder / ("stopped_picture." + extension)).string();
+        const Image picture = noise(4096, stores_floats(path) ? PixelType::f32 : PixelType::u8);
+        ASSERT_TRUE(write_image(path, noise(16, picture.type))); // loads what the format needs
+        std::filesystem::remove(path);
+        std::stop_source stop;
+        std::thread later([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(60));
+            stop.request_stop();
+        });
+        const Controlled controlled({stop.get_token(), {}});
+        const Status refused = write_image(path, picture);
+        later.join();
+        ASSERT_FALSE(refused) << path;
+        EXPECT_EQ(refused.error().code, ExitCode::stopped) << path;
+        EXPECT_FALSE(std::filesystem::exists(path)) << path;
+    }
 }
 
 } // namespace
