@@ -19,9 +19,19 @@ const std::vector<std::pair<std::string, std::string>>& field_options()
 {
     static const std::vector<std::pair<std::string, std::string>> all = [] {
         std::vector<std::pair<std::string, std::string>> fields = {
+            {"EnvironmentOptions::cube_size", "--env-size"},
+            {"EnvironmentOptions::exposure_ev", "--env-exposure"},
             {"EnvironmentOptions::extracted_lights", "--key-lights"},
+            {"EnvironmentOptions::rotation_deg", "--env-rotation"},
+            {"EnvironmentOptions::samples", "--env-samples"},
+            {"FrameDesc::anisotropy", "--anisotropy"},
+            {"FrameDesc::height", "--size"},
+            {"FrameDesc::msaa", "--msaa"},
+            {"FrameDesc::roughness", "--roughness"},
             {"FrameDesc::samples", "--samples"},
             {"FrameDesc::technique", "--technique"},
+            {"FrameDesc::texture_anisotropy", "--texture-anisotropy"},
+            {"FrameDesc::tile_size", "--tile-size"},
             {"FrameDesc::width", "--size"},
             {"Limits::accessor_bytes", "--limit-accessor-bytes"},
             {"Limits::area_lights", "--limit-lights"},
@@ -45,6 +55,7 @@ const std::vector<std::pair<std::string, std::string>>& field_options()
             {"MipSettings::net", "--mip-net"},
             {"Moment::animation", "--animation"},
             {"Moment::seconds", "--time"},
+            {"Moment::variant", "--variant"},
             {"SessionOptions::backend", "--backend"},
             {"SessionParts::scene", "SCENE"},
             {"VulkanOptions::device", "--device"},

@@ -100,6 +100,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
          number(f.anisotropy, -1.0, 1.0), ""},
         {"--time", "S", "Time in the scene's animation, {} seconds", number(to.plain.moment.seconds, 0.0, 1e6), "the scene at rest"},
         {"--animation", "N", "Animation that --time refers to, by index", integer(to.plain.moment.animation, 0, kMaxAnimations)},
+        {"--variant", "NAME", "Variant of the scene's materials (KHR_materials_variants), by name", text(to.plain.moment.variant),
+         "the meshes' own materials"},
         {"--floor", "NAME",
          "Floor below the scene, with soft contact shadows: off, shadow (fades into the environment), stage (bends up into a backdrop) or "
          "mirror (a stage that reflects the scene)",

@@ -153,7 +153,7 @@ bool changes_pictures(const Option& option, bool names)
 
 bool changes_scene(const Option& option)
 {
-    return option.group == "Materials" || option.name == "--time" || option.name == "--animation";
+    return option.group == "Materials" || option.name == "--time" || option.name == "--animation" || option.name == "--variant";
 }
 
 FloorSettings floor_of(const RenderOptions& options)

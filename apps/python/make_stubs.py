@@ -34,7 +34,7 @@ OPTIONS = {
     "reference_mode": ('Literal["direct", "shadowed", "path"]', '"direct"', TRACES), "bounces": ("int", "8", TRACES),
     "reference_textures": ('Literal["footprint", "full"]', '"footprint"', TRACES), "target_error": ("float | None", "None", TRACES),
     "threads": ("int", "0", SCENES), "floor": ('Literal["off", "shadow", "stage", "mirror"]', '"off"', LOADS), "light": ("str | Sequence[str]", "()", SCENES), "time": ("float | None", "None", LOADS),
-    "animation": ("int", "0", LOADS), "f0": ("Vector3 | None", "None", LOADS), "mip_filter": ("MipFilter", '"box"', LOADS),
+    "animation": ("int", "0", LOADS), "variant": ("str | None", "None", LOADS), "f0": ("Vector3 | None", "None", LOADS), "mip_filter": ("MipFilter", '"box"', LOADS),
     "mip_kappa": ("float", "0.7", LOADS), "mip_gain": ('Literal["off", "on"]', '"off"', LOADS),
     "fallback": ('Literal["auto", "off"]', '"auto"', LOADS), "couple": ('Literal["none", "albedo"]', '"none"', LOADS),
     "color_kernel": ('Literal["box", "kaiser"]', '"box"', LOADS), "env_size": ("Literal[16, 32, 64, 128, 256, 512, 1024, 2048]", "512", LIGHTS),

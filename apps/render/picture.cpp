@@ -38,6 +38,8 @@ void report_scene(const SceneData& data, Report& report)
                                       counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
                                       counted(data.tables.lights.size(), "light"),
                                       data.tables.area_lights.empty() ? "" : ", " + counted(data.tables.area_lights.size(), "area light")));
+    if (!scene.variants.empty())
+        report.event("variants", printable(join(scene.variants)));
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
 }

@@ -222,7 +222,7 @@ bool is_served(const Option& option)
 {
     const ValueKind kind = option.value.kind;
     const bool plain = kind == ValueKind::flag || kind == ValueKind::integer || kind == ValueKind::number || kind == ValueKind::vector ||
-                       kind == ValueKind::name || option.name == "--camera" || option.name == "--light";
+                       kind == ValueKind::name || option.name == "--camera" || option.name == "--light" || option.name == "--variant";
     const bool group = option.group == "Environment" || option.group == "Picture" || option.group == "Materials" ||
                        option.group == "Parameters of techniques";
     const bool output = option.name == "--exposure" || option.name == "--tonemap" || option.name == "--resolve" ||

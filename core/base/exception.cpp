@@ -17,7 +17,7 @@ Error error_of_exception(Error error)
         error.code = ExitCode::bad_input, error.reason = "out of memory";
         return error;
     } catch (const Stopped&) {
-        return Error{ExitCode::stopped, "", "", "stopped"};
+        return Error{ExitCode::stopped, error.file, "", "stopped"};
     } catch (const std::system_error& thrown) {
         reason = printable(first_line(thrown.what()));
         if (thrown.code() == std::errc::resource_unavailable_try_again) {

@@ -136,6 +136,8 @@ Status check_material(const Scene& scene, std::size_t i)
     for (int c = 0; c < 3; ++c)
         if (!std::isfinite(m.emissive[c] * m.emissive_strength))
             return scene_fault(at("materials", i, "emissive_strength"), "the emission overflows");
+    if (m.emitter < kNoEmitter || m.emitter > kSolidEmitter + static_cast<int>(scene.nodes.size()))
+        return scene_fault(at("materials", i, "emitter"), fmt::format("{} is no emitter", m.emitter));
     if (static_cast<int>(m.alpha_mode) >= kAlphaModes)
         return scene_fault(at("materials", i, "alpha_mode"), fmt::format("{} is no alpha mode", static_cast<int>(m.alpha_mode)));
     for (const TextureField& field : kTextureFields)
@@ -207,6 +209,9 @@ Status check_node(const Scene& scene, std::size_t i)
         return scene_fault(at("nodes", i, "local"), "holds a number that is not finite");
     if (!finite(n.world))
         return scene_fault(at("nodes", i, "world"), "the transform to world space is not finite");
+    for (int c = 0; c < 4; ++c)
+        if (!(std::fabs(n.local[c][3] - (c == 3 ? 1.0f : 0.0f)) <= 1e-6f))
+            return scene_fault(at("nodes", i, "local"), "is a projection: the last row must be 0 0 0 1");
     return {};
 }
 

@@ -140,15 +140,17 @@ struct Scene {
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
     glm::dvec3 origin{0.0};            // of places in world space; 0 but for scenes far away (core/scene/origin.h)
+    std::vector<std::string> variants; // names of its file's variants (KHR_materials_variants), which Moment::variant chooses from
     bool image_light = false;          // its file has a light of images for it (image_light.h)
     std::vector<std::string> files;    // paths of every file that was read for it
     std::vector<std::string> warnings; // one line each, in the order found
 };
 
-// Which moment of which of its animations a scene is read at; without seconds, as it rests.
+// The state that a scene is read in: a moment of one of its animations, and a variant of its materials.
 struct Moment {
-    std::optional<float> seconds; // from 0 on
+    std::optional<float> seconds; // from 0 on; empty: the scene at rest
     int animation = 0;
+    std::string variant; // a name of Scene::variants; empty: the meshes' own materials
 };
 
 void update_world(Scene& scene); // fills Node::world from Node::local and the origin

@@ -57,7 +57,11 @@ float tan_half(float fov_rad)
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height)
 {
     View view;
-    const Basis b = look_basis(target == eye ? glm::vec3(0, 0, -1) : target - eye);
+    if (target == eye) { // no direction, which check_desc() refuses
+        view.eye = eye, view.right = view.up = view.forward = glm::vec3(0.0f);
+        return view;
+    }
+    const Basis b = look_basis(target - eye);
     view.eye = eye;
     view.right = b.right;
     view.up = b.up;
@@ -70,7 +74,7 @@ View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, i
 Result<View> make_view(const Scene& scene, int camera, int width, int height)
 {
     if (camera < 0 || static_cast<std::size_t>(camera) >= scene.cameras.size())
-        return Error{ExitCode::usage, "", "",
+        return Error{ExitCode::usage, "", "/cameras/" + std::to_string(camera),
                      "camera " + std::to_string(camera) + ": the scene has " + std::to_string(scene.cameras.size())};
     const Camera& c = scene.cameras[static_cast<std::size_t>(camera)];
     glm::mat4 world(1.0f);
@@ -186,9 +190,10 @@ Status check_view(const View& v)
     const auto usage = [](const char* field, const char* reason) {
         return Error{ExitCode::usage, "", std::string("/view/") + field, reason};
     };
-    const auto finite = [](const glm::vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); };
-    if (!finite(v.eye))
-        return usage("eye", "the camera's place is not finite");
+    constexpr float kFarthest = 1e18f; // whose square is a float
+    for (int c = 0; c < 3; ++c)
+        if (!(std::fabs(v.eye[c]) <= kFarthest))
+            return usage("eye", "the camera's place lies beyond 1e18 m or is not finite");
     constexpr float kOff = 1e-3f; // tolerance, above rounding errors
     for (const auto& [axis, name] : {std::pair(v.right, "right"), std::pair(v.up, "up"), std::pair(v.forward, "forward")})
         if (!(std::fabs(glm::dot(axis, axis) - 1.0f) <= kOff))
@@ -197,8 +202,8 @@ Status check_view(const View& v)
           std::fabs(glm::dot(v.forward, v.right)) <= kOff))
         return usage("forward", "the camera's axes are not at right angles");
     for (const auto& [half, name] : {std::pair(v.tan_half_x, "tan_half_x"), std::pair(v.tan_half_y, "tan_half_y")})
-        if (!std::isfinite(half) || half == 0.0f)
-            return usage(name, "the camera sees an angle that is 0 or not finite");
+        if (!std::isfinite(half) || half == 0.0f || (half < 0.0f && !v.orthographic))
+            return usage(name, "the camera's angle must lie between 0 and 180 degrees");
     if (!std::isfinite(v.znear) || (!v.orthographic && !(v.znear > 0.0f)))
         return usage("znear", "the near plane must lie in front of the camera");
     if (v.orthographic && (!std::isfinite(v.zfar) || !(v.zfar > v.znear)))
@@ -230,30 +235,33 @@ Status check_by_material(const FrameDesc& d)
 
 Status check_desc(const FrameDesc& d)
 {
-    const auto usage = [](std::string reason) { return Error{ExitCode::usage, "", "", std::move(reason)}; };
-    if (d.width < 1 || d.height < 1 || d.width > kMaxPictureSide || d.height > kMaxPictureSide)
-        return usage("the image's sides must lie in 1..16384 pixels");
+    const auto usage = [](const std::string& field, std::string reason) {
+        return Error{ExitCode::usage, "", "", std::move(reason), "FrameDesc::" + field};
+    };
+    for (const auto& [side, name] : {std::pair(d.width, "width"), std::pair(d.height, "height")})
+        if (side < 1 || side > kMaxPictureSide)
+            return usage(name, fmt::format("{} pixels; the image's sides must lie in 1..{}", side, kMaxPictureSide));
     if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
-        return usage("msaa must be 1, 2, 4, 8 or 16");
+        return usage("msaa", "msaa must be 1, 2, 4, 8 or 16");
     if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
-        return usage("width x height x msaa must not exceed 2^28 samples");
+        return usage("width", "width x height x msaa must not exceed 2^28 samples");
     if (d.tile_size != 32 && d.tile_size != 64)
-        return usage("the tile size must be 32 or 64");
+        return usage("tile_size", "the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)
-        return usage("texture anisotropy must lie in 1..16");
+        return usage("texture_anisotropy", "texture anisotropy must lie in 1..16");
     if (!find_technique(d.technique))
-        return usage("unknown technique '" + d.technique + "'");
+        return usage("technique", "unknown technique '" + d.technique + "'");
     if (const int most = find_technique(d.technique)->most_samples; d.samples < 1 || d.samples > most)
-        return usage("samples of " + d.technique + " must lie in 1.." + std::to_string(most));
+        return usage("samples", "samples of " + d.technique + " must lie in 1.." + std::to_string(most));
     for (const ParameterInfo& p : parameters()) { // a float may lie just outside a range of doubles
         const glm::dvec2 value = parameter_of(d, p);
         if (!(std::min(value.x, value.y) >= p.least - 1e-4 && std::max(value.x, value.y) <= p.most + 1e-4))
-            return usage(std::string(p.option) + " is out of its range");
+            return usage(p.name, fmt::format("is out of its range, {:g} to {:g}", p.least, p.most));
     }
     if (!(d.roughness <= 1.0f))
-        return usage("the roughness must lie in 0..1, or below 0 for that of the materials");
+        return usage("roughness", "the roughness must lie in 0..1, or below 0 for that of the materials");
     if (!(std::fabs(d.anisotropy) <= 1.0f))
-        return usage("the anisotropy must lie in -1..1");
+        return usage("anisotropy", "the anisotropy must lie in -1..1");
     if (const Status seen = check_view(d.view); !seen)
         return seen;
     BN_TRY(check_by_material(d));
@@ -393,6 +401,8 @@ Status set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
 {
     if (!(value >= p.least && value <= p.most))
         return Error{ExitCode::usage, "", p.option, fmt::format("{} is out of range, {} to {}", value, p.least, p.most)};
+    if (!p.number && !p.angles && value != std::floor(value))
+        return Error{ExitCode::usage, "", p.option, fmt::format("{} is no whole number", value)};
     if (p.number)
         desc.*p.number = static_cast<float>(value);
     else if (p.flag)

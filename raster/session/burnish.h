@@ -83,6 +83,7 @@ int burnish_find_light(const burnish_session* session, const char* name);
 const char* burnish_scene_node(const burnish_session* session, int index);
 const char* burnish_scene_material(const burnish_session* session, int index);
 const char* burnish_scene_light(const burnish_session* session, int index);
+const char* burnish_scene_variant(const burnish_session* session, int index); /* values of the option "variant" */
 /* What was repaired or left out while the scene and its environment were read, one line each; NULL past the end. */
 const char* burnish_warning(const burnish_session* session, int index);
 /* matrix: 16, column by column, to the parent's space. Scenes with a floor refuse it. */

@@ -249,6 +249,14 @@ const char* burnish_scene_light(const burnish_session* session, int index)
     return session ? name_at(session->session.scene().lights, index) : nullptr;
 }
 
+const char* burnish_scene_variant(const burnish_session* session, int index)
+{
+    if (!session || index < 0)
+        return nullptr;
+    const std::vector<std::string>& variants = session->session.scene().variants;
+    return static_cast<std::size_t>(index) < variants.size() ? variants[static_cast<std::size_t>(index)].c_str() : nullptr;
+}
+
 const char* burnish_warning(const burnish_session* session, int index)
 {
     if (!session || index < 0)

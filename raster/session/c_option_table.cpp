@@ -252,6 +252,15 @@ std::vector<Row> scene_rows()
          number(0, 1e6, [](CSettings& to) -> float& { return to.moment.seconds.emplace(); })},
         {"animation", "Animation that time refers to, by index", "0", BURNISH_OPEN,
          whole(0, 1000000, [](CSettings& to) -> int& { return to.moment.animation; })},
+        {"variant",
+         "Variant of the scene's materials, by name; unset: the meshes' own materials",
+         "",
+         BURNISH_OPEN,
+         {"name",
+          [](CSettings& to, const std::string& text) -> Status {
+              to.moment.variant = text;
+              return {};
+          }}},
         {"f0", "Reflectance at normal incidence of all materials", "", BURNISH_OPEN,
          vector("3 floats", 0, 1, [](CSettings& to) -> glm::vec3& { return to.overrides.f0.emplace(); })},
         {"mip_filter", "Filter for distant normal and roughness maps", mip_filters()[0].name, BURNISH_OPEN, filter_name()},

@@ -107,12 +107,17 @@ std::string c_name(const std::string& name)
 
 std::string c_words(const std::string& text)
 {
-    static const std::pair<const char*, const char*> fields[] = {{"EnvironmentOptions::extracted_lights", "key_lights"},
+    static const std::pair<const char*, const char*> fields[] = {{"EnvironmentOptions::cube_size", "env_size"},
+                                                                 {"EnvironmentOptions::exposure_ev", "env_exposure"},
+                                                                 {"EnvironmentOptions::extracted_lights", "key_lights"},
+                                                                 {"EnvironmentOptions::rotation_deg", "env_rotation"},
+                                                                 {"EnvironmentOptions::samples", "env_samples"},
                                                                  {"MipSettings::filter", "mip_filter"},
                                                                  {"MipSettings::kappa", "mip_kappa"},
                                                                  {"MipSettings::gains", "mip_gain"},
                                                                  {"Moment::animation", "animation"},
-                                                                 {"Moment::seconds", "time"}};
+                                                                 {"Moment::seconds", "time"},
+                                                                 {"Moment::variant", "variant"}};
     std::string out = text;
     for (const auto& [field, option] : fields)
         for (std::size_t at = out.find(field); at != std::string::npos; at = out.find(field, at))

@@ -9,6 +9,7 @@
 #include "core/scene/check_scene.h"
 #include "raster/frame/mip_files.h"
 #include "raster/frame/pyramids.h"
+#include "raster/session/check_parts.h"
 #include "raster/session/guarded.h"
 #include "raster/session/session.h"
 
@@ -222,6 +223,8 @@ Status settle(SceneData& data, const SceneChanges& changes)
 
 Status Session::change(SceneChanges changes)
 {
+    if (!renderer_)
+        return moved_away();
     return guarded(parts_.scene->name, [&]() -> Status {
         const Activity activity("changing the scene");
         BN_TRY(check_changes(*parts_.scene, changes));

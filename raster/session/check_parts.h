@@ -8,4 +8,10 @@ namespace burnish {
 // Finds the first fault of scene, tables, environment and albedo table, which are all there; the error's place names the field.
 Status check_parts(const SessionParts& parts);
 
+// The error of a session whose contents were moved to another object.
+inline Error moved_away()
+{
+    return {ExitCode::usage, "", "", "was moved to another object", "Session"};
+}
+
 } // namespace burnish

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
@@ -339,6 +340,8 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
     Column<float> of_vertices;
     if (settings.kind == FloorKind::off)
         return of_vertices;
+    if (settings.kind != FloorKind::shadow && settings.kind != FloorKind::stage && settings.kind != FloorKind::mirror)
+        return Error{ExitCode::usage, "", "", fmt::format("{} is no floor", static_cast<int>(settings.kind)), "FloorSettings::kind"};
     BN_TRY(check_draw_size(scene, limits, file));
     const DrawTables tables = make_draw_tables(scene);
     if (tables.draws.empty())

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+#include "raster/session/check_parts.h"
+#include "raster/session/guarded.h"
 #include "raster/session/session.h"
 
 namespace burnish {
@@ -51,14 +53,19 @@ struct FloorMirror {
     }
 };
 
-} // namespace
-
-Status add_reflection(const ShadowSettings& shadows, const FrameDesc& desc, Session& session, Frame& lit)
+Status reflect(const ShadowSettings& shadows, const FrameDesc& desc, Session& session, Frame& lit)
 {
     const std::vector<Draw>& draws = session.tables().draws;
     const auto floor = std::find_if(draws.begin(), draws.end(), [](const Draw& draw) { return draw.stage; });
-    if (floor == draws.end() || lit.triangle_ids.size() == 0)
+    if (floor == draws.end())
         return {};
+    const std::size_t pixels = static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+    const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
+    if (lit.triangle_ids.size() != samples || (lit.through.size() != 0 && lit.through.size() != samples))
+        return Error{ExitCode::usage, "", "/triangle_ids", "are missing: draw with FrameDesc::triangle_ids"};
+    for (const PixelPart& part : lit.parts)
+        if (part.pixel >= pixels || part.first >= desc.msaa)
+            return Error{ExitCode::usage, "", "/parts", "are those of another picture"};
     FrameDesc plain = desc;
     plain.layers = plain.parts = plain.triangle_ids = plain.stages = plain.profile = false;
     plain.view = mirrored(desc.view, floor->bounds_max.y);
@@ -95,6 +102,20 @@ Status add_reflection(const ShadowSettings& shadows, const FrameDesc& desc, Sess
                 part.color[static_cast<std::size_t>(c)] += static_cast<float>(light[c]);
         }
     return {};
+}
+
+} // namespace
+
+Status add_reflection(const ShadowSettings& shadows, const FrameDesc& desc, Session& session, Frame& lit)
+{
+    if (!session.parts().scene)
+        return moved_away();
+    return guarded(session.parts().scene->name, [&]() -> Status {
+        BN_TRY(check_shadows(shadows));
+        BN_TRY(check_desc(desc));
+        BN_TRY(check_drawn(lit, desc));
+        return reflect(shadows, desc, session, lit);
+    });
 }
 
 } // namespace burnish

@@ -43,9 +43,9 @@ Result<std::unique_ptr<Renderer>> make_renderer(const RenderInput& input, Sessio
         return make_vulkan_renderer(input, options.device);
     }
     case Backend::tile:
-        break;
+        return make_tile_renderer(input, options.isa);
     }
-    return make_tile_renderer(input, options.isa);
+    return Error{ExitCode::usage, "", "", fmt::format("{} is no backend", static_cast<int>(options.backend)), "SessionOptions::backend"};
 }
 
 // Turns the normals and tangents of the frame's layers back to the scene's world space.
@@ -250,9 +250,14 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 Result<Session> Session::make_with(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids)
 {
     if (!parts.scene || !parts.environment)
-        return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene"};
+        return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene",
+                     parts.scene ? "SessionParts::environment" : "SessionParts::scene"};
+    if (parts.scene->scene.materials.empty())
+        return Error{ExitCode::usage, parts.scene->name, "", "is empty: load_scene_data() and make_scene_data() make scenes",
+                     "SessionParts::scene"};
     if (options.backend != Backend::reference && parts.environment->irradiance.texels.empty())
-        return Error{ExitCode::usage, parts.environment->name, "", "was opened as a picture only: the reference alone draws by it"};
+        return Error{ExitCode::usage, parts.environment->name, "", "is empty, or a picture only, by which the reference alone draws",
+                     "SessionParts::environment"};
     return guarded(parts.scene->name, [&]() -> Result<Session> {
         const Activity activity("preparing the renderer");
         if (!parts.jobs)
@@ -283,8 +288,9 @@ Result<Session> Session::make_with(SessionParts parts, SessionOptions options, s
 Result<Session> Session::open(const std::string& scene, const std::string& environment, const OpenOptions& open,
                               const SessionOptions& options)
 {
-    if (open.threads < 0)
-        return Error{ExitCode::usage, "", "threads", std::to_string(open.threads) + " threads, 0 stands for all"};
+    if (constexpr int kMostThreads = 1024; open.threads < 0 || open.threads > kMostThreads)
+        return Error{ExitCode::usage, "", "", fmt::format("{} threads; 1 to {}, or 0 for all", open.threads, kMostThreads),
+                     "OpenOptions::threads"};
     return guarded(scene, [&]() -> Result<Session> {
         SessionParts parts;
         parts.jobs = std::make_shared<const Jobs>(open.threads);
@@ -312,6 +318,8 @@ FrameDesc Session::drawn(const FrameDesc& desc) const
 
 Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 {
+    if (!renderer_)
+        return moved_away();
     return guarded(parts_.scene->name, [&]() {
         Result<Frame> frame = render_any(desc, std::move(recycled));
         if (const std::uint64_t bad = frame ? count_not_finite(frame->color) : 0)
@@ -323,6 +331,8 @@ Result<Frame> Session::render(const FrameDesc& desc, Frame recycled)
 
 Result<Frame> Session::render_any(const FrameDesc& desc, Frame recycled)
 {
+    if (!renderer_)
+        return moved_away();
     return guarded(parts_.scene->name, [&]() {
         const Activity activity(fmt::format("drawing {}x{}", desc.width, desc.height));
         Result<Frame> frame = renderer_->render(drawn(desc), std::move(recycled));

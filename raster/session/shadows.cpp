@@ -1,10 +1,13 @@
 #include "raster/session/shadows.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 #include "core/jobs/jobs.h"
 #include "raster/frame/shadow_ratio.h"
+#include "raster/session/check_parts.h"
+#include "raster/session/guarded.h"
 #include "raster/session/session.h"
 #include "shading/lang/records.h"
 
@@ -43,14 +46,7 @@ Result<Image> traced_ratio(Lights kind, const ShadowSettings& settings, const Fr
     return shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs, kind == Lights::area);
 }
 
-} // namespace
-
-bool casts_shadows(const ShadowSettings& settings, const FrameDesc& desc, const Session& session)
-{
-    return shade(Lights::area, settings, desc, session) || shade(Lights::lamps, settings, desc, session);
-}
-
-Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit)
+Status darken_by_rays(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit)
 {
     FrameDesc plain = desc; // only the colour is needed
     plain.layers = plain.triangle_ids = plain.parts = false;
@@ -74,6 +70,47 @@ Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Sessio
         darken(lit.parts, open_parts, unlit->parts, *ratio);
     }
     return {};
+}
+
+} // namespace
+
+bool casts_shadows(const ShadowSettings& settings, const FrameDesc& desc, const Session& session)
+{
+    return shade(Lights::area, settings, desc, session) || shade(Lights::lamps, settings, desc, session);
+}
+
+Status check_shadows(const ShadowSettings& settings)
+{
+    constexpr int kMostSamples = 1 << 20;
+    if (settings.of != Shadows::off && settings.of != Shadows::ratio && settings.of != Shadows::on)
+        return Error{ExitCode::usage, "", "", fmt::format("{} names no shadows", static_cast<int>(settings.of)), "ShadowSettings::of"};
+    if (settings.samples < 1 || settings.samples > kMostSamples)
+        return Error{ExitCode::usage, "", "", fmt::format("{} samples; 1 to {}", settings.samples, kMostSamples),
+                     "ShadowSettings::samples"};
+    return {};
+}
+
+Status check_drawn(const Frame& lit, const FrameDesc& desc)
+{
+    if (lit.color.width != desc.width || lit.color.height != desc.height || lit.color.channels != 3 || lit.color.type != PixelType::f32)
+        return Error{ExitCode::usage, "", "/color",
+                     fmt::format("is no picture of {}x{} pixels, as FrameDesc says", desc.width, desc.height)};
+    return {};
+}
+
+Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit)
+{
+    if (!session.parts().scene)
+        return moved_away();
+    return guarded(session.parts().scene->name, [&]() -> Status {
+        BN_TRY(check_shadows(settings));
+        BN_TRY(check_drawn(lit, desc));
+        if (!casts_shadows(settings, desc, session))
+            return {};
+        if (lit.layers.size() != static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height))
+            return Error{ExitCode::usage, "", "/layers", "are missing: draw with FrameDesc::layers"};
+        return darken_by_rays(settings, desc, session, lit);
+    });
 }
 
 } // namespace burnish

@@ -19,8 +19,13 @@ struct ShadowSettings {
 // Returns true if some light of the session casts shadows.
 bool casts_shadows(const ShadowSettings& settings, const FrameDesc& desc, const Session& session);
 
-// Darkens `lit`, the session's frame for `desc`, with layers. Renders three more frames for each kind of light: two by rays, with and
-// without occluders, and one by the session without these lights. Fails as Session::render() does.
+// Returns an error unless the settings are in their ranges, or `lit` is a picture of the description's size.
+Status check_shadows(const ShadowSettings& settings);
+Status check_drawn(const Frame& lit, const FrameDesc& desc);
+
+// Darkens `lit`, the session's frame for `desc`, with FrameDesc::layers. Renders three more frames for each kind of light: two by rays,
+// with and without occluders, and one by the session without these lights. Errors: those of Session::render(); usage where `lit` is another
+// frame or has no layers.
 Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit);
 
 } // namespace burnish

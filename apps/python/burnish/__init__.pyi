@@ -481,6 +481,7 @@ def load(
     light: str | Sequence[str] = (),
     time: float | None = None,
     animation: int = 0,
+    variant: str | None = None,
     f0: Vector3 | None = None,
     mip_filter: MipFilter = "box",
     mip_kappa: float = 0.7,
@@ -506,6 +507,7 @@ def load(
     light: Area lights in the words that the program takes, several with ';' between.
     time: Time in the scene's animation, seconds; unset: the scene at rest.
     animation: Animation that time refers to, by index.
+    variant: Variant of the scene's materials, by name; unset: the meshes' own materials.
     f0: Reflectance at normal incidence of all materials.
     mip_filter: Filter for distant normal and roughness maps.
     mip_kappa: Share of the normals' covariance that widens lobes, for the kappa filter and taps under mipnet and teacher.

@@ -114,7 +114,7 @@ def library():
             ("burnish_options_environment", whole, [pointer, pointer, whole, whole]),
             ("burnish_find_node", whole, [pointer, text]), ("burnish_find_material", whole, [pointer, text]), ("burnish_find_light", whole, [pointer, text]),
             ("burnish_scene_node", text, [pointer, whole]), ("burnish_scene_material", text, [pointer, whole]),
-            ("burnish_scene_light", text, [pointer, whole]), ("burnish_warning", text, [pointer, whole]),
+            ("burnish_scene_light", text, [pointer, whole]), ("burnish_scene_variant", text, [pointer, whole]), ("burnish_warning", text, [pointer, whole]),
             ("burnish_set_node", whole, [pointer, whole, ctypes.POINTER(ctypes.c_float)]),
             ("burnish_set_material", whole, [pointer, whole, pointer]), ("burnish_set_light", whole, [pointer, whole, pointer]),
             ("burnish_set_primitive_material", whole, [pointer, whole, whole]),

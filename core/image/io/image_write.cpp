@@ -144,6 +144,7 @@ Status write_image(const std::string& path, const Image& image)
     try {
         const Result<Bytes> bytes = encode_image(path, image, format);
         BN_TRY(bytes);
+        check_stop();
         return write_file_atomic(path, bytes->data(), bytes->size());
     } catch (...) {
         return error_of_exception(output_error(path, "the image cannot be encoded"));

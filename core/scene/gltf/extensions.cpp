@@ -34,7 +34,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_materials_specular", supported, "factor, colour, textures"},
         {"KHR_materials_transmission", supported, "factor, texture"},
         {"KHR_materials_unlit", supported, ""},
-        {"KHR_materials_variants", ignored, "drawn with the mesh's materials"},
+        {"KHR_materials_variants", supported, "Moment::variant; by default the meshes' own materials"},
         {"KHR_materials_volume", in_part, "thickness and attenuation of closed meshes; open meshes are thin; no thickness texture"},
         {"KHR_mesh_quantization", supported, ""},
         {"KHR_texture_basisu", ignored, "the texture's fallback image is drawn, if it has one"},

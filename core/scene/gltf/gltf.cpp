@@ -17,6 +17,7 @@
 #include "core/scene/gltf/mesh.h"
 #include "core/scene/gltf/pose.h"
 #include "core/scene/gltf/schema.h"
+#include "core/scene/gltf/variants.h"
 #include "core/scene/obj/obj.h"
 
 namespace burnish {
@@ -59,6 +60,7 @@ void read_document(Document& doc, const Moment& moment)
     gltf::check_values(doc);
     gltf::check_moving_values(doc);
     gltf::set_moment(doc, moment);
+    gltf::choose_variant(doc, moment.variant);
     gltf::load_nodes(doc);
     gltf::load_materials(doc);
     gltf::load_meshes(doc);
@@ -147,6 +149,8 @@ Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const 
 Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment)
 {
     const std::string kBuiltin = "builtin:";
+    if (!moment.variant.empty() && (spec.compare(0, kBuiltin.size(), kBuiltin) == 0 || is_obj(spec)))
+        return Error{ExitCode::bad_input, spec, "", "has no variants (Moment::variant); glTF files may have some"};
     if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
         return make_builtin_scene(spec.substr(kBuiltin.size()));
     if (is_obj(spec))

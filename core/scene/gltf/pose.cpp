@@ -125,6 +125,8 @@ void set_moment(Document& doc, const Moment& moment)
             doc.warn("animations are drawn at Moment::seconds only; the scene is drawn as it rests");
         return;
     }
+    if (!(*moment.seconds >= 0.0f))
+        fail("/animations", "are drawn from 0 s on (Moment::seconds)");
     if (static_cast<std::size_t>(moment.animation) >= count)
         fail("/animations", fmt::format("has no animation {} (Moment::animation); the file has {}", moment.animation, count));
     const Json animation = doc.json["animations"][static_cast<std::size_t>(moment.animation)];

@@ -128,9 +128,9 @@ std::size_t prefilter_texels(int size, int levels)
     return texels;
 }
 
-Error bad_option(const std::string& reason)
+Error bad_option(const char* field, const std::string& reason)
 {
-    return {ExitCode::usage, "", "", reason};
+    return {ExitCode::usage, "", "", reason, std::string("EnvironmentOptions::") + field};
 }
 
 Status check(const Image& image, const std::string& name, const EnvironmentOptions& o)
@@ -141,17 +141,17 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
         return Error{ExitCode::bad_input, name, "/bytes", "the environment has not as many pixels as its size says"};
     if (o.cube_size < 4 || o.cube_size > 4096 || (o.cube_size & (o.cube_size - 1)) != 0)
-        return bad_option("the cube size of the environment must be a power of two from 4 to 4096");
+        return bad_option("cube_size", "the cube size of the environment must be a power of two from 4 to 4096");
     if (o.levels < 0 || o.levels > 13 || (o.levels > 0 && (o.cube_size >> (o.levels - 1)) == 0))
-        return bad_option("the environment's cube is too small for that many levels");
+        return bad_option("levels", "the environment's cube is too small for that many levels");
     if (o.extracted_lights < 0 || o.extracted_lights > kMaxExtractedLights)
-        return bad_option(fmt::format("the environment's extracted lights must be 0 to {}", kMaxExtractedLights));
+        return bad_option("extracted_lights", fmt::format("the environment's extracted lights must be 0 to {}", kMaxExtractedLights));
     if (o.samples < 1 || o.samples > 65536)
-        return bad_option("the samples of the environment must be 1 to 65536");
+        return bad_option("samples", "the samples of the environment must be 1 to 65536");
     if (!(std::fabs(o.exposure_ev) <= 32.0f))
-        return bad_option("the environment's exposure must be within 32 EV of 0");
+        return bad_option("exposure_ev", "the environment's exposure must be within 32 EV of 0");
     if (!(std::fabs(o.rotation_deg) <= 36000.0f))
-        return bad_option("the environment's rotation must be a finite angle in degrees");
+        return bad_option("rotation_deg", "the environment's rotation must be a finite angle in degrees");
     return {};
 }
 

@@ -246,7 +246,9 @@ TEST(session, options_of_techniques_go_by_name)
                                       {"energy-compensation", "2"},
                                       {"seed", "x"},
                                       {"seed", "-1"},
-                                      {"seed", "nan"}}) {
+                                      {"seed", "nan"},
+                                      {"seed", "1.5"},
+                                      {"light-samples", "1.5"}}) {
         const Status refused = set_parameter(named, name, value);
         ASSERT_FALSE(refused) << name << " " << value;
         EXPECT_EQ(refused.error().place, name);
