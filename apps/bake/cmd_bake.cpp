@@ -8,6 +8,7 @@
 #include "apps/bake/direction.h"
 #include "apps/bake/direction_field.h"
 #include "apps/bake/displaced.h"
+#include "apps/bake/environment_textures.h"
 #include "apps/bake/ltc_options.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/mip.h"
@@ -44,7 +45,8 @@ holds the highlight's. See render --rotation-map.
 half-vectors: half vectors that an Ashikhmin-Shirley lobe samples, over both random numbers; an .exr also holds their density.
 brdf-lut: directional albedo of that lobe, f0 red + green, over the eye's azimuth and the square root of its cosine. render --as-table reads
 both tables; exponents count to five digits.
-environment: a baked environment in a folder. render --env FOLDER reads it.
+environment: a baked environment in a folder. render --env FOLDER reads it. --textures adds files for engines: prefiltered levels (specular),
+box-filtered levels (box), irradiance, the environment with its key lights (whole), the DFG table, and the key lights as JSON and GLSL.
 mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
 render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
 half floats with mip levels, or one picture a level. The program prints their error against the levels, at texels and between four texels.
@@ -64,6 +66,7 @@ Examples:
   burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
   burnish bake brdf-lut --nu 70 --nv 400 -o albedo.exr
   burnish bake environment workshop.hdr -o workshop
+  burnish bake environment workshop.hdr --textures ktx2 -o workshop
   burnish bake mip copper_brushed --mip-filter kappa -o copper.mip --preview levels
   burnish bake mip copper_brushed --mip-filter kappa --format png-levels -o textures
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
@@ -79,6 +82,8 @@ struct BakeArguments {
     PictureSize size = {0, 0};
     AzimuthAxis azimuth = AzimuthAxis::root;
     EnvironmentOptions environment;
+    TextureFormat textures = TextureFormat::none;
+    TexelType texels = TexelType::half;
     RotationEncoding encoding = RotationEncoding::vector;
     double depth = 0.05;
     int triangles = 1000000;
@@ -142,12 +147,16 @@ OptionTable bake_option_table(BakeArguments& to)
           "Reflection model for ltc (ggx_aniso, beckmann, ashikhmin_shirley or ward) and for mip, which takes its net and measures "
           "with it",
           lobe_value(to.mip.brdf)}});
-    table.add_needing("WHAT", "environment",
-                      {{"--env-size", "N", "Texels along an edge of the cube map: {}",
-                        choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
-                       {"--key-lights", "N", "Small strong lights to extract from the environment, at most: {}",
-                        extracted_lights(to.environment.extracted_lights)},
-                       {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)}});
+    table.add_needing(
+        "WHAT", "environment",
+        {{"--env-size", "N", "Texels along an edge of the cube map: {}",
+          choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
+         {"--key-lights", "N", "Small strong lights to extract from the environment, at most: {}",
+          extracted_lights(to.environment.extracted_lights)},
+         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)},
+         {"--textures", "NAME", "Also textures for engines: {}; cubes with all levels, the DFG table, key lights",
+          choice(to.textures, {"none", "ktx2", "dds", "exr"})},
+         {"--texels", "NAME", "Numbers in --textures ktx2 and dds: {} (16 or 32 bits)", choice(to.texels, {"half", "float"})}});
     table.add("Output",
               {{"-o,--output", "FILE",
                 "Table or map to write: .png or .tif, for quaternion, tpr and half-vectors also .exr, for displaced .glb", file(to.output)},
@@ -334,8 +343,23 @@ int run_environment(const BakeArguments& a)
     if (const Status made = make_output_folder(a.output); !made)
         return fail(made.error());
     const std::vector<std::uint8_t> bytes = environment_cache_bytes(**baked);
-    return write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings,
-                       [&] { return preview_of_environment(**baked); });
+    const int code = write_bytes(a, (fs::path(a.output) / kBakedEnvironment).string(), bytes.data(), bytes.size(), (*baked)->warnings,
+                                 [&] { return preview_of_environment(**baked); });
+    if (code != 0 || a.textures == TextureFormat::none)
+        return code;
+    const auto dfg = standard_dfg(jobs);
+    if (!dfg)
+        return fail(dfg.error());
+    const Result<EnvironmentTextures> written = write_environment_textures(a.output, **baked, **dfg, a.textures, a.texels, jobs);
+    if (!written)
+        return fail(written.error());
+    Report report(a.quiet, a.verbosity);
+    report.release();
+    for (const std::string& warning : written->warnings)
+        report.warning(warning);
+    for (const std::string& path : written->files)
+        report.wrote(path);
+    return 0;
 }
 
 int run_displaced(const BakeArguments& a)
@@ -403,6 +427,8 @@ int run_bake(const BakeArguments& usual, const OptionTable& given)
                 return fail(usage_error(option, "is of half-vectors and brdf-lut"));
     if (given.given("--brdf") && arguments.what != "ltc" && arguments.what != "mip")
         return fail(usage_error("--brdf", "is of ltc and mip"));
+    if (given.given("--texels") && arguments.textures != TextureFormat::ktx2 && arguments.textures != TextureFormat::dds)
+        return fail(usage_error("--texels", "is of --textures ktx2 and dds"));
     if (given.given("--azimuth") && arguments.what != "brdf-lut")
         return fail(usage_error("--azimuth", "is of brdf-lut"));
     if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")

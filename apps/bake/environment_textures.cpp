@@ -1,0 +1,155 @@
+#include "apps/bake/environment_textures.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+#include "apps/cli/environment_text.h"
+#include "apps/report/json.h"
+#include "core/base/file.h"
+#include "core/image/io/image_io.h"
+#include "core/simd/half.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFaces[] = {"px", "nx", "py", "ny", "pz", "nz"};
+
+// Returns the cube without its borders, and with its scale.
+TextureData texture_of(const CubeMap& cube)
+{
+    TextureData out;
+    out.faces = 6;
+    for (int l = 0; l < cube.levels; ++l) {
+        const std::size_t side = static_cast<std::size_t>(cube.size >> l), row = side + 2;
+        TextureLevel level;
+        level.width = level.height = static_cast<int>(side);
+        level.texels.reserve(6 * 4 * side * side);
+        for (std::size_t face = 0; face < 6; ++face)
+            for (std::size_t y = 1; y <= side; ++y)
+                for (std::size_t x = 1; x <= side; ++x) {
+                    const std::uint16_t* const texel =
+                        &cube.texels[4 * (cube.offset[static_cast<std::size_t>(l)] + face * row * row + y * row + x)];
+                    for (int c = 0; c < 3; ++c)
+                        level.texels.push_back(half_to_float(texel[c]) * cube.scale);
+                    level.texels.push_back(1.0f);
+                }
+        out.levels.push_back(std::move(level));
+    }
+    return out;
+}
+
+TextureData texture_of(const DfgTable& dfg)
+{
+    TextureData out;
+    out.channels = 2;
+    out.levels.push_back({dfg.size, dfg.size, std::vector<float>(dfg.pairs.begin(), dfg.pairs.end())});
+    return out;
+}
+
+// Returns the pictures of a texture, by name: faces and levels of a cube, or the table with a blue channel of 0.
+std::vector<std::pair<std::string, Image>> pictures_of(const std::string& name, const TextureData& texture)
+{
+    std::vector<std::pair<std::string, Image>> pictures;
+    const auto channels = static_cast<std::size_t>(texture.channels);
+    for (std::size_t l = 0; l < texture.levels.size(); ++l)
+        for (std::size_t face = 0; face < static_cast<std::size_t>(texture.faces); ++face) {
+            const TextureLevel& level = texture.levels[l];
+            Image image = make_image(level.width, level.height, 3, PixelType::f32);
+            const std::size_t pixels = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+            for (std::size_t i = 0; i < pixels; ++i)
+                for (std::size_t c = 0; c < 3; ++c)
+                    image.f32()[3 * i + c] = c < channels ? level.texels[(face * pixels + i) * channels + c] : 0.0f;
+            pictures.emplace_back(texture.faces == 1 ? name : fmt::format("{}_{:02}_{}", name, l, kFaces[face]), std::move(image));
+        }
+    return pictures;
+}
+
+std::string vector_text(const float (&v)[3])
+{
+    return fmt::format("vec3({:#.9g}, {:#.9g}, {:#.9g})", v[0], v[1], v[2]);
+}
+
+// Returns the lights as constants of GLSL. An array has at least one element.
+std::string lights_glsl(const std::vector<ExtractedLight>& lights)
+{
+    std::string text = "// Key lights of an environment: evenly bright ellipses on the sky, strongest first. Linear Rec.709.\n"
+                       "struct burnish_key_light {\n"
+                       "    vec3 direction;        // to the light, unit\n"
+                       "    vec3 irradiance;       // on a surface that faces the light\n"
+                       "    vec3 axis_u, axis_v;   // half axes, as tangents\n"
+                       "    float angular_radius;  // of a disc with the same area, radians\n"
+                       "};\n";
+    text += fmt::format("const int burnish_key_light_count = {};\n", lights.size());
+    text +=
+        fmt::format("const burnish_key_light burnish_key_lights[{0}] = burnish_key_light[{0}](\n", std::max<std::size_t>(lights.size(), 1));
+    for (std::size_t i = 0; i < std::max<std::size_t>(lights.size(), 1); ++i) {
+        const ExtractedLight light = i < lights.size() ? lights[i] : ExtractedLight{};
+        text +=
+            fmt::format("    burnish_key_light({}, {}, {}, {}, {:#.9g}){}\n", vector_text(light.direction), vector_text(light.irradiance),
+                        vector_text(light.axis_u), vector_text(light.axis_v), light.angular_radius, i + 1 < lights.size() ? "," : ");");
+    }
+    return text;
+}
+
+class Writer {
+  public:
+    Writer(std::string folder, TextureFormat format, TexelType type) : folder_(std::move(folder)), format_(format), type_(type) {}
+
+    Status write(const std::string& name, const TextureData& texture)
+    {
+        if (format_ == TextureFormat::exr) {
+            for (const auto& [picture, image] : pictures_of(name, texture))
+                BN_TRY(note(picture + ".exr", write_image(path(picture + ".exr"), image)));
+            return {};
+        }
+        if (const std::uint64_t beyond = type_ == TexelType::half ? count_beyond_half(texture) : 0)
+            written.warnings.push_back(
+                fmt::format("{}: {} values are beyond half floats and become 65504 (--texels float keeps them)", name, beyond));
+        const bool ktx2 = format_ == TextureFormat::ktx2;
+        const std::vector<std::uint8_t> bytes = ktx2 ? ktx2_bytes(texture, type_) : dds_bytes(texture, type_);
+        return write(name + (ktx2 ? ".ktx2" : ".dds"), bytes.data(), bytes.size());
+    }
+    Status write(const std::string& name, const std::string& text) { return write(name, text.data(), text.size()); }
+
+    EnvironmentTextures written;
+
+  private:
+    std::string path(const std::string& name) const { return (fs::path(folder_) / name).string(); }
+    Status note(const std::string& name, Status status)
+    {
+        if (status)
+            written.files.push_back(path(name));
+        return status;
+    }
+    Status write(const std::string& name, const void* bytes, std::size_t count)
+    {
+        return note(name, write_file_atomic(path(name), bytes, count));
+    }
+
+    std::string folder_;
+    TextureFormat format_;
+    TexelType type_;
+};
+
+} // namespace
+
+Result<EnvironmentTextures> write_environment_textures(const std::string& folder, const Environment& environment, const DfgTable& dfg,
+                                                       TextureFormat format, TexelType type, const Jobs& jobs)
+{
+    Writer writer(folder, format, type);
+    BN_TRY(writer.write("specular", texture_of(environment.specular)));
+    BN_TRY(writer.write("box", texture_of(box_filtered_chain(environment.picture(), jobs))));
+    BN_TRY(writer.write("irradiance", texture_of(environment.irradiance)));
+    if (!environment.extracted_lights.empty())
+        BN_TRY(writer.write("whole", texture_of(environment.whole)));
+    BN_TRY(writer.write("dfg", texture_of(dfg)));
+    const std::vector<ExtractedLight> lights = turned_extracted_lights(environment);
+    BN_TRY(writer.write("key_lights.json", json_text(extracted_lights_json(lights), 2) + "\n"));
+    BN_TRY(writer.write("key_lights.glsl", lights_glsl(lights)));
+    return std::move(writer.written);
+}
+
+} // namespace burnish

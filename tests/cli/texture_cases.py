@@ -1,0 +1,132 @@
+"""bake environment --textures: cubes, tables and lights for engines, read by readers of this file's own."""
+
+import json
+import math
+import shutil
+import struct
+import subprocess
+
+from harness import case, check, scratch
+
+BAKE = ("bake", "environment", "builtin:sky", "--env-size", "32", "--env-samples", "16", "-q")
+CUBES = ("specular", "box", "irradiance", "whole")
+CHANNELS = {97: (4, "e"), 83: (2, "e"), 109: (4, "f"), 103: (2, "f")}  # of VkFormat
+DXGI = {10: (4, "e"), 34: (2, "e"), 2: (4, "f"), 16: (2, "f")}
+
+
+def ktx2(path):
+    """Returns the levels of a KTX2 file: [(side, faces)], a face being rows of texels."""
+    data = path.read_bytes()
+    check(data[:12] == b"\xabKTX 20\xbb\r\n\x1a\n", f"{path}: {data[:12]}")
+    form, size, width, height, depth, layers, faces, levels, packed = struct.unpack_from("<9I", data, 12)
+    channels, kind = CHANNELS[form]
+    texel = channels * struct.calcsize(kind)
+    check(size == struct.calcsize(kind) and depth == layers == packed == 0 and faces in (1, 6), f"{path}: header")
+    at, length, pairs_at, pairs = struct.unpack_from("<4I", data, 48)
+    check(struct.unpack_from("<2I2H4B4B8B", data, at) == (length, 0, 2, length - 4, 1, 1, 1, 0, 0, 0, 0, 0, texel) + 7 * (0,), f"{path}: descriptor")
+    samples = [struct.unpack_from("<H2B4B2I", data, at + 28 + 16 * c) for c in range(channels)]
+    check(samples == [(8 * size * c, 8 * size - 1, 0xC0 | (c if c < 3 else 15), 0, 0, 0, 0, 0xBF800000, 0x3F800000) for c in range(channels)], f"{path}: {samples}")
+    check(b"KTXorientation\0rd\0" in data[pairs_at:pairs_at + pairs], f"{path}: no orientation")
+    index = [struct.unpack_from("<3Q", data, 80 + 24 * level) for level in range(levels)]
+    check(index[0][0] + index[0][1] == len(data) and [entry[0] for entry in index] == sorted((entry[0] for entry in index), reverse=True), f"{path}: order")
+    out = []
+    for level, (begin, count, plain) in enumerate(index):
+        sides = max(width >> level, 1), max(height >> level, 1)
+        check(begin % texel == 0 and count == plain == texel * sides[0] * sides[1] * faces, f"{path}: level {level}")
+        out.append(struct.unpack_from(f"<{count // struct.calcsize(kind)}{kind}", data, begin))
+    return (width, faces, channels), out
+
+
+def dds(path):
+    """Returns the same of a DDS file."""
+    data = path.read_bytes()
+    check(data[:4] == b"DDS " and struct.unpack_from("<I", data, 4) == (124,) and data[84:88] == b"DX10", f"{path}: header")
+    height, width, pitch = struct.unpack_from("<3I", data, 12)
+    levels, (form, dimension, cube, size) = struct.unpack_from("<I", data, 28)[0], struct.unpack_from("<4I", data, 128)
+    channels, kind = DXGI[form]
+    faces = 6 if cube == 4 else 1
+    check(dimension == 3 and size == 1 and pitch == width * channels * struct.calcsize(kind) and (struct.unpack_from("<I", data, 112)[0] == (0xFE00 if faces == 6 else 0)), f"{path}: DX10")
+    out, at = [() for _ in range(levels)], 148
+    for _ in range(faces):
+        for level in range(levels):
+            count = channels * max(width >> level, 1) * max(height >> level, 1)
+            out[level] += struct.unpack_from(f"<{count}{kind}", data, at)
+            at += count * struct.calcsize(kind)
+    check(at == len(data), f"{path}: {len(data)} bytes, not {at}")
+    return (width, faces, channels), out
+
+
+def direction_of(face, s, t):
+    """Returns the direction of a place on a face, as Vulkan and OpenGL have it. s: to the right, t: downwards, -1 to 1."""
+    v = ((1, -t, -s), (-1, -t, s), (s, 1, t), (s, -1, -t), (s, -t, 1), (-s, -t, -1))[face]
+    length = math.sqrt(sum(c * c for c in v))
+    return [c / length for c in v]
+
+
+def close(a, b, step):
+    return all(abs(x - y) <= step * max(abs(x), 1e-4) for x, y in zip(a, b))
+
+
+@case("bake.textures_for_engines_hold_the_same_light", budget=15)
+def textures(bench):
+    alone = bench.run(*BAKE, "-o", "plain").expect(0)
+    plain = {path.name: path.read_bytes() for path in (bench.folder / "plain").iterdir()}
+    check(list(plain) == ["environment.bnenv"], alone.describe())
+    for words, folder in ((("ktx2",), "k"), (("ktx2", "--texels", "float"), "kf"), (("dds",), "d"), (("dds", "--texels", "float"), "df"), (("exr",), "e")):
+        bench.run(*BAKE, "--textures", *words, "-o", folder).expect(0)
+        check((bench.folder / folder / "environment.bnenv").read_bytes() == plain["environment.bnenv"], f"{folder}: another bake")
+    for name in (*CUBES, "dfg"):
+        halves, floats = ktx2(bench.folder / f"k/{name}.ktx2"), ktx2(bench.folder / f"kf/{name}.ktx2")
+        check(halves == dds(bench.folder / f"d/{name}.dds") and floats == dds(bench.folder / f"df/{name}.dds"), f"{name}: formats differ")
+        check(halves[0] == floats[0] == {"irradiance": (32, 6, 4), "dfg": (64, 1, 2)}.get(name, (32, 6, 4)), f"{name}: {halves[0]}")
+        check(all(close(a, b, 2 ** -11) for a, b in zip(floats[1], halves[1])), f"{name}: halves are not those of the floats")
+        check(len(halves[1]) == {"specular": 5, "box": 6}.get(name, len(halves[1])), f"{name}: {len(halves[1])} levels")
+    # The table: all is reflected by a mirror that is seen from straight above
+    scale, bias = ktx2(bench.folder / "kf/dfg.ktx2")[1][0][2 * 63:2 * 64]
+    check(abs(scale - 1) < 1e-3 and abs(bias) < 1e-3, f"{scale} {bias}")
+    # The brightest texel is the sun, where the key light is
+    whole = ktx2(bench.folder / "kf/whole.ktx2")[1][0]
+    at = max(range(len(whole) // 4), key=lambda i: whole[4 * i])
+    face, row, column = at // 1024, at // 32 % 32, at % 32
+    light = json.loads((bench.folder / "k/key_lights.json").read_text())[0]
+    seen = direction_of(face, (2 * column + 1) / 32 - 1, (2 * row + 1) / 32 - 1)
+    check(sum(a * b for a, b in zip(seen, light["direction"])) > 0.998, f"{seen} {light}")
+    specular = ktx2(bench.folder / "kf/specular.ktx2")[1][0]
+    check(max(specular[::4]) < 0.5 * max(whole[::4]), "the sun is in the prefiltered levels")
+    # Blue above, ground below
+    up, down = (sum(specular[4 * 1024 * face + 4 * 528 + 2:4 * 1024 * face + 4 * 528 + 3]) for face in (2, 3))
+    check(up > 2 * down, f"{up} above, {down} below")
+    # Faces as pictures
+    pictures = sorted(path.name for path in (bench.folder / "e").glob("specular_*.exr"))
+    check(len(pictures) == 6 * 5 and pictures[:2] == ["specular_00_nx.exr", "specular_00_ny.exr"], f"{pictures}")
+    bench.run("compare", "e/whole_00_py.exr", "e/whole_00_py.exr", "-q").expect(0)
+
+
+@case("bake.key_lights_compile_as_glsl", budget=5)
+def lights(bench):
+    for name, words, count in (("sun", (), 1), ("none", ("--key-lights", "off"), 0)):
+        bench.run(*BAKE, *words, "--textures", "ktx2", "-o", name).expect(0)
+        text = (bench.folder / name / "key_lights.glsl").read_text()
+        check(f"burnish_key_light_count = {count};" in text and len(json.loads((bench.folder / name / "key_lights.json").read_text())) == count, text)
+        check((bench.folder / name / "whole.ktx2").exists() == (count > 0), f"{name}: whole")
+        if shutil.which("glslc"):
+            scratch(bench, "lights.frag", ("#version 450\n" + text + "layout(location = 0) out vec4 c;\nvoid main() { c = vec4(burnish_key_lights[0].irradiance, burnish_key_light_count); }\n").encode())
+            done = subprocess.run(["glslc", bench.folder / "lights.frag", "-o", bench.folder / "lights.spv"], capture_output=True, text=True)
+            check(done.returncode == 0, done.stderr)
+
+
+@case("bake.textures_say_what_half_floats_lose", budget=5)
+def beyond(bench):
+    scratch(bench, "sun.pfm", b"PF\n8 4\n-1.0\n" + struct.pack("<96f", *[3e6 if i == 40 else 0.5 for i in range(96)]))
+    words = ("bake", "environment", "sun.pfm", "--env-size", "16", "--env-samples", "4", "--key-lights", "off", "--textures", "ktx2")
+    said = bench.run(*words, "-o", "half").expect(0)
+    check("beyond half floats" in said.err and "specular" in said.err, said.describe())
+    kept = bench.run(*words, "--texels", "float", "-o", "float").expect(0)
+    check("half floats" not in kept.err, kept.describe())
+    check(max(ktx2(bench.folder / "half/specular.ktx2")[1][0]) == 65504 and max(ktx2(bench.folder / "float/specular.ktx2")[1][0]) > 1e5, "clamped values")
+    bench.run(*BAKE, "--texels", "float", "-o", "x").expect(2).expect_one_line("--texels")
+    bench.run(*BAKE, "--textures", "png", "-o", "x").expect(2).expect_one_line("--textures")
+    bench.run("bake", "quaternion", "sun.pfm", "--textures", "dds", "-o", "x.png").expect(2).expect_one_line("--textures")
+    (bench.folder / "half/dfg.ktx2").unlink()
+    (bench.folder / "half/dfg.ktx2").mkdir()
+    bench.run(*words, "-q", "-o", "half").expect(7).expect_one_line("dfg.ktx2")
