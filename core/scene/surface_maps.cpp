@@ -56,6 +56,24 @@ bool normalize(double& x, double& y, double& z)
     return true;
 }
 
+// Returns the red channel of a picture where another one's texel lies, [0,65535]. An empty picture has the largest value.
+std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
+{
+    if (image.empty())
+        return 65535;
+    const auto along = [](int at, int count, int texels) {
+        return static_cast<std::size_t>((2 * static_cast<std::int64_t>(at) + 1) * texels / (2 * count));
+    };
+    const std::size_t texel = along(y, height, image.height) * static_cast<std::size_t>(image.width) + along(x, width, image.width);
+    const std::size_t at = texel * static_cast<std::size_t>(image.channels);
+    if (image.type == PixelType::u8)
+        return static_cast<std::uint16_t>(257 * std::to_integer<int>(image.bytes[at]));
+    if (image.type == PixelType::u16)
+        return reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at];
+    const float value = image.f32()[at];
+    return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
+}
+
 } // namespace
 
 SurfaceMap normals_of_quaternions(const Image& quaternions)
@@ -152,6 +170,25 @@ void flip_green(Image& normals)
         else
             normals.f32()[at] = 1.0f - normals.f32()[at];
     }
+}
+
+Image metal_rough_of(const Image& metallic, const Image& roughness)
+{
+    const int width = std::max(metallic.width, roughness.width), height = std::max(metallic.height, roughness.height);
+    const auto is_short = [](const Image& image) { return image.empty() || image.type == PixelType::u8; };
+    const auto put = [&](auto* to, int unit) { // codes of 16 bits an own one
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x, to += 3)
+                for (int c = 0; c < 3; ++c)
+                    to[c] = static_cast<std::remove_reference_t<decltype(*to)>>(
+                        c == 0 ? 65535 / unit : red_at(c == 1 ? roughness : metallic, x, y, width, height) / unit);
+    };
+    Image out = make_image(width, height, 3, is_short(metallic) && is_short(roughness) ? PixelType::u8 : PixelType::u16);
+    if (out.type == PixelType::u8)
+        put(reinterpret_cast<std::uint8_t*>(out.bytes.data()), 257);
+    else
+        put(reinterpret_cast<std::uint16_t*>(out.bytes.data()), 1);
+    return out;
 }
 
 } // namespace burnish

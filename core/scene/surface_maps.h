@@ -39,6 +39,10 @@ SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding enco
 // become flat.
 SurfaceMap whole_normals(Image normals);
 
+// Packs the red channels of two maps as glTF does: green roughness, blue metalness. The result has the larger width and height, and 8 bits
+// where both maps have no more. An empty map counts as 1.
+Image metal_rough_of(const Image& metallic, const Image& roughness);
+
 // Converts a DirectX normal map, whose green points down, to glTF. Exact.
 void flip_green(Image& normals);
 

@@ -7,12 +7,14 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "core/base/file.h"
 #include "core/base/text.h"
 #include "core/image/colour.h"
+#include "core/scene/obj/materials.h"
 #include "core/scene/obj/parse.h"
 #include "core/scene/tangents.h"
 
@@ -21,6 +23,7 @@ namespace {
 
 constexpr std::size_t kMostCorners = 1000; // in a polygon, because ears are clipped one by one
 constexpr std::uint64_t kCornerBytes = 128;
+constexpr std::size_t kMostMissing = 5, kShownName = 40; // materials named in warnings, and bytes of a name
 
 glm::dvec3 position_of(const obj::Parsed& from, const obj::Corner& c)
 {
@@ -109,10 +112,11 @@ glm::vec3 unit(const glm::dvec3& v)
 
 // Appends the corners. Merges equal corners, in the order of first use.
 void append(Scene& scene, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals,
-            const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, const std::vector<glm::vec3>& colours, bool has_uvs)
+            const std::vector<glm::vec4>& tangents, const std::vector<glm::vec2>& uvs, const std::vector<glm::vec3>& colours, bool has_uvs,
+            std::int32_t material)
 {
     Primitive primitive;
-    primitive.material = 0;
+    primitive.material = material;
     primitive.has_uv0 = has_uvs, primitive.has_color = !colours.empty();
     primitive.first_index = static_cast<std::uint32_t>(scene.indices.size());
     primitive.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
@@ -145,7 +149,7 @@ glm::vec3 linear_colour(const obj::Parsed& from, const obj::Corner& c)
     return {srgb_to_linear(rgb[0]), srgb_to_linear(rgb[1]), srgb_to_linear(rgb[2])};
 }
 
-void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, SmoothNormals& smooth)
+void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Corner>& corners, SmoothNormals& smooth, std::int32_t material)
 {
     std::vector<glm::vec3> positions, normals, colours;
     std::vector<glm::vec2> uvs, upwards; // uvs: v down as in glTF; upwards: v up as in the file, for MikkTSpace
@@ -169,27 +173,8 @@ void add_group(Scene& scene, const obj::Parsed& from, const std::vector<obj::Cor
     else
         for (const glm::vec3& n : normals)
             tangents.push_back(glm::vec4(any_tangent(n), 1.0f));
-    append(scene, positions, normals, tangents, uvs, colours, has_uvs);
+    append(scene, positions, normals, tangents, uvs, colours, has_uvs, material);
 }
-
-} // namespace
-
-bool is_obj(const std::string& path)
-{
-    constexpr std::string_view kEnding = ".obj";
-    return path.size() >= kEnding.size() && std::equal(kEnding.begin(), kEnding.end(), path.end() - kEnding.size(), [](char a, char b) {
-               return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
-           });
-}
-
-Result<Scene> load_obj(const std::string& path, const Limits& limits)
-{
-    const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
-    BN_TRY(bytes);
-    return load_obj_text(std::string(bytes->begin(), bytes->end()), path, limits);
-}
-
-namespace {
 
 // Sets the polygon's normal at corners of a faceted polygon that have no normal.
 void facet(obj::Parsed& parsed, obj::Corner* corners, const std::vector<glm::dvec3>& points)
@@ -250,9 +235,37 @@ void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
     }
 }
 
-} // namespace
+// Returns each group's material. Reads the libraries that the file names.
+Result<std::vector<std::int32_t>> materials_of_groups(Scene& scene, const obj::Parsed& parsed, const std::string& path,
+                                                      const Limits& limits, bool in_folder)
+{
+    std::vector<std::int32_t> worn(parsed.groups.size(), 0);
+    const bool wears =
+        std::any_of(parsed.groups.begin(), parsed.groups.end(), [](const obj::Group& group) { return !group.material.empty(); });
+    if (!wears)
+        return worn;
+    if (!in_folder || parsed.libraries.empty()) {
+        scene.warnings.push_back(in_folder ? "its materials (MTL) lie in no library (mtllib): they are white"
+                                           : "its materials (MTL) are read from files alone: they are white");
+        return worn;
+    }
+    const auto first = static_cast<std::int32_t>(scene.materials.size());
+    const Result<std::vector<std::string>> names = obj::read_materials(scene, path, parsed.libraries, limits);
+    BN_TRY(names);
+    std::set<std::string> missing;
+    for (std::size_t g = 0; g < worn.size(); ++g) {
+        const std::string& name = parsed.groups[g].material;
+        const auto at = std::find(names->begin(), names->end(), name);
+        if (at != names->end())
+            worn[g] = first + static_cast<std::int32_t>(at - names->begin());
+        else if (!name.empty() && missing.insert(name).second && missing.size() <= kMostMissing)
+            scene.warnings.push_back(fmt::format("no library has material '{}', which is white", printable(name, kShownName)));
+    }
+    return worn;
+}
 
-Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
+// in_folder: the path is a file's, whose folder holds its materials.
+Result<Scene> load_text(const std::string& text, const std::string& path, const Limits& limits, bool in_folder)
 {
     if (text.find('\0') != std::string::npos)
         return Error{ExitCode::bad_input, path, "", "holds bytes of 0: no text in UTF-8, perhaps UTF-16"};
@@ -271,6 +284,10 @@ Result<Scene> load_obj_text(const std::string& text, const std::string& path, co
     white.name = "white";
     white.metallic = 0.0f, white.roughness = 0.4f;
     scene.materials.push_back(white);
+    scene.warnings = parsed.warnings;
+    const Result<std::vector<std::int32_t>> wears = materials_of_groups(scene, parsed, path, limits, in_folder);
+    BN_TRY(wears);
+    const std::vector<std::int32_t>& worn = *wears;
     // Make a mesh and a node for each group
     SmoothNormals smooth = smooth_normals(parsed, *triangles);
     for (std::size_t g = 0; g < triangles->size(); ++g) {
@@ -278,16 +295,37 @@ Result<Scene> load_obj_text(const std::string& text, const std::string& path, co
         mesh.name = parsed.groups[g].name;
         mesh.first_primitive = static_cast<std::uint32_t>(scene.primitives.size());
         mesh.primitive_count = 1;
-        add_group(scene, parsed, (*triangles)[g], smooth);
+        add_group(scene, parsed, (*triangles)[g], smooth, worn[g]);
         Node node;
         node.name = mesh.name, node.mesh = static_cast<std::int32_t>(g);
         scene.meshes.push_back(std::move(mesh));
         scene.nodes.push_back(std::move(node));
     }
-    scene.warnings = parsed.warnings;
     warn_of_missing_uvs(scene, parsed);
     update_world(scene);
     return scene;
+}
+
+} // namespace
+
+bool is_obj(const std::string& path)
+{
+    constexpr std::string_view kEnding = ".obj";
+    return path.size() >= kEnding.size() && std::equal(kEnding.begin(), kEnding.end(), path.end() - kEnding.size(), [](char a, char b) {
+               return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
+           });
+}
+
+Result<Scene> load_obj(const std::string& path, const Limits& limits)
+{
+    const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+    BN_TRY(bytes);
+    return load_text(std::string(bytes->begin(), bytes->end()), path, limits, true);
+}
+
+Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
+{
+    return load_text(text, path, limits, false);
 }
 
 } // namespace burnish

@@ -12,14 +12,14 @@ bool is_obj(const std::string& path); // checks the name only
 
 // Reads polygons with any number of corners, groups and objects as meshes, and indices from either end. Makes missing
 // normals smooth, weighted by area, within a smoothing group where the file names any; faceted after "s off". Makes
-// MikkTSpace tangents where there are texture coordinates. The material is white with roughness 0.4, times the sRGB
-// vertex colours.
+// MikkTSpace tangents where there are texture coordinates. Materials come from the libraries that the file names
+// (materials.h). Without one, a surface is white with roughness 0.4. Materials multiply the sRGB vertex colours.
 //
-// Leaves out with a warning: MTL files, points and lines, curves and surfaces, unknown statements. Errors: invalid
+// Leaves out with a warning: points and lines, curves and surfaces, unknown statements. Errors: invalid
 // numbers, numbers beyond the range of floats, statements with a wrong count of numbers, indices without a vertex,
 // files without faces, and exceeded limits.
 Result<Scene> load_obj(const std::string& path, const Limits& limits);
-// Reads a file's text. `path` names the file in messages.
+// Reads a file's text, without libraries. `path` names the file in messages.
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits);
 
 } // namespace burnish

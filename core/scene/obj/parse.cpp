@@ -17,7 +17,7 @@ namespace burnish::obj {
 namespace {
 
 // Kinds of statements for this reader.
-enum class Kind { position, uv, normal, face, group, object, smoothing, material, points, curves, ignored };
+enum class Kind { position, uv, normal, face, group, object, smoothing, material, library, points, curves, ignored };
 
 struct Statement {
     std::string_view word;
@@ -28,8 +28,8 @@ constexpr Statement kStatements[] = {
     {"vn", Kind::normal},         {"f", Kind::face},
     {"fo", Kind::face},           {"g", Kind::group},
     {"o", Kind::object},          {"s", Kind::smoothing},
-    {"usemtl", Kind::material},   {"mtllib", Kind::material},
-    {"usemap", Kind::material},   {"maplib", Kind::material},
+    {"usemtl", Kind::material},   {"mtllib", Kind::library},
+    {"usemap", Kind::ignored},    {"maplib", Kind::ignored},
     {"p", Kind::points},          {"l", Kind::points},
     {"vp", Kind::curves},         {"cstype", Kind::curves},
     {"deg", Kind::curves},        {"bmat", Kind::curves},
@@ -105,7 +105,7 @@ class Parser {
         const Statement* known = find_statement(word);
         if (!known) {
             const Statement* meant = find_statement(lower(word));
-            if (meant && meant->kind <= Kind::material)
+            if (meant && meant->kind <= Kind::library)
                 return refuse(fmt::format("'{}' is no statement, which is written '{}'", shown(word), meant->word));
             return warn_once("unknown", fmt::format("'{}' is not read", shown(word)));
         }
@@ -126,8 +126,9 @@ class Parser {
         case Kind::smoothing:
             return smoothing(numbers);
         case Kind::material:
-            if (said_.insert("materials").second)
-                warn("its materials (MTL) are not read; all of it is white (MaterialOverrides::material)");
+            return wear(trimmed(rest));
+        case Kind::library:
+            parsed_.libraries.emplace_back(trimmed(rest));
             return;
         case Kind::points:
             return warn_once("points", "points and lines are not drawn");
@@ -214,6 +215,12 @@ class Parser {
         new_group_ = true;
     }
 
+    void wear(std::string_view material)
+    {
+        new_group_ = new_group_ || material != material_;
+        material_ = material;
+    }
+
     // Sets the smoothing group: "off" is 0, "on" is 1. Anything else that is not a group number warns and counts as 1.
     void smoothing(std::string_view text)
     {
@@ -230,7 +237,7 @@ class Parser {
     {
         ++polygons_;
         if (new_group_)
-            parsed_.groups.push_back({name_, {}, {}});
+            parsed_.groups.push_back({name_, material_, {}, {}});
         new_group_ = false;
         Group& group = parsed_.groups.back();
         std::uint32_t count = 0;
@@ -282,7 +289,7 @@ class Parser {
     const std::string& path_;
     Lines lines_;
     Parsed parsed_;
-    std::string name_;
+    std::string name_, material_;
     std::set<std::string> said_;
     std::uint64_t polygons_ = 0;
     std::uint32_t smoothing_ = kUnsaid;

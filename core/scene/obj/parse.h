@@ -19,6 +19,7 @@ struct Corner {
 
 struct Group {
     std::string name;
+    std::string material;        // as usemtl names it; empty: none
     std::vector<Corner> corners; // of all polygons, in sequence
     std::vector<std::uint32_t> counts;
 };
@@ -27,6 +28,7 @@ struct Parsed {
     std::vector<float> positions, uvs, normals; // 3, 2 and 3 numbers for each
     std::vector<float> colours;                 // 3 for each position, as written, [0,1]; white for a position without colour; empty: none
     std::vector<Group> groups;                  // never empty groups
+    std::vector<std::string> libraries;         // as mtllib names them
     std::vector<std::string> warnings;          // skipped contents, each kind once
     std::optional<Error> wrong;                 // the first unreadable statement
 };
