@@ -14,6 +14,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/image/io/image_io.h"
+#include "core/image/metrics/metrics.h"
 
 namespace burnish {
 namespace {
@@ -171,8 +172,10 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
     // Make the picture
     std::error_code ignored;
     fs::remove(results + result.picture, ignored);
-    if (const Status made = make_picture(manifest, row, setting, results + result.picture, results + "logs/" + stem + ".txt"); !made)
+    if (const Status made = make_picture(manifest, row, setting, results + result.picture, results + "logs/" + stem + ".txt"); !made) {
+        result.not_finite = row.kind == GoldenKind::scene && made.error().code == ExitCode::not_finite;
         return fails(made.error().reason);
+    }
     const Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
     if (!picture)
         return fails(picture.error().reason);
@@ -180,7 +183,11 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
     const std::string shown = results + "shown/" + stem;
     if (const Status written = show(*picture, 0.0f, shown + ".png"); !written)
         return fails(written.error().line());
-    // Judge it
+    // Judge it, and let no limit, mask or golden allow NaN
+    if (const std::int64_t bad_pixels = not_finite_pixels(*picture, *picture)) {
+        result.not_finite = true;
+        return fails(fmt::format("{} of {} pixels are NaN or Inf", bad_pixels, std::int64_t{picture->width} * picture->height));
+    }
     const auto judged = [&] {
         if (row.limits.operations && result.verdict != GoldenVerdict::failed)
             judge_operations(results + result.picture + ".stats.json", *row.limits.operations, result);

@@ -28,6 +28,7 @@ struct GoldenResult {
     bool hash_alone = false;
     bool linear = false;        // values are linear: HDR-FLIP judges
     bool by_operations = false; // operations alone exceed their limit: a new golden changes nothing
+    bool not_finite = false;    // the new picture holds NaN or Inf, and fails
 };
 
 struct GoldenSetting {

@@ -202,9 +202,12 @@ Status run_child(const ChildRun& run)
         return failed(fmt::format("{} ended, and nobody knows how", run.words[0]));
     if (WIFSIGNALED(status))
         return failed(fmt::format("{} was ended by signal {}", run.words[0], WTERMSIG(status)));
-    if (WEXITSTATUS(status) != 0)
-        return failed(fmt::format("{} ended with exit code {}{}", run.words[0], WEXITSTATUS(status), last_words(run.output)));
-    return {};
+    if (WEXITSTATUS(status) == 0)
+        return {};
+    Error ended = failed(fmt::format("{} ended with exit code {}{}", run.words[0], WEXITSTATUS(status), last_words(run.output)));
+    if (WEXITSTATUS(status) == static_cast<int>(ExitCode::not_finite))
+        ended.code = ExitCode::not_finite;
+    return ended;
 }
 
 } // namespace burnish

@@ -18,7 +18,8 @@ struct ChildRun {
     const std::atomic<bool>* stop = nullptr;        // kills them too
 };
 
-// Returns success if the program ends with 0. Else the Error's reason says how it ended. Thread-safe.
+// Returns success if the program ends with 0. Else the Error's reason says how it ended; its code is not_finite for that exit code.
+// Thread-safe.
 Status run_child(const ChildRun& run);
 
 } // namespace burnish

@@ -20,6 +20,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/golden/golden_report.h"
+#include "apps/golden/result_folder.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
@@ -50,7 +51,8 @@ programs run beside it.
 The results' folder gets index.html with the differences, results.jsonl, junit.xml, summary.md, all new pictures and the programs' output. On
 GitHub, annotations and the step's summary are written too.
 
-Exit codes: 0 all passed, 1 a picture differs, 4 a picture could not be made or the manifest is wrong, 5 a golden is missing.
+Exit codes, the gravest first: 4 a picture could not be made or the manifest is wrong, 6 a picture holds NaN or Inf, 1 a picture differs,
+5 a golden is missing, 0 all passed.
 
 Examples:
   burnish golden check goldens.json
@@ -72,23 +74,6 @@ struct GoldenArguments {
     bool quiet = false;
     int verbosity = 0;
 };
-
-struct Shard {
-    std::size_t index = 0, count = 1;
-};
-
-// Reads "2/3".
-Result<Shard> read_shard(const std::string& text)
-{
-    if (text.empty())
-        return Shard{};
-    unsigned index = 0, count = 0;
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%5u/%5u%n", &index, &count, &read) != 2 || read != static_cast<int>(text.size()) || index < 1 ||
-        index > count)
-        return usage_error("--shard", fmt::format("'{}' is no I/N with I from 1 to N", text));
-    return Shard{index - 1, count};
-}
 
 bool is_folder(const std::string& path)
 {
@@ -112,65 +97,19 @@ Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
     return read_manifest(arguments.paths[0]);
 }
 
-constexpr const char* kMarker = ".burnish-golden"; // a file in folders of results, which alone are emptied
-
-// Returns true if a path lies in a folder, or is it.
-bool lies_in(const std::string& path, const std::string& folder)
-{
-    std::error_code failed;
-    const fs::path inner = fs::weakly_canonical(path, failed), outer = fs::weakly_canonical(folder, failed);
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
-// Makes the results' folders, empty of earlier results. Refuses a folder with files of other programs, and one that holds an input.
-Status make_folders(const std::string& results, const std::vector<std::string>& inputs, const Shard& shard)
-{
-    for (const std::string& input : inputs)
-        if (!input.empty() && lies_in(input, results))
-            return usage_error("-o", fmt::format("'{}' is to be emptied, and holds {}", results, input));
-    std::error_code none;
-    const bool ours = file_exists(results + "/" + kMarker);
-    if (is_folder(results) && !ours && !fs::is_empty(results, none))
-        return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results));
-    BN_TRY(make_output_folder(results));
-    BN_TRY(write_text(results + "/" + kMarker,
-                      fmt::format("{}/{}\nmade by burnish golden, which empties this folder\n", shard.index + 1, shard.count)));
-    for (const char* name : {"results.jsonl", "junit.xml", "summary.md", "index.html"}) {
-        std::error_code ignored;
-        fs::remove(results + "/" + name, ignored);
-    }
-    for (const char* name : {"pictures", "goldens", "shown", "logs"}) {
-        std::error_code failed;
-        fs::remove_all(results + "/" + name, failed);
-        if (!failed)
-            fs::create_directory(results + "/" + name, failed);
-        if (failed)
-            return Error{ExitCode::output_failed, results + "/" + name, "", failed.message()};
-    }
-    return {};
-}
-
-// Returns the shard that a folder of results holds.
-Result<Shard> shard_of_results(const std::string& folder)
-{
-    constexpr std::uint64_t kMostMarkerBytes = 4096;
-    const Result<std::vector<std::uint8_t>> bytes = read_file(folder + "/" + kMarker, kMostMarkerBytes);
-    BN_TRY(bytes);
-    const std::string text(bytes->begin(), bytes->end());
-    return read_shard(text.substr(0, text.find('\n')));
-}
-
 void sort_by_name(std::vector<GoldenResult>& results)
 {
     std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
 }
 
-// Writes the reports, also for GitHub. Returns the exit code.
-int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments, Report& report)
+// Writes the reports, also for GitHub, and puts all files into place. Returns the exit code.
+int conclude(std::vector<GoldenResult> results, NewResults& fresh, const GoldenArguments& arguments, Report& report)
 {
     sort_by_name(results);
-    if (const Status written = write_reports(results, arguments.results); !written)
+    if (const Status written = write_reports(results, fresh.folder()); !written)
         return fail(written.error());
+    if (const Status moved = fresh.take_over(); !moved)
+        return fail(moved.error());
     if (on_github())
         report.commands(golden_annotations(results));
     if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
@@ -180,8 +119,7 @@ int conclude(std::vector<GoldenResult> results, const GoldenArguments& arguments
         if (r.verdict != GoldenVerdict::passed)
             report.figure(verdict_name(r.verdict), printable(r.name + ": " + r.reason));
     const GoldenCounts counts = count_of(results);
-    report.figure("golden", fmt::format("{} passed, {} differ, {} have no golden, {} could not be made; {}/index.html", counts.passed,
-                                        counts.differs, counts.missing, counts.failed, arguments.results));
+    report.figure("golden", fmt::format("{}; {}/index.html", counts_in_words(counts), arguments.results));
     return exit_code_of(counts);
 }
 
@@ -202,13 +140,14 @@ int check(const GoldenArguments& arguments, Report& report)
         for (const std::string& path : {row.golden, row.mask, row.kind == GoldenKind::picture ? row.picture : std::string()})
             if (!path.empty())
                 inputs.push_back((fs::path(manifest->folder) / path).string());
-    if (const Status folders = make_folders(arguments.results, inputs, *shard); !folders)
-        return fail(folders.error());
+    NewResults fresh(arguments.results);
+    if (const Status made = fresh.make(inputs, {*shard, manifest_hash(*manifest)}); !made)
+        return fail(made.error());
     report.release();
     std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
     // Make and judge the rows
     GoldenSetting setting;
-    setting.results = arguments.results, setting.limits = arguments.input, setting.stop = &watch_stop_signals();
+    setting.results = fresh.folder(), setting.limits = arguments.input, setting.stop = &watch_stop_signals();
     std::error_code ignored;
     setting.program = fs::read_symlink("/proc/self/exe", ignored).string();
     const int wanted = arguments.jobs > 0 ? arguments.jobs : usable_cores();
@@ -222,7 +161,7 @@ int check(const GoldenArguments& arguments, Report& report)
     });
     if (*setting.stop)
         return 128 + stop_signal();
-    return conclude(std::move(results), arguments, report);
+    return conclude(std::move(results), fresh, arguments, report);
 }
 
 // Reads names, one a line, as they are or as JSON texts.
@@ -284,6 +223,11 @@ Status bless_row(const GoldenRow& row, const std::string& golden, const GoldenAr
     return {};
 }
 
+std::string not_blessed(const GoldenResult& result)
+{
+    return printable(fmt::format("'{}' is not blessed: {}", result.name, result.reason));
+}
+
 int bless(const GoldenArguments& arguments, Report& report)
 {
     const Result<GoldenManifest> manifest = manifest_at(arguments);
@@ -315,6 +259,8 @@ int bless(const GoldenArguments& arguments, Report& report)
     for (const std::string& name : chosen)
         if (!rows.contains(name))
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' is no row of the manifest"});
+        else if (by_name.contains(name) && by_name[name]->not_finite)
+            return fail(Error{ExitCode::not_finite, source, "", not_blessed(*by_name[name])});
         else if (!by_name.contains(name) || by_name[name]->verdict == GoldenVerdict::failed)
             return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' has no new picture in the last check"});
         else if (by_name[name]->by_operations)
@@ -332,7 +278,12 @@ int bless(const GoldenArguments& arguments, Report& report)
         count += changed;
     }
     report.figure("golden", count == 0 ? "nothing to bless" : counted(count, "picture") + " blessed");
-    return 0;
+    int code = 0;
+    if (arguments.from.empty())
+        for (const GoldenResult& r : *results)
+            if (r.not_finite && rows.contains(r.name))
+                code = fail(Error{ExitCode::not_finite, arguments.results, "", not_blessed(r)});
+    return code;
 }
 
 int merge(const GoldenArguments& arguments, Report& report)
@@ -340,16 +291,21 @@ int merge(const GoldenArguments& arguments, Report& report)
     std::vector<GoldenResult> all;
     std::set<std::string> names;
     std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
+    std::string manifest;
     for (const std::string& folder : arguments.paths) {
         if (same_file(folder, arguments.results))
             return fail(usage_error("-o", "is one of the folders to merge"));
         const Result<std::vector<GoldenResult>> results = read_results(folder);
         if (!results)
             return fail(results.error());
-        const Result<Shard> shard = shard_of_results(folder);
-        if (!shard)
-            return fail(shard.error());
-        ++shards[shard->count];
+        const Result<ResultOrigin> origin = origin_of_results(folder);
+        if (!origin)
+            return fail(origin.error());
+        if (shards.empty())
+            manifest = origin->manifest;
+        if (origin->manifest != manifest)
+            return fail(Error{ExitCode::bad_input, folder, "", "is made from other rows than " + arguments.paths.front()});
+        ++shards[origin->shard.count];
         for (const GoldenResult& r : *results) {
             if (!names.insert(r.name).second)
                 return fail(Error{ExitCode::bad_input, folder, "", "'" + r.name + "' is in an earlier folder too"});
@@ -359,19 +315,20 @@ int merge(const GoldenArguments& arguments, Report& report)
     if (shards.size() != 1 || shards.begin()->first != shards.begin()->second)
         return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
                           fmt::format("{} of {} shards are given", arguments.paths.size(), shards.rbegin()->first)});
-    if (const Status folders = make_folders(arguments.results, arguments.paths, Shard{}); !folders)
-        return fail(folders.error());
+    NewResults fresh(arguments.results);
+    if (const Status made = fresh.make(arguments.paths, {Shard{}, manifest}); !made)
+        return fail(made.error());
     for (const std::string& folder : arguments.paths)
         for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {
             if (!is_folder(folder + name)) // uploads drop empty folders
                 continue;
             std::error_code failed;
-            fs::copy(folder + name, arguments.results + name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
+            fs::copy(folder + name, fresh.folder() + name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
             if (failed)
                 return fail(Error{ExitCode::output_failed, folder + name, "", failed.message()});
         }
     report.release();
-    return conclude(std::move(all), arguments, report);
+    return conclude(std::move(all), fresh, arguments, report);
 }
 
 int run_golden(const GoldenArguments& arguments, const OptionTable& given)

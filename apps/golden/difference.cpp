@@ -145,7 +145,7 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
     if (golden.bytes == picture.bytes)
         return;
     if (const std::int64_t bad = not_finite_pixels(golden, picture))
-        return fails(GoldenVerdict::differs, fmt::format("{} pixels are NaN or Inf, here or in the golden", bad));
+        return fails(GoldenVerdict::differs, fmt::format("{} pixels of the golden are NaN or Inf", bad));
     // Measure
     FlipOptions options;
     const FlipResult flip =

@@ -182,8 +182,8 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
     std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                                    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
                                    "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
-                                   "<p>{3} differ, {4} have no golden, {5} could not be made, {6} passed.</p>\n",
-                                   title, kChartPageStyle.bytes, kStyle, counts.differs, counts.missing, counts.failed, counts.passed);
+                                   "<p>{3}.</p>\n",
+                                   title, kChartPageStyle.bytes, kStyle, counts_in_words(counts));
     page += "<table class=\"rows\">\n<tr><th>" +
             std::string(blessable ? "<input type=\"checkbox\" id=\"all\" aria-label=\"bless all\">" : "") +
             "</th><th></th><th>picture</th></tr>\n" + rows + "</table>\n";

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
+#include <tuple>
 
 #include "apps/cli/outputs.h"
 #include "apps/report/html.h"
@@ -68,6 +70,7 @@ Json json_of(const GoldenResult& r)
             {"hash_alone", r.hash_alone},
             {"linear", r.linear},
             {"by_operations", r.by_operations},
+            {"not_finite", r.not_finite},
             {"golden_copy", r.golden_copy}};
 }
 
@@ -89,8 +92,22 @@ GoldenResult result_of(const Json& json)
     r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
     r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();
     r.linear = json.at("linear").get<bool>(), r.by_operations = json.at("by_operations").get<bool>();
-    r.golden_copy = json.at("golden_copy").get<std::string>();
+    r.golden_copy = json.at("golden_copy").get<std::string>(), r.not_finite = json.at("not_finite").get<bool>();
     return r;
+}
+
+// Returns the name of the first path that is no file of its folder of results, or "".
+std::string outside_path(const GoldenResult& r)
+{
+    for (const auto& [name, path, folder] :
+         {std::tuple<const char*, const std::string&, std::string_view>{"picture", r.picture, "pictures/"},
+          {"log", r.log, "logs/"},
+          {"golden_copy", r.golden_copy, "goldens/"}}) {
+        const std::string file = path.starts_with(folder) ? path.substr(folder.size()) : "";
+        if (!path.empty() && (file.empty() || file == "." || file == ".." || file.find_first_of("/\\") != std::string::npos))
+            return name;
+    }
+    return "";
 }
 
 } // namespace
@@ -110,10 +127,16 @@ GoldenCounts count_of(const std::vector<GoldenResult>& results)
             ++counts.missing;
             break;
         case GoldenVerdict::failed:
-            ++counts.failed;
+            ++(r.not_finite ? counts.not_finite : counts.failed);
             break;
         }
     return counts;
+}
+
+std::string counts_in_words(const GoldenCounts& counts)
+{
+    return fmt::format("{} passed, {} differ, {} have no golden, {} could not be made, {} hold NaN or Inf", counts.passed, counts.differs,
+                       counts.missing, counts.failed, counts.not_finite);
 }
 
 bool can_bless(const GoldenResult& result)
@@ -123,10 +146,11 @@ bool can_bless(const GoldenResult& result)
 
 int exit_code_of(const GoldenCounts& counts)
 {
-    const ExitCode code = counts.failed    ? ExitCode::bad_input
-                          : counts.differs ? ExitCode::differ
-                          : counts.missing ? ExitCode::golden_missing
-                                           : ExitCode::ok;
+    const ExitCode code = counts.failed       ? ExitCode::bad_input
+                          : counts.not_finite ? ExitCode::not_finite
+                          : counts.differs    ? ExitCode::differ
+                          : counts.missing    ? ExitCode::golden_missing
+                                              : ExitCode::ok;
     return static_cast<int>(code);
 }
 
@@ -156,6 +180,8 @@ Result<std::vector<GoldenResult>> read_results(const std::string& folder)
         } catch (const Json::exception&) {
             return Error{ExitCode::bad_input, path, fmt::format("line {}", line), "is no result of a golden"};
         }
+        if (const std::string name = outside_path(results.back()); !name.empty())
+            return Error{ExitCode::bad_input, path, fmt::format("line {}", line), "'" + name + "' leaves the folder of results"};
         begin = end + 1;
     }
     return results;

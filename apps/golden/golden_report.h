@@ -10,15 +10,16 @@
 namespace burnish {
 
 struct GoldenCounts {
-    std::size_t passed = 0, differs = 0, missing = 0, failed = 0;
+    std::size_t passed = 0, differs = 0, missing = 0, failed = 0, not_finite = 0; // failed: others than those with NaN or Inf
 };
 GoldenCounts count_of(const std::vector<GoldenResult>& results);
-int exit_code_of(const GoldenCounts& counts); // bad_input where a picture was not made, else differ, else golden_missing
+std::string counts_in_words(const GoldenCounts& counts); // "3 passed, 0 differ, ..."
+int exit_code_of(const GoldenCounts& counts);            // bad_input where a picture was not made, else not_finite, differ, golden_missing
 
 bool can_bless(const GoldenResult& result); // a new golden would change the picture's verdict
 
 std::string results_text(const std::vector<GoldenResult>& results); // an object a line
-// Reads results.jsonl of a results' folder. Errors: ExitCode::bad_input with the line.
+// Reads results.jsonl of a results' folder. Errors: ExitCode::bad_input with the line, also for a path that leaves the folder.
 Result<std::vector<GoldenResult>> read_results(const std::string& folder);
 
 std::string golden_junit(const std::vector<GoldenResult>& results);

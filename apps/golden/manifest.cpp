@@ -12,6 +12,7 @@
 #include "apps/cli/report.h"
 #include "apps/compare/picture_names.h"
 #include "apps/options/options.h"
+#include "apps/report/json.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
@@ -213,8 +214,10 @@ GoldenManifest manifest_of(const JsonValue& json, const std::string& folder)
         read_common(*given, "/defaults", defaults.format, defaults.row);
     }
     const JsonValue* rows = member(json, "rows");
-    if (!rows || !rows->is_array() || rows->empty())
+    if (!rows || !rows->is_array())
         throw Mistake{"/rows", "is no list of rows"};
+    if (rows->empty())
+        throw Mistake{"/rows", "is empty: it needs a row"};
     GoldenManifest manifest;
     manifest.folder = folder;
     std::set<std::string> taken, goldens, written;
@@ -319,6 +322,30 @@ std::string file_stem(const std::string& name)
     if (stem.size() > kMostStem)
         stem = fmt::format("{}%~{:016x}", stem.substr(0, kKept), hash_bytes(name.data(), name.size()));
     return stem;
+}
+
+std::string manifest_hash(const GoldenManifest& manifest)
+{
+    Json rows = Json::array();
+    for (const GoldenRow& row : manifest.rows) {
+        Json limits = Json::array();
+        for (const std::optional<double>& limit :
+             {row.limits.flip, row.limits.flip_p99, row.limits.pattern, row.limits.z, row.limits.operations})
+            limits.push_back(limit ? Json(*limit) : Json());
+        rows.push_back({{"name", row.name},
+                        {"kind", static_cast<int>(row.kind)},
+                        {"command", row.command},
+                        {"environment", row.environment},
+                        {"picture", row.picture},
+                        {"extension", row.extension},
+                        {"golden", row.golden},
+                        {"mask", row.mask},
+                        {"seconds", row.seconds},
+                        {"hash_alone", row.hash_alone},
+                        {"limits", limits}});
+    }
+    const std::string text = json_text(rows, -1);
+    return fmt::format("{:016x}", hash_bytes(text.data(), text.size()));
 }
 
 Result<GoldenManifest> read_manifest(const std::string& path)

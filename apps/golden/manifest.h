@@ -45,6 +45,9 @@ Result<GoldenManifest> read_manifest(const std::string& path);
 Result<GoldenManifest> manifest_of_pairs(const std::string& expected, const std::string& actual, const GoldenLimits& limits,
                                          const std::string& mask);
 
+// Returns 16 hexadecimal digits over all that decides the rows: a change of any member changes them.
+std::string manifest_hash(const GoldenManifest& manifest);
+
 // Returns the name as part of file names: bytes other than letters, digits, '.', '-' and '_' become %XX.
 std::string file_stem(const std::string& name);
 

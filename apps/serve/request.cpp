@@ -161,13 +161,16 @@ Result<Json> request_json(const std::string& text)
     return json.is_discarded() ? Result<Json>(usage_error("request", "is no JSON")) : Result<Json>(std::move(json));
 }
 
-// Returns the words of area lights, which ';' separates.
+// Returns the words of area lights, which ';' separates. Blanks around them and empty ones do not count.
 std::vector<std::string> lights_of(const std::string& text)
 {
+    constexpr const char* kBlanks = " \t\r\n";
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(';', begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
+        const std::string part = text.substr(begin, end - begin);
+        if (const std::size_t first = part.find_first_not_of(kBlanks); first != std::string::npos)
+            words.push_back(part.substr(first, part.find_last_not_of(kBlanks) + 1 - first));
         begin = end + 1;
     }
     return words;

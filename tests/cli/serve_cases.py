@@ -245,6 +245,8 @@ def saves(bench):
         drawn = json.loads(served.ask("/draw", wish("lamp.glb", **two))[1]["X-Burnish"])
         check(drawn["command"].count("--light") == 2, f"not two lights: {drawn}")
         check(drawn["hash"] == hash_of_command(bench, drawn["command"]), f"two lights draw another picture than their command: {drawn}")
+        spaced = json.loads(served.ask("/draw", wish("lamp.glb", light=" " + two["light"].replace(";", " ;; ") + "; "))[1]["X-Burnish"])
+        check((spaced["command"], spaced["hash"]) == (drawn["command"], drawn["hash"]), f"blanks and empty lights count: {spaced}")
         status, _, answer = served.ask("/draw", wish("lamp.glb", **secret))
         check(status == 400 and b"names a file" in answer, f"a page names a file: {answer}")
         check(json.loads(served.ask("/lists")[2])["scenes"][:2] == ["another.glb", "lamp.glb"], "the new model is not listed")
@@ -318,6 +320,49 @@ def page(bench):
         check(not browser.faults, f"the console says {browser.faults}")
         outside = [url for url in browser.requests if not url.startswith((f"http://127.0.0.1:{served.port}/", "blob:", "data:", "about:"))]
         check(not outside, f"it asks {outside}")
+
+
+@case("serve.page_shows_every_error_and_no_other_scene", budget=15)
+def errors(bench):
+    (bench.folder / "models").mkdir()
+    (bench.folder / "models/broken.glb").write_bytes(b"glTF, not")
+    lights = ";".join(["sphere:points=0,1,0:radius=0.1:radiance=9,9,9"] * 6)
+    seen = ("""(() => { const box = document.getElementById('message').getBoundingClientRect(), foot = document.querySelector('footer').getBoundingClientRect();
+        const inside = box.height > 10 && box.top >= 0 && box.left >= 0 && box.bottom <= innerHeight && box.right <= innerWidth;
+        return inside && (innerWidth < 700 || (box.top >= foot.top && box.bottom <= foot.bottom)); })()""")
+    text = lambda browser, name: browser.value(f"document.getElementById('{name}').textContent")
+    with Served(bench, "models") as served, Browser(bench.folder / "browser") as browser:
+
+        def draw(change, mode):
+            browser.value(f"(() => {{ {change}; document.body.dataset.done = ''; later(); }})()")
+            browser.until(f"document.body.dataset.done === '{mode}'", 60)
+
+        browser.size(1280, 800)
+        browser.visit(served.address)
+        browser.until("lists !== null && document.body.dataset.done === 'fault'", 60)  # the broken file comes first
+        check("broken.glb" in text(browser, "message") and browser.value(seen), "the first error is not seen")
+        check(text(browser, "command") == text(browser, "figures") == "", "a command without a picture")
+        # An unset slider stands at its default, or has no thumb
+        ranges = dict(browser.value("[...document.querySelectorAll('input[type=range]')].map(one => [one.closest('.row').dataset.name, [one.className, +one.value, one.max]])"))
+        check(ranges["--samples"] == ["", 1024, "1024"] and ranges["--env-exposure"][:2] == ["", 0], ranges)
+        check(ranges["--roughness"][0] == ranges["--anisotropy"][0] == "unknown", ranges)
+        for width, height in ((1280, 800), (400, 800), (400, 500)):
+            browser.size(width, height)
+            draw("state.scene = 'builtin:sphere'; make_lists(); Object.assign(state.options.A, " + json.dumps({**SMALL_LIGHT, "--light": lights}) + "); show('A')", "A")
+            draw("state.options.B = { ...state.options.A, '--technique': 'bent_normal' }; show('split')", "split")
+            check(browser.value("['command', 'command_b'].every(id => { const code = document.getElementById(id), box = code.getBoundingClientRect(); "
+                                "return box.height > 30 && (code.scrollHeight <= code.clientHeight || getComputedStyle(code).overflowY === 'auto'); })"), "a command is cut")
+            draw("state.options.A['--roughness'] = 'nan'; show('A')", "fault")
+            check("--roughness" in text(browser, "message") and browser.value(seen), f"the error is out of sight at {width}x{height}")
+            check(browser.value("document.getElementById('a').hasAttribute('src')"), "the picture of this scene is gone")
+            browser.screenshot(bench.folder / f"fault_{width}_{height}.png", whole=False)
+            # Nothing of this scene stays under another name
+            draw("delete state.options.A['--roughness']; show('split')", "split")
+            draw("const list = document.getElementById('scene'); list.value = 'broken.glb'; list.dispatchEvent(new Event('change'))", "fault")
+            check("broken.glb" in text(browser, "message") and browser.value(seen), f"the file's error is out of sight at {width}x{height}")
+            check(not browser.value("['a', 'b', 'e'].some(id => document.getElementById(id).hasAttribute('src'))"), "another scene's picture stays")
+            check(text(browser, "command") == text(browser, "command_b") == text(browser, "figures") == "", "another scene's command stays")
+        check(browser.value("document.documentElement.scrollWidth <= 400"), "the page is wider than a phone")
 
 
 @case("serve.every_option_draws_what_its_command_draws", tier="nightly")

@@ -1,0 +1,123 @@
+#include "apps/golden/result_folder.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/core.h>
+#include <system_error>
+
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/golden/check.h"
+#include "core/base/file.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMarker = ".burnish-golden"; // a file in folders of results, whose files alone are replaced
+constexpr const char* kReports[] = {"index.html", "results.jsonl", "junit.xml", "summary.md"};
+constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown", "logs"};
+
+// Returns true if a path lies in a folder, or is it.
+bool lies_in(const std::string& path, const std::string& folder)
+{
+    std::error_code failed;
+    const fs::path inner = fs::weakly_canonical(path, failed), outer = fs::weakly_canonical(folder, failed);
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+Status make_empty(const std::string& folder)
+{
+    std::error_code failed;
+    fs::remove_all(folder, failed);
+    if (!failed)
+        fs::create_directory(folder, failed);
+    return failed ? Status(Error{ExitCode::output_failed, folder, "", failed.message()}) : Status();
+}
+
+// Moves a file or a folder, if it is there.
+Status move_into(const std::string& from, const std::string& to, const char* name)
+{
+    std::error_code failed;
+    fs::rename(from + "/" + name, to + "/" + name, failed);
+    if (failed && failed != std::errc::no_such_file_or_directory)
+        return Error{ExitCode::output_failed, to + "/" + name, "", failed.message()};
+    return {};
+}
+
+} // namespace
+
+Result<Shard> read_shard(const std::string& text)
+{
+    if (text.empty())
+        return Shard{};
+    unsigned index = 0, count = 0;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%5u/%5u%n", &index, &count, &read) != 2 || read != static_cast<int>(text.size()) || index < 1 ||
+        index > count)
+        return usage_error("--shard", fmt::format("'{}' is no I/N with I from 1 to N", text));
+    return Shard{index - 1, count};
+}
+
+Result<ResultOrigin> origin_of_results(const std::string& folder)
+{
+    constexpr std::uint64_t kMostMarkerBytes = 4096;
+    const Result<std::vector<std::uint8_t>> bytes = read_file(folder + "/" + kMarker, kMostMarkerBytes);
+    BN_TRY(bytes);
+    const std::string text(bytes->begin(), bytes->end()), line = text.substr(0, text.find('\n'));
+    const std::size_t blank = std::min(line.find(' '), line.size());
+    const Result<Shard> shard = read_shard(line.substr(0, blank));
+    BN_TRY(shard);
+    return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size()))};
+}
+
+NewResults::~NewResults()
+{
+    if (!made_)
+        return;
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    fs::remove_all(old_, ignored);
+}
+
+Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrigin& origin)
+{
+    for (const std::string& input : inputs)
+        if (!input.empty() && lies_in(input, results_))
+            return usage_error("-o", fmt::format("'{}' is to be replaced, and holds {}", results_, input));
+    std::error_code none;
+    const std::string marker = results_ + "/" + kMarker;
+    const bool ours = file_exists(marker);
+    if (fs::is_directory(results_, none) && !ours && !fs::is_empty(results_, none))
+        return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results_));
+    BN_TRY(make_output_folder(results_));
+    const std::string text = fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n", origin.shard.index + 1,
+                                         origin.shard.count, origin.manifest);
+    if (!ours)
+        BN_TRY(write_text(marker, text));
+    made_ = true;
+    BN_TRY(make_empty(folder_));
+    for (const char* name : kResultFolders)
+        BN_TRY(make_empty(folder_ + "/" + name));
+    return write_text(folder_ + "/" + kMarker, text);
+}
+
+Status NewResults::take_over()
+{
+    // No page stands beside another run's pictures, wherever this stops
+    BN_TRY(make_empty(old_));
+    for (const char* name : kReports)
+        BN_TRY(move_into(results_, old_, name));
+    for (const char* name : kResultFolders)
+        BN_TRY(move_into(results_, old_, name));
+    BN_TRY(move_into(folder_, results_, kMarker));
+    for (const char* name : kResultFolders)
+        BN_TRY(move_into(folder_, results_, name));
+    for (const char* name : kReports)
+        BN_TRY(move_into(folder_, results_, name));
+    return {};
+}
+
+} // namespace burnish

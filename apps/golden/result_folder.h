@@ -1,0 +1,41 @@
+// The folder of a run's results: a run replaces the earlier one's files when its own are whole.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace burnish {
+
+struct Shard {
+    std::size_t index = 0, count = 1;
+};
+Result<Shard> read_shard(const std::string& text); // "2/3"; empty: all. Errors: ExitCode::usage
+
+// What a folder of results says of itself.
+struct ResultOrigin {
+    Shard shard;
+    std::string manifest; // manifest_hash() of its rows
+};
+Result<ResultOrigin> origin_of_results(const std::string& folder);
+
+// Files in the making. They lie in a folder within that of the earlier results, and are removed with this object unless taken over.
+class NewResults {
+  public:
+    explicit NewResults(const std::string& results) : results_(results), folder_(results + "/.new"), old_(results + "/.old") {}
+    NewResults(const NewResults&) = delete;
+    NewResults& operator=(const NewResults&) = delete;
+    ~NewResults();
+
+    // Makes the folders. Refuses a folder of results with files of other programs, and one that holds an input.
+    Status make(const std::vector<std::string>& inputs, const ResultOrigin& origin);
+    const std::string& folder() const { return folder_; }
+    Status take_over(); // moves the files into the place of the earlier ones
+
+  private:
+    std::string results_, folder_, old_;
+    bool made_ = false;
+};
+
+} // namespace burnish
