@@ -130,7 +130,7 @@ def obj_texts(bench):
     for text, needle in (("V 1 2 3\n", "line 11"), ("f 0 1 2\n", "line 11: face 2"), ("v 1 2\n", "line 11: position 5")):
         refuse(bench, scratch(bench, "bad.obj", HEAD + FACE + text), needles=(needle,))
     for text, words in (("l 1 2\n", "lines are not drawn"), ("surf 0 1 0 1 1 2 3 4\n", "surfaces are not drawn"), ("foo\n", "'foo' is not read"),
-                        ("usemtl a\n", "MTL")):
+                        ("usemtl a\nf 1 2 3\n", "MTL")):
         done = accept(bench, scratch(bench, "said.obj", HEAD + FACE + text))
         check(done.err.count("warning") == 1 and words in done.err, done.describe())
 

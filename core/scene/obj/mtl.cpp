@@ -13,7 +13,7 @@
 namespace burnish::obj {
 namespace {
 
-constexpr std::size_t kShownBytes = 40;
+constexpr std::size_t kNamedBytes = 40;
 constexpr float kAny = 3.4e38f;
 
 struct ColourStatement {
@@ -89,7 +89,7 @@ class MtlParser {
         if (said_.insert(std::string(kind)).second)
             out_.warnings.push_back(fmt::format("{}: line {}: {}", path_, lines_.number(), text));
     }
-    static std::string shown(std::string_view word) { return printable(std::string(word), kShownBytes); }
+    static std::string shown(std::string_view word) { return printable(std::string(word), kNamedBytes); }
 
     void statement(std::string_view word, std::string_view rest)
     {

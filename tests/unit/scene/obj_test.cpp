@@ -166,7 +166,8 @@ TEST(obj, what_is_left_out_is_said_once)
     const std::string quad = kHead + kFace;
     expect_warned(quad + "p 1\nl 1 2\np 2\n", "line 11: points and lines are not drawn");
     expect_warned(quad + "vp 0.5\ncstype bspline\ndeg 3\ncurv 0 1 1 2 3\nend\n", "line 11: curves and surfaces are not drawn");
-    expect_warned("mtllib a b.mtl\n" + quad + "usemtl\nusemtl x#1\nmtllib\n", "MTL");
+    expect_warned("mtllib a b.mtl\nusemtl x#1\n" + quad, "MTL");
+    expect_same("mtllib a b.mtl\n" + quad + "usemtl\n", quad);
     expect_warned(quad + "call other.obj\nfoo\nbar\n", "line 11: 'call' is not read");
     expect_warned("#MRGB ff000000\n" + quad, "MRGB");
     expect_warned("s often\n" + quad, "line 1: 'often' is no smoothing group");

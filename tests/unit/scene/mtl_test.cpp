@@ -1,0 +1,218 @@
+// Materials of OBJ files: MTL libraries.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+#include "core/image/io/image_io.h"
+#include "core/scene/obj/mtl.h"
+#include "core/scene/obj/obj.h"
+#include "tests/unit/data.h"
+
+using namespace burnish;
+using namespace burnish::test;
+
+namespace {
+
+const std::string kQuad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+const std::string kFirst = "f 1/1 2/2 3/3\n", kSecond = "f 1/1 3/3 4/4\n";
+
+void write(const std::string& path, const std::string& text)
+{
+    ASSERT_TRUE(write_file(path, text));
+}
+
+void write_picture(const std::string& path, int width, int height, std::vector<int> rgb)
+{
+    Image image = make_image(width, height, 3, PixelType::u8);
+    for (std::size_t i = 0; i < image.bytes.size(); ++i)
+        image.bytes[i] = static_cast<std::byte>(rgb[i % rgb.size()]);
+    ASSERT_TRUE(write_image(path, image));
+}
+
+// Loads an OBJ file whose triangles wear `a` and `b` of a library.
+Result<Scene> load_wearing(const TempFolder& folder, const std::string& library, const std::string& more = "")
+{
+    write(folder.path("a.mtl"), library);
+    write(folder.path("a.obj"), "mtllib a.mtl\n" + kQuad + more + "usemtl a\n" + kFirst + "usemtl b\n" + kSecond);
+    return load_obj(folder.path("a.obj"), Limits());
+}
+
+Material material_of(const std::string& lines)
+{
+    const TempFolder folder;
+    const Result<Scene> scene = load_wearing(folder, "newmtl a\n" + lines + "\nnewmtl b\n");
+    EXPECT_TRUE(scene) << (scene ? "" : scene.error().line());
+    return scene ? scene->materials[static_cast<std::size_t>(scene->primitives[0].material)] : Material();
+}
+
+std::string warnings_of(const std::string& lines)
+{
+    const TempFolder folder;
+    const Result<Scene> scene = load_wearing(folder, "newmtl a\n" + lines + "\nnewmtl b\n");
+    std::string all;
+    for (const std::string& warning : scene ? scene->warnings : std::vector<std::string>{"error: " + scene.error().line()})
+        all += warning + "\n";
+    return all;
+}
+
+TEST(mtl, groups_wear_what_they_name)
+{
+    const TempFolder folder;
+    const Result<Scene> scene = load_wearing(folder, "# a comment\nnewmtl b\nKd 0 0 1\nnewmtl a\nKd 1 .5 .25 # warm\n");
+    ASSERT_TRUE(scene) << scene.error().line();
+    ASSERT_EQ(scene->primitives.size(), 2u);
+    const auto worn = [&](std::size_t p) { return scene->materials[static_cast<std::size_t>(scene->primitives[p].material)]; };
+    EXPECT_EQ(worn(0).name, "a");
+    EXPECT_EQ(worn(0).base_color, glm::vec4(1.0f, 0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(worn(1).base_color, glm::vec4(0.0f, 0.0f, 1.0f, 1.0f));
+    EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+    EXPECT_EQ(scene->files.size(), 2u);
+}
+
+TEST(mtl, numbers_become_a_material)
+{
+    const Material phong = material_of("Kd 0.5\nKs 0.5 0.5 0.5\nNs 98\nNi 1.33\nd 0.25\nKe 2 4 0\nillum 2\nKa 1 1 1");
+    EXPECT_EQ(phong.base_color, glm::vec4(0.5f, 0.5f, 0.5f, 0.25f));
+    EXPECT_EQ(phong.alpha_mode, AlphaMode::blend);
+    EXPECT_EQ(phong.metallic, 0.0f);
+    EXPECT_NEAR(phong.roughness, std::sqrt(std::sqrt(2.0f / 100.0f)), 1e-6f);
+    EXPECT_EQ(phong.specular_color, glm::vec3(1.0f));
+    EXPECT_EQ(phong.ior, 1.33f);
+    EXPECT_EQ(phong.emissive, glm::vec3(0.5f, 1.0f, 0.0f));
+    EXPECT_EQ(phong.emissive_strength, 4.0f);
+    const Material brushed = material_of("Kd 1 1 1\nPr 0.4\nPm 1\naniso 0.8\nanisor 0.25\nPc 1\nPcr 0.1\nTr 0.25");
+    EXPECT_EQ(brushed.roughness, 0.4f);
+    EXPECT_EQ(brushed.metallic, 1.0f);
+    EXPECT_EQ(brushed.anisotropy_strength, 0.8f);
+    EXPECT_NEAR(brushed.anisotropy_rotation, 1.5707964f, 1e-6f);
+    EXPECT_EQ(brushed.clearcoat, 1.0f);
+    EXPECT_EQ(brushed.clearcoat_roughness, 0.1f);
+    EXPECT_EQ(brushed.base_color.a, 0.75f);
+    const Material across = material_of("Pr 0.4\nPm 1\naniso -0.5");
+    EXPECT_EQ(across.anisotropy_strength, 0.5f);
+    EXPECT_NEAR(across.anisotropy_rotation, 1.5707964f, 1e-6f);
+    const Material plain = material_of("Ni 1.0");
+    EXPECT_EQ(plain.roughness, 1.0f);
+    EXPECT_EQ(plain.ior, 1.5f); // 1 says nothing
+}
+
+TEST(mtl, pictures_become_textures)
+{
+    const TempFolder folder;
+    write_picture(folder.path("colour.png"), 2, 2, {255, 0, 0});
+    write_picture(folder.path("rough.png"), 4, 2, {51, 0, 0});
+    write_picture(folder.path("metal.png"), 2, 4, {255, 0, 0});
+    write_picture(folder.path("normal map.png"), 2, 2, {128, 128, 255});
+    const Result<Scene> scene = load_wearing(
+        folder,
+        "newmtl a\nKd 1 1 1\nmap_Kd -s 2 3 1 -o 0.25 0.5 colour.png\nmap_Pr rough.png\nmap_Pm metal.png\nnorm -bm 0.5 normal map.png\n"
+        "newmtl b\nmap_Kd -clamp on textures\\colour.png\nmap_Ke colour.png\n");
+    ASSERT_TRUE(scene) << scene.error().line();
+    EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+    const Material& a = scene->materials[static_cast<std::size_t>(scene->primitives[0].material)];
+    const Material& b = scene->materials[static_cast<std::size_t>(scene->primitives[1].material)];
+    // A place at (u, v), v down, shows the file's (2u + .25, 3(1-v) + .5)
+    const glm::vec2 at = a.base_color_tex.uv_transform * glm::vec3(0.5f, 0.25f, 1.0f);
+    EXPECT_NEAR(at.x, 2.0f * 0.5f + 0.25f, 1e-6f);
+    EXPECT_NEAR(1.0f - at.y, 3.0f * 0.75f + 0.5f, 1e-6f);
+    EXPECT_EQ(a.normal_scale, 0.5f);
+    EXPECT_EQ(a.roughness, 1.0f);
+    EXPECT_EQ(a.metallic, 1.0f);
+    const auto image_of = [&](const TextureRef& ref) {
+        return scene->images[static_cast<std::size_t>(scene->textures[static_cast<std::size_t>(ref.texture)].image)];
+    };
+    const Image packed = image_of(a.metallic_roughness_tex);
+    EXPECT_EQ(packed.width, 4);
+    EXPECT_EQ(packed.height, 4);
+    EXPECT_EQ(std::to_integer<int>(packed.bytes[1]), 51);
+    EXPECT_EQ(std::to_integer<int>(packed.bytes[2]), 255);
+    EXPECT_EQ(scene->textures[static_cast<std::size_t>(b.base_color_tex.texture)].wrap_s, WrapMode::clamp);
+    EXPECT_EQ(b.emissive, glm::vec3(1.0f));
+    EXPECT_EQ(std::count(scene->files.begin(), scene->files.end(), folder.path("colour.png")), 1);
+}
+
+TEST(mtl, wrong_numbers_are_errors_with_their_line)
+{
+    for (const auto& [line, words] : {std::pair<std::string, std::string>{"Kd red", "'red' is no number"},
+                                      {"Ns", "a number is missing"},
+                                      {"Pr nan", "'nan' is no number"},
+                                      {"Ke 1e99 0 0", "'1e99' is no number"},
+                                      {"map_Kd", "a picture's name is missing"},
+                                      {"map_Kd -s x a.png", "a number is missing"}}) {
+        const TempFolder folder;
+        const Result<Scene> scene = load_wearing(folder, "newmtl a\n" + line + "\n");
+        ASSERT_FALSE(scene) << line;
+        EXPECT_EQ(scene.error().place, "line 2") << scene.error().line();
+        EXPECT_NE(scene.error().reason.find(words), std::string::npos) << scene.error().line();
+        EXPECT_NE(scene.error().file.find("a.mtl"), std::string::npos);
+    }
+    EXPECT_TRUE(obj::parse_mtl("x", std::string("newmtl a\0", 9)).wrong);
+}
+
+TEST(mtl, what_is_not_drawn_is_said)
+{
+    EXPECT_EQ(warnings_of("illum 2\nKa 1 1 1\nsharpness 60"), "");
+    for (const auto& [line, words] : {std::pair<std::string, std::string>{"Pr 3", "Pr 3 is taken as 1"},
+                                      {"Ps 0.5", "'Ps' is not read"},
+                                      {"map_Bump b.png", "'map_Bump' is not read"},
+                                      {"Kd spectral a.rfl", "Kd spectral is not read"},
+                                      {"map_Kd missing.png", "missing.png is not found"},
+                                      {"map_d alpha.png", "map_d is read only where it is map_Kd"},
+                                      {"newmtl a", "stands here again"}})
+        EXPECT_NE(warnings_of(line).find(words), std::string::npos) << line << ": " << warnings_of(line);
+    EXPECT_EQ(warnings_of("Ps 0.5\nPs 0.6"), warnings_of("Ps 0.5"));
+}
+
+TEST(mtl, names_without_a_material_are_said)
+{
+    const TempFolder folder;
+    write(folder.path("a.obj"), "mtllib none.mtl\n" + kQuad + "usemtl a\n" + kFirst);
+    const Result<Scene> missing = load_obj(folder.path("a.obj"), Limits());
+    ASSERT_TRUE(missing);
+    ASSERT_EQ(missing->warnings.size(), 2u);
+    EXPECT_NE(missing->warnings[0].find("none.mtl is not found"), std::string::npos);
+    EXPECT_NE(missing->warnings[1].find("no library has material 'a'"), std::string::npos);
+    EXPECT_EQ(missing->materials[static_cast<std::size_t>(missing->primitives[0].material)].name, "white");
+    write(folder.path("b.obj"), kQuad + "usemtl a\n" + kFirst);
+    EXPECT_EQ(load_obj(folder.path("b.obj"), Limits())->warnings.size(), 1u);
+    const Result<Scene> in_memory = load_obj_text("mtllib a.mtl\n" + kQuad + "usemtl a\n" + kFirst, folder.path("a.obj"), Limits());
+    ASSERT_TRUE(in_memory);
+    EXPECT_EQ(in_memory->files.size(), 1u); // reads no further file
+}
+
+TEST(mtl, files_lie_below_the_scene_s_folder)
+{
+    const TempFolder folder;
+    std::filesystem::create_directories(folder.path("inner"));
+    write(folder.path("outer.mtl"), "newmtl a\nKd 1 0 0\n");
+    write(folder.path("inner/a.obj"), "mtllib ../outer.mtl\n" + kQuad + "usemtl a\n" + kFirst);
+    Limits limits;
+    const Result<Scene> kept = load_obj(folder.path("inner/a.obj"), limits);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->materials.size(), 1u);
+    EXPECT_NE(kept->warnings[0].find("not found"), std::string::npos);
+    limits.uris_outside = true;
+    const Result<Scene> outside = load_obj(folder.path("inner/a.obj"), limits);
+    ASSERT_TRUE(outside);
+    EXPECT_EQ(outside->materials.size(), 2u);
+    std::filesystem::create_symlink(folder.path("outer.mtl"), folder.path("inner/outer.mtl"));
+    EXPECT_EQ(load_obj(folder.path("inner/a.obj"), Limits())->materials.size(), 1u);
+}
+
+TEST(mtl, pictures_count_against_the_limits)
+{
+    const TempFolder folder;
+    write_picture(folder.path("colour.png"), 64, 64, {255, 0, 0});
+    write(folder.path("a.mtl"), "newmtl a\nmap_Kd colour.png\n");
+    write(folder.path("a.obj"), "mtllib a.mtl\n" + kQuad + "usemtl a\n" + kFirst);
+    Limits limits;
+    limits.texture_bytes = 4096;
+    const Result<Scene> refused = load_obj(folder.path("a.obj"), limits);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ExitCode::bad_input);
+    write(folder.path("colour.png"), "no picture");
+    EXPECT_FALSE(load_obj(folder.path("a.obj"), Limits()));
+}
+
+} // namespace
