@@ -54,7 +54,7 @@ std::vector<Option> output_rows(RenderArguments& to)
          choice(to.plain.resolve, {"linear", "display", "weighted"})},
         {"--shadows", "NAME", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)",
          choice(to.plain.shadows, {"off", "ratio", "on"})},
-        {"--shadow-samples", "N", "Samples a pixel for --shadows, in steps of 16", integer(to.plain.shadow_samples, 1, 1 << 20)},
+        {"--shadow-samples", "N", "Samples a pixel for --shadows, rounded up to steps of 16", integer(to.plain.shadow_samples, 1, 1 << 20)},
         {"--aov", "NAMES", "Layers of .exr outputs, separated by commas: {}", choices(to.plain.aov, layer_names()), ""},
         {"--show", "NAME",
          "Contents of 8-bit outputs: {}. The last three are false colours: texture level, lobe shape in the picture, lobe normal",

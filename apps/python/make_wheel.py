@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a wheel of the Python package with the library in it: one for every Python from 3.9 on, on this kind of machine.
 
-Usage: make_wheel.py --library build/release/raster/session/libburnish.so [--module build/release/core/image/burnish_openimageio.so] -o FOLDER
+Usage: make_wheel.py --library build/release/raster/session/libburnish.so [--module build/release/burnish_openimageio.so] -o FOLDER
 
 The wheel needs the system's libraries that libburnish.so is linked with. Equal inputs give equal bytes.
 """

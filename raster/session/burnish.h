@@ -47,8 +47,8 @@ const char* burnish_technique_help(int index);
 int burnish_options_make(burnish_options** out);
 int burnish_options_set(burnish_options* options, const char* name, const char* value);
 /* Called about ten times a second by the calling thread while burnish_open, burnish_open_meshes, burnish_render, burnish_reference,
- * burnish_set_environment or burnish_set_material works with these options. work: its name. done: the share of its current step, 0 to 1; -1
- * where unknown. Another value than 0 stops the work with 130, unless the work has just ended. NULL: none. */
+ * burnish_set_environment, burnish_set_material or a _told function works with these options. work: its name. done: the share of its
+ * current step, 0 to 1; -1 where unknown. Another value than 0 stops the work with 130, unless the work has just ended. NULL: none. */
 typedef int (*burnish_progress)(void* user, const char* work, double done);
 int burnish_options_progress(burnish_options* options, burnish_progress progress, void* user);
 /* A picture as environment, where a function gets these options and NULL as environment: equirectangular, 3 floats a pixel by rows from
@@ -116,6 +116,10 @@ int burnish_frame_tonemap(burnish_frame* frame, const char* name);
  * One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size);
 int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev); /* by extension: .exr .hdr .pfm .png .jpg .tif */
+/* The same two. They tell their progress to the function of the options, which may stop them. A stop leaves no file, or the old one. */
+int burnish_frame_png_told(burnish_frame* frame, float exposure_ev, const burnish_options* options, const unsigned char** bytes,
+                           size_t* size);
+int burnish_write_told(const burnish_frame* frame, const char* path, float exposure_ev, const burnish_options* options);
 void burnish_frame_free(burnish_frame* frame);
 
 /* Compares two pictures of floats with 3 channels, linear Rec.709. */

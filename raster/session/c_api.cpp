@@ -163,8 +163,12 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
                         burnish_session** out)
 {
     return guarded_call([&]() -> Status {
-        if (!meshes || count == 0 || !out)
-            return usage(out ? "meshes" : "out", "is NULL");
+        if (!out)
+            return usage("out", "is NULL");
+        if (count == 0)
+            return usage("meshes", "at least one is needed");
+        if (!meshes)
+            return usage("meshes", "is NULL");
         if (meshes->size < sizeof(burnish_mesh) || meshes->size % alignof(burnish_mesh) != 0)
             return usage("/meshes/0/size", "is not the size of burnish_mesh");
         const Result<CSettings> settings = settings_of(options, BURNISH_OPEN_MESHES);
@@ -438,11 +442,20 @@ int burnish_frame_tonemap(burnish_frame* frame, const char* name)
 
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size)
 {
+    return burnish_frame_png_told(frame, exposure_ev, nullptr, bytes, size);
+}
+
+int burnish_frame_png_told(burnish_frame* frame, float exposure_ev, const burnish_options* options, const unsigned char** bytes,
+                           size_t* size)
+{
     return guarded_call([&]() -> Status {
         if (!frame || !bytes || !size)
             return usage(!frame ? "frame" : !bytes ? "bytes" : "size", "is NULL");
         BN_TRY(check_exposure(exposure_ev));
-        Result<std::string> png = encode_png(tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+        Result<std::string> png = run_told(teller(options), [&] {
+            const Activity activity("encoding a picture");
+            return encode_png(tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+        });
         BN_TRY(png);
         frame->png = std::move(*png);
         *bytes = reinterpret_cast<const unsigned char*>(frame->png.data()), *size = frame->png.size();
@@ -452,15 +465,23 @@ int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned ch
 
 int burnish_write(const burnish_frame* frame, const char* path, float exposure_ev)
 {
+    return burnish_write_told(frame, path, exposure_ev, nullptr);
+}
+
+int burnish_write_told(const burnish_frame* frame, const char* path, float exposure_ev, const burnish_options* options)
+{
     return guarded_call([&]() -> Status {
         if (!frame || !path)
             return usage(frame ? "path" : "frame", "is NULL");
         BN_TRY(check_exposure(exposure_ev));
-        if (!frame->names.empty() && stores_channels(path))
-            return write_channels(path, frame->layered.image, frame->layered.names);
-        if (stores_floats(path))
-            return write_image(path, frame->frame.color);
-        return write_image(path, tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+        return run_told(teller(options), [&]() -> Status {
+            const Activity activity(std::string("writing ") + path);
+            if (!frame->names.empty() && stores_channels(path))
+                return write_channels(path, frame->layered.image, frame->layered.names);
+            if (stores_floats(path))
+                return write_image(path, frame->frame.color);
+            return write_image(path, tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+        });
     });
 }
 

@@ -211,7 +211,7 @@ std::vector<Row> picture_rows()
           }}},
         {"shadows", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)", "off",
          BURNISH_RENDER, name({"off", "ratio", "on"}, [](CSettings& to, std::size_t i) { to.shadows.of = static_cast<Shadows>(i); })},
-        {"shadow_samples", "Samples a pixel for shadows, in steps of 16", "16", BURNISH_RENDER,
+        {"shadow_samples", "Samples a pixel for shadows, rounded up to steps of 16", "16", BURNISH_RENDER,
          whole(1, 1 << 20, [](CSettings& to) -> int& { return to.shadows.samples; })},
         {"layers", "Layers of the picture, with commas between: depth, normal, albedo, ...", "", BURNISH_RENDER, layer_names()},
         {"aov", "Another name of layers", "", BURNISH_RENDER, layer_names()},

@@ -269,8 +269,12 @@ Result<View> wanted_view(const CSettings& settings, const Session& session)
 Result<View> view_of(const CSettings& settings, const Session& session)
 {
     Result<View> view = wanted_view(settings, session);
-    if (view)
-        view->tan_half_x /= settings.zoom, view->tan_half_y /= settings.zoom;
+    BN_TRY(view);
+    view->tan_half_x /= settings.zoom, view->tan_half_y /= settings.zoom;
+    const float length = glm::length(view->forward), far = glm::length(view->eye); // of numbers that are too large: 0 or not finite
+    if ((settings.eye || settings.target) && !(length > 0.5f && std::isfinite(length) && std::isfinite(far)))
+        return Error{ExitCode::usage, "", settings.eye ? "eye" : "target",
+                     "gives no view: its numbers are too large, or the camera stands too near to its target"};
     return view;
 }
 

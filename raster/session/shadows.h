@@ -11,7 +11,7 @@ enum class Shadows { off, ratio, on }; // ratio: of area lights; on: of punctual
 
 struct ShadowSettings {
     Shadows of = Shadows::off;
-    int samples = 16; // a pixel, in steps of 16
+    int samples = 16; // a pixel, rounded up to steps of 16
     Isa isa = best_isa();
     bool quiet = true; // false: rays print their progress
 };

@@ -137,14 +137,51 @@ assert scene.render({FRAME}, progress=hears).hash == before
 """)
 
 
-@case("python.ctrl_c_stops_every_call", budget=20)
+@case("python.saving_stops_and_leaves_the_old_file", budget=10)
+def saved(bench):
+    python(bench, f"""
+import os
+scene = burnish.load('builtin:teapot', {KEYWORDS})
+large = scene.render(width=4096, height=4096, msaa=1, technique='split_isotropic')
+before = sorted(os.listdir())
+told = []
+def stops(work, done):
+    told.append(work)
+    return True
+for name in ('new.png', 'old.png'):
+    if name.startswith('old'): open(name, 'w').write('old')
+    try: large.save(name, progress=stops)
+    except KeyboardInterrupt: pass
+    else: raise SystemExit(f'{{name}} was written')
+assert told == ['writing new.png', 'writing old.png'], told
+assert sorted(os.listdir()) == sorted(before + ['old.png']) and open('old.png').read() == 'old', os.listdir()
+try: large.png(progress=stops)
+except KeyboardInterrupt: pass
+else: raise SystemExit('the bytes were made')
+def fails(work, done): raise LookupError('mine')
+try: large.save('new.png', progress=fails)
+except LookupError as error: assert str(error) == 'mine' and not os.path.exists('new.png')
+else: raise SystemExit('an exception is lost')
+try: large.save('new.png', progress=lambda work, done: large.png())
+except RuntimeError as error: assert 'picture' in str(error)
+else: raise SystemExit('a picture waits for itself')
+small = scene.render({FRAME})
+small.save('new.png', 1.0, progress=lambda work, done: False)
+assert open('new.png', 'rb').read() == small.png(1.0)
+""")
+
+
+@case("python.ctrl_c_stops_every_call", budget=30)
 def interrupt(bench):
-    for work in ("scene.render(width=1280, height=720, technique='mc', samples=8192)",
-                 "burnish.load('builtin:spheres', env_size=2048, env_samples=65536, cache=False)", "burnish.compare(large, large)"):
+    floats, picture = "memoryview(bytearray(12 * 8192 * 4096)).cast('f', [4096, 8192, 3])", "scene.render(width=8192, height=4096, msaa=1, technique='split_isotropic')"
+    for large, work in (("None", "scene.render(width=1280, height=720, technique='mc', samples=8192)"),
+                        ("None", "burnish.load('builtin:spheres', env_size=2048, env_samples=65536, cache=False)"),
+                        (floats, "burnish.compare(large, large)"), (picture, "large.save('large.png')"), (picture, "large.png()"),
+                        (f"scene.render({FRAME})", "[large.save('small.png') for _ in iter(int, 1)]"), (f"scene.render({FRAME})", "[large.png() for _ in iter(int, 1)]")):
         child = subprocess.Popen([sys.executable, "-c", f"""
 import burnish
 scene = burnish.load('builtin:teapot', {KEYWORDS})
-large = memoryview(bytearray(12 * 8192 * 4096)).cast('f', [4096, 8192, 3])
+large = {large}
 print('ready', flush=True)
 try: {work}
 except KeyboardInterrupt: print('stopped', scene.render({FRAME}).hash)
@@ -154,3 +191,4 @@ except KeyboardInterrupt: print('stopped', scene.render({FRAME}).hash)
         child.send_signal(signal.SIGINT)
         out, _ = child.communicate(timeout=60)
         check(child.returncode == 0 and "stopped" in out, f"{work}: {child.returncode} {out}")
+    check(not (bench.folder / "large.png").exists(), "a stopped save left a file")

@@ -1,7 +1,7 @@
 """burnish.offscreen: pyrender's call names, its conventions for poses and depths, and refusals."""
 
 from harness import case
-from python_cases import python, pythons
+from python_cases import ROOT, python, pythons
 
 # A square of 2 m, and helpers. turn(AXIS, DEGREES, place) is a pose in rows.
 HEAD = """
@@ -219,6 +219,75 @@ refused('positions/3', lambda: pr.Primitive([(0, 0, 0), (math.nan, 0, 0), (0, 0,
 renderer.render(whole)
 renderer.delete()
 assert not renderer._kept
+""")
+
+
+@case("python.offscreen_has_pyrender_s_names", budget=10)
+def names(bench):
+    """What burnish does not serve raises burnish.Error, which says what to do instead."""
+    python(bench, HEAD + """
+for name in ('Camera', 'PerspectiveCamera', 'OrthographicCamera', 'IntrinsicsCamera', 'Light', 'PointLight', 'DirectionalLight', 'SpotLight', 'Sampler', 'Texture', 'Material',
+             'MetallicRoughnessMaterial', 'Primitive', 'Mesh', 'Node', 'Scene', 'Renderer', 'Viewer', 'OffscreenRenderer', 'RenderFlags', 'TextAlign', 'GLTF'):
+    assert hasattr(pr, name) and name in pr.__all__, name
+grey = square(metallicFactor=0.0)
+whole = scene_of(CAMERA, FRONT, (grey, None))
+lamp = pr.PointLight(intensity=9 * math.pi)
+for words, call in (
+        ('Viewer: burnish opens no window: draw pictures with OffscreenRenderer', lambda: pr.Viewer(whole, use_raymond_lighting=True)), ('Renderer', lambda: pr.Renderer(W, H)),
+        ('Sampler', lambda: pr.Sampler(wrapS=pr.GLTF.REPEAT)), ('from_points', lambda: pr.Mesh.from_points(SQUARE, colors=SQUARE)), ('mode', lambda: pr.Primitive(SQUARE, mode=pr.GLTF.POINTS)),
+        ('Camera', lambda: pr.Camera(0.05, 100.0)), ('Light', lambda: pr.Light()), ('Material', lambda: pr.Material()), ('get_projection_matrix', lambda: CAMERA.get_projection_matrix(W, H)),
+        ('shadow_texture', lambda: lamp.shadow_texture), ('shadow_texture', lamp.generate_shadow_texture), ('get_shadow_camera', lambda: lamp.get_shadow_camera(2.0)),
+        ('viewport_width: 64.5', lambda: pr.OffscreenRenderer(64.5, 48)), ('viewport_height: 0.5', lambda: pr.OffscreenRenderer(64, 0.5)), ('viewport_height', lambda: setattr(renderer, 'viewport_height', 48.5))):
+    refused(words, call)
+flags = {name: value for name, value in vars(pr.RenderFlags).items() if name.isupper()}
+assert flags['SHADOWS_ALL'] == 224 and sum(value for name, value in flags.items() if name != 'SHADOWS_ALL') == 32767, flags
+for name in ('FLIP_WIREFRAME', 'ALL_WIREFRAME', 'SHADOWS_DIRECTIONAL', 'SHADOWS_POINT', 'SHADOWS_SPOT', 'VERTEX_NORMALS', 'FACE_NORMALS', 'DISABLE_ANTI_ALIASING'):
+    refused(f'flags: {name}: ', lambda: renderer.render(whole, flags[name]))
+refused('shadows="on"', lambda: renderer.render(whole, pr.RenderFlags.SHADOWS_ALL | pr.RenderFlags.RGBA))
+for thing in (grey, grey.primitives[0], whole):
+    assert list(thing.centroid) == [0, 0, 0] and list(thing.extents) == [2, 2, 0] and abs(thing.scale - math.sqrt(8)) < 1e-9
+assert pr.Primitive(SQUARE[:3], mode=pr.GLTF.TRIANGLES).count == 3 and pr.OffscreenRenderer(64.0, 48).viewport_width == 64
+assert all(isinstance(thing, kind) for thing, kind in ((CAMERA, pr.Camera), (lamp, pr.Light), (pr.MetallicRoughnessMaterial(), pr.Material)))
+class Faces: kind = 'face'
+refused('face_colors', lambda: pr.Mesh.from_trimesh(type('T', (), {'vertices': SQUARE, 'faces': FACES, 'visual': Faces})()))
+# Shadows by the keyword: a small square keeps the lamp's light off the middle
+shaded = scene_of(CAMERA, FRONT, (square(2, metallicFactor=0.0), None), (square(0.2), turn('x', 0, (0.5, 0, 1))), ambient_light=(0.0, 0.0, 0.0))
+shaded.add(lamp, pose=turn('x', 0, (1.0, 0, 2)))
+assert shaded.point_lights == {lamp} and not shaded.spot_lights and len(shaded.point_light_nodes) == 1 and not shaded.directional_light_nodes
+plain, dark = (pr.OffscreenRenderer(W, H, **more).render(shaded)[0] for more in ({}, {'shadows': 'on'}))
+assert rgb(dark, 24, 32) == (0, 0, 0) != rgb(plain, 24, 32) and rgb(dark, 24, 50) == rgb(plain, 24, 50), (rgb(dark, 24, 32), rgb(plain, 24, 32))
+lamp.intensity = 0
+assert rgb(renderer.render(shaded)[0], 24, 50) == (0, 0, 0), 'a lamp that is turned off'
+lamp.intensity = -1
+refused('intensity', lambda: renderer.render(shaded))
+# trimesh's scenes
+class Graph:
+    nodes_geometry = ['left', 'right']
+    def __getitem__(self, name): return turn('x', 0, (-1.5 if name == 'left' else 1.5, 0, 0)), 'tile'
+tile = type('T', (), {'vertices': SQUARE, 'faces': FACES})()
+pair = pr.Scene.from_trimesh_scene(type('S', (), {'geometry': {'tile': tile}, 'graph': Graph()})(), ambient_light=(0.5, 0.5, 0.5))
+pair.add(CAMERA, pose=turn('x', 0, (0, 0, 8)))
+depth = renderer.render(pair)[1]
+assert box(depth) == (17, 46, 18, 29) and depth[24, 32] == 0, box(depth)
+""")
+
+
+@case("python.offscreen_warns_of_the_script_s_scene_alone", budget=10)
+def warned(bench):
+    """The page's example warns of nothing. A warning about a script's own mesh names the script's line."""
+    page = (ROOT / "apps/manual/python.md").read_text().split("## Scripts for pyrender")[1]
+    (bench.folder / "page.py").write_text(page.split("```python\n")[1].split("```")[0])
+    python(bench, HEAD + """
+import warnings
+with warnings.catch_warnings(record=True) as told:
+    warnings.simplefilter('always')
+    with open('page.py') as page: exec(page.read(), {})
+    assert not told, [str(one.message) for one in told]
+    bare = scene_of(CAMERA, FRONT, (square(anisotropyStrength=0.8), None), bg_color=(0.1, 0.2, 0.3))
+    renderer.render(bare)
+    assert [one.category for one in told] == [burnish.InputWarning] and 'coordinates' in str(told[0].message) and told[0].filename == '<string>', told
+    renderer.render(bare)
+    assert len(told) == 1
 """)
 
 

@@ -97,6 +97,42 @@ _native.library().burnish_options_free(options)
 """)
 
 
+@case("python.whole_numbers_have_no_fractions", budget=10)
+def whole(bench):
+    """Each keyword whose values are whole numbers refuses a fraction, and names itself."""
+    python(bench, REFUSED + """
+import ctypes
+from burnish import _native
+whole = [name for i, name in enumerate(burnish.options()) if _native.library().burnish_option_values(i).startswith(b'int,')]
+assert {'light_samples', 'seed', 'samples', 'width', 'height', 'shadow_samples', 'bounces', 'threads', 'animation', 'env_samples', 'texture_anisotropy'} <= set(whole), whole
+options = ctypes.c_void_p()
+_native.call('burnish_options_make', ctypes.byref(options))
+for name in whole + ['msaa', 'env_size', 'key_lights']:
+    for value in ('1.5', '1e0.5', '2.000001'): refused(name + ': ', lambda: _native.call('burnish_options_set', options, name.encode(), value.encode()))
+_native.library().burnish_options_free(options)
+scene = burnish.load('builtin:plate', env_size=32, env_samples=16)
+for name in ('light_samples', 'seed', 'samples', 'width', 'shadow_samples'): refused(name + ': ', lambda: scene.render(**{name: 1.5}))
+""")
+
+
+@case("python.wrong_arguments_are_named", budget=10)
+def named(bench):
+    python(bench, REFUSED + f"""
+mesh = burnish.Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0])
+refused('meshes: at least one is needed', lambda: burnish.meshes({KEYWORDS}))
+refused('parts/0: int is no burnish.Mesh', lambda: burnish.meshes(5), TypeError)
+refused('parts/1: list is no burnish.Mesh', lambda: burnish.meshes(mesh, [mesh]), TypeError)
+plate = burnish.load('builtin:plate', {KEYWORDS})
+for call in (plate.render, plate.reference):
+    refused('eye: gives no view', lambda: call(eye=(1e30, 0, 0)))
+    refused('eye: gives no view', lambda: call(eye=(1, 1, 1), target=(0, -1e30, 0)))
+    refused('target: gives no view', lambda: call(target=(1e30, 0, 0)))
+assert 'rounded up to steps of 16' in burnish.options()['shadow_samples']
+pictures = [burnish.load('builtin:lights', {KEYWORDS}).render({FRAME}, shadows='ratio', shadow_samples=n).hash for n in (16, 17, 32)]
+assert pictures[0] != pictures[1] == pictures[2], pictures
+""")
+
+
 @case("python.views_are_those_of_the_program", budget=20)
 def views(bench):
     lamp = str(bench.data_file("models/Lights.glb"))

@@ -13,7 +13,6 @@ import contextlib
 import ctypes
 import operator
 import os
-import threading
 import warnings
 
 from . import _native, _show
@@ -42,13 +41,14 @@ def options():
     return _native.listed("burnish_option_name", "burnish_option_help")
 
 
-class Picture:
+class Picture(_native.Alone):
     """A picture of `height` rows and `width` columns, 3 floats a pixel. Offers the buffer of its pixels, numpy's array interface and DLPack.
     `name` is a caption for notebooks, which scripts may set."""
 
     def __init__(self, frame, name="picture"):
+        super().__init__()
         self.name = name
-        self._frame, self._lock, self._free = frame, threading.Lock(), library().burnish_frame_free
+        self._frame, self._free = frame, library().burnish_frame_free
         self.width, self.height = library().burnish_frame_width(frame), library().burnish_frame_height(frame)
 
     def __del__(self):
@@ -100,20 +100,28 @@ class Picture:
         """16 hexadecimal digits over the pixels' bits, as `burnish render` prints them."""
         return f"{library().burnish_frame_hash(self._frame):016x}"
 
-    def png(self, exposure=0.0, tonemap="pbr-neutral"):
-        """The picture as bytes of a PNG file. exposure: stops. tonemap: "none", "pbr-neutral" or "aces"."""
-        data, size = ctypes.c_void_p(), ctypes.c_size_t()
-        with self._lock:
+    @contextlib.contextmanager
+    def _exposed(self, tonemap):
+        """Chooses the tone curve. Gives the options of a call."""
+        with _native.Options({}, "render()") as given, self._alone():
             _native.call("burnish_frame_tonemap", self._frame, tonemap.encode())
-            _native.call("burnish_frame_png", self._frame, exposure, ctypes.byref(data), ctypes.byref(size))
+            yield given
+
+    def png(self, exposure=0.0, tonemap="pbr-neutral", progress=None):
+        """The picture as bytes of a PNG file. exposure: stops. tonemap: "none", "pbr-neutral" or "aces". progress: see load()."""
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
+        with self._exposed(tonemap) as given:
+            _native.call_told("burnish_frame_png_told", given, progress, self._frame, exposure, given, ctypes.byref(data), ctypes.byref(size),
+                              undo=lambda: None)
             return ctypes.string_at(data.value, size.value)
 
-    def save(self, path, exposure=0.0, tonemap="pbr-neutral"):
-        """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped). exposure and tonemap: see png()."""
+    def save(self, path, exposure=0.0, tonemap="pbr-neutral", progress=None):
+        """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped). exposure, tonemap and progress: see
+        png(). Work that is stopped leaves no file, or the old one."""
         name = _native.path(path)
-        with self._lock:
-            _native.call("burnish_frame_tonemap", self._frame, tonemap.encode())
-            _native.call("burnish_write", self._frame, name, exposure)
+        with self._exposed(tonemap) as given:
+            _native.call_told("burnish_write_told", given, progress, self._frame, name, exposure, given,
+                              undo=lambda: None)  # Ctrl-C counts even where the file is whole
 
     def _repr_png_(self):
         return self.png()
@@ -122,21 +130,22 @@ class Picture:
         return _show.figure(self.png(), self.name, self.width)
 
 
-class Scene:
+class Scene(_native.Alone):
     """A scene under an environment. One thread at a time may use it. Make it by load() or meshes(). `name` is a caption for notebooks."""
 
     PREVIEW = {"width": 240, "height": 180, "msaa": 4}  # keywords of the picture that notebooks show
 
-    def __init__(self, session, name="scene"):
+    def __init__(self, session, name="scene", level=4, tells=lambda text: True):
+        super().__init__()
         self.name = name
         self._session, self._close = session, library().burnish_close
-        self._lock, self._owner, self._warned = threading.Lock(), None, set()
-        self._warn(4)
+        self._warned, self._tells = set(), tells
+        self._warn(level)
 
     def _warn(self, level):
-        """Warns once of what was repaired or left out. level: calls up to the script's own line."""
+        """Warns once of what was repaired or left out, where tells(text) is true. level: calls up to the script's own line."""
         for text in _native.texts("burnish_warning", self._session):
-            if text not in self._warned:
+            if text not in self._warned and self._tells(text):
                 self._warned.add(text)
                 warnings.warn(text, InputWarning, stacklevel=level)
 
@@ -175,18 +184,6 @@ class Scene:
     def _caption(self, keywords):
         """Returns the scene's name and the keywords that choose how it is drawn."""
         return ", ".join([self.name, *(f"{name} {keywords[name]}" for name in ("technique", "samples") if name in keywords)])
-
-    @contextlib.contextmanager
-    def _alone(self):
-        """Keeps other threads out."""
-        if self._owner == threading.get_ident():
-            raise RuntimeError("this scene is drawing: a progress function cannot use it")
-        with self._lock:
-            self._owner = threading.get_ident()
-            try:
-                yield
-            finally:
-                self._owner = None
 
     def render(self, progress=None, **keywords):
         """Draws a Picture. progress: see load()."""
@@ -280,16 +277,24 @@ def load(path, environment=None, progress=None, **keywords):
     environment: a path, "builtin:NAME", or an equirectangular picture of height x width x 3 floats, linear Rec.709 radiance. None: the
     scene's own light, else builtin:studio. progress: called with the work's name and the share of its current step that is done, -1 where
     unknown, about ten times a second. A true result stops the work, as Ctrl-C does. Raises KeyboardInterrupt then."""
+    return _load(path, environment, progress, keywords, 5)
+
+
+def _load(path, environment, progress, keywords, *warns):
+    """Returns the Scene of load(). warns: the last arguments of Scene()."""
     session = ctypes.c_void_p()
     with _native.Options(keywords, "load()") as given:
         light = _native.environment_of(environment, given)
         _native.call_told("burnish_open", given, progress, _native.path(path), light, given, ctypes.byref(session),
                           undo=lambda: library().burnish_close(session))
-    return Scene(session, os.path.basename(os.fsdecode(path)))
+    return Scene(session, os.path.basename(os.fsdecode(path)), *warns)
 
 
 def meshes(*parts, environment=None, progress=None, **keywords):
-    """Makes a scene of Mesh objects. environment and progress: see load()."""
+    """Makes a scene of Mesh objects, one at least. environment and progress: see load()."""
+    for i, part in enumerate(parts):
+        if not isinstance(part, Mesh):
+            raise TypeError(f"parts/{i}: {type(part).__name__} is no burnish.Mesh")
     session = ctypes.c_void_p()
     materials = [_native.Options(part.material, "Mesh()") for part in parts]
     try:
@@ -331,7 +336,7 @@ def compare(reference, test, progress=None):
         raise ValueError(f"{a[1]}x{a[2]} and {b[1]}x{b[2]} pixels cannot be compared")
     figures = _native.ComparisonStruct(ctypes.sizeof(_native.ComparisonStruct))
     with _native.Options({}, "render()") as given:
-        _native.call_told("burnish_compare_told", given, progress, a[0], b[0], a[1], a[2], given, ctypes.byref(figures))
+        _native.call_told("burnish_compare_told", given, progress, a[0], b[0], a[1], a[2], given, ctypes.byref(figures), undo=lambda: None)
     return Comparison(figures, reference, test)
 
 

@@ -125,8 +125,8 @@ def library():
             ("burnish_frame_width", whole, [pointer]), ("burnish_frame_height", whole, [pointer]), ("burnish_frame_pixels", pointer, [pointer]),
             ("burnish_frame_variance", pointer, [pointer]), ("burnish_frame_layer", pointer, [pointer, text, pointer]),
             ("burnish_frame_hash", ctypes.c_uint64, [pointer]), ("burnish_frame_tonemap", whole, [pointer, text]),
-            ("burnish_frame_png", whole, [pointer, ctypes.c_float, pointer, pointer]),
-            ("burnish_write", whole, [pointer, text, ctypes.c_float]), ("burnish_frame_free", None, [pointer]),
+            ("burnish_frame_png_told", whole, [pointer, ctypes.c_float, pointer, pointer, pointer]),
+            ("burnish_write_told", whole, [pointer, text, ctypes.c_float, pointer]), ("burnish_frame_free", None, [pointer]),
             ("burnish_compare_told", whole, [pointer, pointer, whole, whole, pointer, ctypes.POINTER(ComparisonStruct)])):
         try:
             function = getattr(lib, name)
@@ -278,6 +278,25 @@ def _noted_interrupts(raised):
     finally:
         if mine:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+class Alone:
+    """What one thread at a time uses."""
+
+    def __init__(self):
+        self._lock, self._owner = threading.Lock(), None
+
+    @contextlib.contextmanager
+    def _alone(self):
+        """Keeps other threads out. Refuses a progress function, which would wait for itself."""
+        if self._owner == threading.get_ident():
+            raise RuntimeError(f"this {type(self).__name__.lower()} is at work: a progress function cannot use it")
+        with self._lock:
+            self._owner = threading.get_ident()
+            try:
+                yield
+            finally:
+                self._owner = None
 
 
 def call_told(name, given, progress, *arguments, undo=None):

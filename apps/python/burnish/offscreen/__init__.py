@@ -10,10 +10,12 @@ A pose is a 4 x 4 matrix in rows. It maps the node's own space to its parent's, 
 and spot lights look along their own -z. A call that burnish cannot honour raises burnish.Error, which names the argument.
 """
 
-from .meshes import Mesh, MetallicRoughnessMaterial, Primitive, Texture
+from .lacking import GLTF, Renderer, Sampler, TextAlign, Viewer
+from .meshes import Material, Mesh, MetallicRoughnessMaterial, Primitive, Texture
 from .renderer import OffscreenRenderer, RenderFlags
 from .scene import Node, Scene
-from .views import DirectionalLight, IntrinsicsCamera, OrthographicCamera, PerspectiveCamera, PointLight, SpotLight
+from .views import Camera, DirectionalLight, IntrinsicsCamera, Light, OrthographicCamera, PerspectiveCamera, PointLight, SpotLight
 
-__all__ = ["DirectionalLight", "IntrinsicsCamera", "Mesh", "MetallicRoughnessMaterial", "Node", "OffscreenRenderer", "OrthographicCamera",
-           "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Scene", "SpotLight", "Texture"]
+__all__ = ["Camera", "DirectionalLight", "GLTF", "IntrinsicsCamera", "Light", "Material", "Mesh", "MetallicRoughnessMaterial", "Node",
+           "OffscreenRenderer", "OrthographicCamera", "PerspectiveCamera", "PointLight", "Primitive", "RenderFlags", "Renderer", "Sampler", "Scene",
+           "SpotLight", "TextAlign", "Texture", "Viewer"]

@@ -29,6 +29,14 @@ def number(value, name, least=-math.inf, most=math.inf):
     return result
 
 
+def whole(value, name, least):
+    """Returns a whole number, `least` or more."""
+    result = number(value, name, least)
+    if result != int(result):
+        refuse(name, f"{result:g} is no whole number")
+    return int(result)
+
+
 def numbers(values, name, least=-math.inf, most=math.inf):
     """Returns a list of finite floats within the range."""
     try:

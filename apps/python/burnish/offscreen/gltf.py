@@ -1,11 +1,10 @@
 """Writes meshes, lights and a camera as one binary glTF 2.0 file, which the library reads as a scene."""
 
+import ctypes
 import json
-import math
 import struct
 
-from .. import _png
-from .display import encoded
+from .. import _native
 
 ARRAY, ELEMENTS, FLOAT, WHOLE = 34962, 34963, 5126, 5125
 KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
@@ -81,9 +80,6 @@ class Writer:
 
 
 def even_light(radiance):
-    """Returns (PNG bytes, exposure in stops) of an environment with one radiance (red, green, blue) everywhere."""
-    most = max(radiance)
-    if most <= 0:
-        return _png.encode(4, 2, bytes(48), 16), 0.0
-    words = [round(65535 * encoded(value / most)) for value in radiance]
-    return _png.encode(4, 2, struct.pack(">3H", *words) * 8, 16), math.log2(most)
+    """Returns the picture of an environment with one radiance (red, green, blue) everywhere."""
+    pixels = (ctypes.c_float * 24)(*radiance * 8)
+    return _native.Values(pixels, ctypes.addressof(pixels), (2, 4, 3))

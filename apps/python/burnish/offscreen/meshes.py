@@ -7,6 +7,11 @@ from .. import _native, _png
 from . import gltf
 from .checks import colour, number, refuse, refuse_given
 
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
 TRIANGLES = 4
 ALPHA_MODES = ("OPAQUE", "MASK", "BLEND")
 
@@ -65,7 +70,14 @@ def _texture_of(given, name):
     return Texture(source=given)
 
 
-class MetallicRoughnessMaterial:
+class Material:
+    """What all materials are."""
+
+    def __init__(self, *_, **__):
+        refuse("Material", "it has no model: make a MetallicRoughnessMaterial")
+
+
+class MetallicRoughnessMaterial(Material):
     """glTF's metallic-roughness material; baseColorTexture, a Texture or a picture, is its only texture. Colours are linear, 0 to 1; roughness
     is perceptual. anisotropyStrength (0 to 1) and anisotropyRotation (radians from the first texture axis) are burnish's own."""
 
@@ -104,7 +116,28 @@ class MetallicRoughnessMaterial:
                            {"KHR_materials_anisotropy": brushed} if self.anisotropyStrength else {})
 
 
-class Primitive:
+class Boxed:
+    """What has bounds."""
+
+    @property
+    def centroid(self):
+        """The middle of the bounds."""
+        middle = tuple((a + b) / 2 for a, b in zip(*self.bounds))
+        return middle if numpy is None else numpy.array(middle)
+
+    @property
+    def extents(self):
+        """The sides of the bounds, metres."""
+        sides = tuple(b - a for a, b in zip(*self.bounds))
+        return sides if numpy is None else numpy.array(sides)
+
+    @property
+    def scale(self):
+        """The length of the bounds' diagonal, metres."""
+        return math.sqrt(sum(float(side) ** 2 for side in self.extents))
+
+
+class Primitive(Boxed):
     """Triangles with one material. positions, normals: 3 floats a vertex; texcoord_0: 2, v upwards; color_0: 3 or 4, floats of 0 to 1 or whole
     numbers of 0 to 255. indices: 3 a triangle, counter-clockwise from the front; None: vertices in order. Without normals faces are flat."""
 
@@ -159,7 +192,7 @@ def corners_of(bounds):
     return list(itertools.product(*zip(*bounds)))
 
 
-class Mesh:
+class Mesh(Boxed):
     """Primitives that move together."""
 
     def __init__(self, primitives, name=None, weights=None, is_visible=True):
@@ -171,6 +204,10 @@ class Mesh:
         """((x, y, z), (x, y, z)): the least and the largest corner of the primitives. Zeros without primitives."""
         boxes = [part.bounds for part in self.primitives]
         return tuple(tuple(of(box[side][i] for box in boxes) if boxes else 0.0 for i in range(3)) for side, of in ((0, min), (1, max)))
+
+    @classmethod
+    def from_points(cls, *_, **__):
+        refuse("from_points", "burnish draws no points: add a small Mesh at the place of each")
 
     @classmethod
     def from_trimesh(cls, mesh, material=None, is_visible=True, poses=None, wireframe=False, smooth=True):
@@ -195,6 +232,8 @@ def _primitive_of(part, material, smooth):
         pictures = {name: getattr(given, name, None) for name in ("image", "baseColorTexture")}
         factors["baseColorTexture"] = next((_texture_of(picture, name) for name, picture in pictures.items() if picture is not None), None)
         material = MetallicRoughnessMaterial(**{name: value for name, value in factors.items() if value is not None})
+    if material is None and kind == "face":
+        refuse("face_colors", "burnish colours vertices: give vertex_colors or a material")
     colours = visual.vertex_colors if material is None and kind == "vertex" else None
     if material is None:
         material = MetallicRoughnessMaterial(metallicFactor=0.2, roughnessFactor=0.8)  # as pyrender has it

@@ -5,10 +5,11 @@ import math
 import os
 import tempfile
 
-from .. import _native, _png, load
+from .. import _load, _native, _png
 from . import gltf
-from .checks import number, refuse
+from .checks import refuse, whole
 from .display import over
+from .views import SHADOWS
 
 try:
     import numpy
@@ -16,15 +17,24 @@ except ImportError:
     numpy = None
 
 SAMPLES = 4  # of a pixel, as pyrender takes them
-EVEN_LIGHT = {"env_size": 16, "env_samples": 1, "cache": False}  # an even light needs no more
+EVEN_LIGHT = {"env_size": 16, "env_samples": 1, "env_exposure": 0, "cache": False}  # an even light needs no more
 MIDDLES = {"msaa": 1, "technique": "split_isotropic"}  # one sample, in the pixel's middle, and hardly any shading
+
+MADE = "no TANGENT for"  # of a warning: primitives here never have tangents
 
 
 class RenderFlags:
-    """Flags of OffscreenRenderer.render(), with pyrender's values. Other flags raise burnish.Error."""
+    """Flags of OffscreenRenderer.render(), with pyrender's values. Those of LACKING raise burnish.Error there."""
 
     NONE, DEPTH_ONLY, OFFSCREEN, ALL_SOLID, SKIP_CULL_FACES, RGBA, FLAT, SEG = 0, 1, 2, 16, 1024, 2048, 4096, 8192
+    FLIP_WIREFRAME, ALL_WIREFRAME, SHADOWS_DIRECTIONAL, SHADOWS_POINT, SHADOWS_SPOT, SHADOWS_ALL = 4, 8, 32, 64, 128, 224
+    VERTEX_NORMALS, FACE_NORMALS, DISABLE_ANTI_ALIASING = 256, 512, 16384
     _all = DEPTH_ONLY | OFFSCREEN | ALL_SOLID | SKIP_CULL_FACES | RGBA | FLAT | SEG
+
+
+WIREFRAMES, NORMALS = "burnish draws no wireframes: leave the flag out", "burnish draws no arrows: burnish.load() and layers=[\"normal\"] give normals"
+LACKING = {"FLIP_WIREFRAME": WIREFRAMES, "ALL_WIREFRAME": WIREFRAMES, "SHADOWS_DIRECTIONAL": SHADOWS, "SHADOWS_POINT": SHADOWS, "SHADOWS_SPOT": SHADOWS,
+           "VERTEX_NORMALS": NORMALS, "FACE_NORMALS": NORMALS, "DISABLE_ANTI_ALIASING": "OffscreenRenderer(..., msaa=1) takes one sample a pixel"}
 
 
 class OffscreenRenderer:
@@ -37,8 +47,11 @@ class OffscreenRenderer:
         for name in ("width", "height", "layers", "aov", "floor", "camera", "eye", "target", "orbit", "fov", "zoom", "background"):
             if name in keywords:
                 refuse(name, "the scene and the viewport decide it")
-        self.viewport_width, self.viewport_height, self.keywords = viewport_width, viewport_height, keywords
+        self.viewport_width, self.viewport_height, self.point_size, self.keywords = viewport_width, viewport_height, point_size, keywords
         self._kept = {}  # scenes opened last, for colours and for coverage: (bytes, environment), scene
+
+    viewport_width = property(lambda self: self._width, lambda self, value: setattr(self, "_width", whole(value, "viewport_width", 1)))
+    viewport_height = property(lambda self: self._height, lambda self, value: setattr(self, "_height", whole(value, "viewport_height", 1)))
 
     def render(self, scene, flags=RenderFlags.NONE, seg_node_map=None):
         """Draws the scene. Returns (colour, depth).
@@ -48,11 +61,14 @@ class OffscreenRenderer:
         Both are numpy arrays, or memoryviews where numpy is absent. DEPTH_ONLY returns depth alone. SEG colours each node by seg_node_map:
         {node: (red, green, blue)}, 0 to 255, and leaves other nodes black. Raises burnish.Error, which names the fault.
         """
+        for name, instead in LACKING.items():
+            if flags & getattr(RenderFlags, name):
+                refuse("flags", f"{name}: {instead}")
         if flags & ~RenderFlags._all:
             refuse("flags", f"{flags & ~RenderFlags._all:#x} is none of RenderFlags")
         if scene.main_camera_node is None:
             refuse("camera", "the scene has none")
-        width, height = int(number(self.viewport_width, "viewport_width", 1)), int(number(self.viewport_height, "viewport_height", 1))
+        width, height = self.viewport_width, self.viewport_height
         if not scene.drawn():
             return self._empty(scene, width, height, flags)
         seg = flags & RenderFlags.SEG
@@ -92,19 +108,18 @@ class OffscreenRenderer:
         return _shaped(bytes(shown[:channels]) * (width * height), height, width, channels), depth
 
     def _open(self, scene, role, width, height, **ways):
-        """Opens the scene by files in a new folder, unless it is as it was."""
+        """Opens the scene by a file in a new folder, unless it is as it was."""
         data, environment = scene.write(width, height, **ways), scene.environment
-        light, stops = gltf.even_light(scene.ambient_light) if environment is None else (None, 0.0)
         given = {name: value for name, value in self.keywords.items() if _loads(name)}
-        key = data, environment, light, stops
+        key = data, environment, tuple(scene.ambient_light)
         if self._kept.get(role, (None,))[0] != key:
             with tempfile.TemporaryDirectory(prefix="burnish") as folder:
-                for name, content in (("scene.glb", data), ("light.png", light)):
-                    if content is not None:
-                        with open(os.path.join(folder, name), "wb") as file:
-                            file.write(content)
-                opened = load(os.path.join(folder, "scene.glb"), environment or os.path.join(folder, "light.png"),
-                              **{**given, **({} if environment else {**EVEN_LIGHT, "env_exposure": stops})})
+                path, light = os.path.join(folder, "scene.glb"), gltf.even_light(scene.ambient_light) if environment is None else environment
+                with open(path, "wb") as file:
+                    file.write(data)
+                # 6 calls up: the script's own line
+                opened = _load(path, light, None, {**given, **({} if environment else EVEN_LIGHT)}, 6,
+                               lambda text: role == "colour" and MADE not in text)
             self._kept[role] = key, opened
         return self._kept[role][1]
 

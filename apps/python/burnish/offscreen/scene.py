@@ -4,8 +4,8 @@ import math
 
 from . import gltf
 from .checks import check_rotation, colour, matrix, numbers, refuse, refuse_given
-from .meshes import Mesh, corners_of
-from .views import CAMERAS, Light
+from .meshes import Boxed, Mesh, corners_of
+from .views import CAMERAS, DirectionalLight, Light, PointLight, SpotLight
 
 try:
     import numpy
@@ -133,7 +133,7 @@ class Node:
         self._set_parts(translation, rotation, _vector(value if hasattr(value, "__iter__") else [value] * 3, "scale", 3))
 
 
-class Scene:
+class Scene(Boxed):
     """Things with poses, in world space: metres, right-handed, y upwards.
 
     bg_color: display colour behind the things, 3 or 4 floats of 0 to 1 (white). ambient_light: radiance from everywhere, 3 floats (none).
@@ -159,6 +159,25 @@ class Scene:
     meshes = property(lambda self: {node.mesh for node in self.mesh_nodes})
     cameras = property(lambda self: {node.camera for node in self.camera_nodes})
     lights = property(lambda self: {node.light for node in self.light_nodes})
+    directional_light_nodes = property(lambda self: self._lit_by(DirectionalLight))
+    point_light_nodes = property(lambda self: self._lit_by(PointLight))
+    spot_light_nodes = property(lambda self: self._lit_by(SpotLight))
+    directional_lights = property(lambda self: {node.light for node in self.directional_light_nodes})
+    point_lights = property(lambda self: {node.light for node in self.point_light_nodes})
+    spot_lights = property(lambda self: {node.light for node in self.spot_light_nodes})
+
+    @classmethod
+    def from_trimesh_scene(cls, trimesh_scene, bg_color=None, ambient_light=None):
+        """Returns a Scene of an object like trimesh's Scene: its meshes at their places."""
+        scene = cls(bg_color=bg_color, ambient_light=ambient_light)
+        meshes = {name: Mesh.from_trimesh(part) for name, part in trimesh_scene.geometry.items()}
+        for node in trimesh_scene.graph.nodes_geometry:
+            pose, name = trimesh_scene.graph[node]
+            scene.add(meshes[name], pose=pose)
+        return scene
+
+    def _lit_by(self, kind):
+        return [node for node in self.light_nodes if isinstance(node.light, kind)]
 
     def _walk(self):
         """Returns (node, pose to world space column by column, parent or None) of each node, parents before their children."""
@@ -250,23 +269,6 @@ class Scene:
         box = tuple(tuple(of(corner[i] for corner in corners) if corners else 0.0 for i in range(3)) for of in (min, max))
         return box if numpy is None else numpy.array(box)
 
-    @property
-    def centroid(self):
-        """The middle of the bounds."""
-        middle = tuple((a + b) / 2 for a, b in zip(*self.bounds))
-        return middle if numpy is None else numpy.array(middle)
-
-    @property
-    def extents(self):
-        """The sides of the bounds, metres."""
-        sides = tuple(b - a for a, b in zip(*self.bounds))
-        return sides if numpy is None else numpy.array(sides)
-
-    @property
-    def scale(self):
-        """The length of the bounds' diagonal, metres."""
-        return math.sqrt(sum(float(side) ** 2 for side in self.extents))
-
     def drawn(self):
         """Returns the nodes of visible meshes, in the order of their ids."""
         return [node for node in self.mesh_nodes if node.mesh.is_visible]
@@ -283,5 +285,5 @@ class Scene:
         for node, pose, _ in placed if not (flat or coverage) else ():
             if node.light is not None:
                 check_rotation(pose, "pose")
-                to.node(pose, light=node.light.entry)
+                to.node(pose, light=node.light.entry())
         return to.bytes()

@@ -4,8 +4,23 @@ import math
 
 from .checks import colour, number, refuse
 
+SHADOWS = 'OffscreenRenderer(..., shadows="on") draws those of all lights'
 
-class PerspectiveCamera:
+
+class Camera:
+    """What all cameras are."""
+
+    def __init__(self, *_, **__):
+        refuse("Camera", "it has no lens: make a PerspectiveCamera, an OrthographicCamera or an IntrinsicsCamera")
+
+    def get_projection_matrix(self, *_, **__):
+        refuse("get_projection_matrix", "burnish projects by itself: the camera's own numbers tell its view")
+
+    def unproject_depth_map(self, *_, **__):
+        refuse("unproject_depth_map", "OffscreenRenderer.render() returns metres: use them as they are")
+
+
+class PerspectiveCamera(Camera):
     """yfov: vertical field of view, radians. znear: metres. zfar: metres; it may not cut anything off, since burnish draws to infinity.
     aspectRatio: None, or the viewport's."""
 
@@ -19,7 +34,7 @@ class PerspectiveCamera:
         return {"type": "perspective", "perspective": {"yfov": self.yfov, "znear": self.znear}}
 
 
-class IntrinsicsCamera:
+class IntrinsicsCamera(Camera):
     """A pinhole camera. fx, fy: focal lengths in pixels, equal. cx, cy: the picture's middle in pixels."""
 
     def __init__(self, fx, fy, cx, cy, znear=0.05, zfar=100.0, name=None):
@@ -33,7 +48,7 @@ class IntrinsicsCamera:
         return {"type": "perspective", "perspective": {"yfov": 2 * math.atan(height / (2 * self.fy)), "znear": self.znear}}
 
 
-class OrthographicCamera:
+class OrthographicCamera(Camera):
     """xmag, ymag: half the view's width and height, metres, in the viewport's proportion."""
 
     def __init__(self, xmag, ymag, znear=0.05, zfar=100.0, name=None):
@@ -52,35 +67,59 @@ def _check_aspect(given, name, width, height):
 
 
 class Light:
-    def __init__(self, kind, color, intensity, range=None, name=None):
-        self.name = name
-        self.entry = {"type": kind, "color": colour([1.0] * 3 if color is None else color, "color", 1)[:3],
-                       "intensity": number(1.0 if intensity is None else intensity, "intensity", 0)}
-        if range is not None:
-            self.entry["range"] = number(range, "range", 1e-6)
+    """What all lights are. Their numbers may change between pictures."""
+
+    KIND = None  # in glTF
+
+    def __init__(self, color=None, intensity=None, range=None, name=None):
+        if self.KIND is None:
+            refuse("Light", "it has no kind: make a DirectionalLight, a PointLight or a SpotLight")
+        self.color, self.intensity, self.range, self.name = [1.0] * 3 if color is None else color, 1.0 if intensity is None else intensity, range, name
+        self.entry()  # an error names the argument
+
+    def entry(self):
+        """Returns the light's object of a glTF file."""
+        found = {"type": self.KIND, "color": colour(self.color, "color", 1)[:3], "intensity": number(self.intensity, "intensity", 0)}
+        return found if self.range is None else {**found, "range": number(self.range, "range", 1e-6)}
+
+    @property
+    def shadow_texture(self):
+        self.generate_shadow_texture()
+
+    def generate_shadow_texture(self, *_, **__):
+        refuse("shadow_texture", f"rays find the shadows: {SHADOWS}")
+
+    def get_shadow_camera(self, *_, **__):
+        refuse("get_shadow_camera", f"rays find the shadows: {SHADOWS}")
 
 
 class DirectionalLight(Light):
     """A sun. intensity: lux."""
 
+    KIND = "directional"
+
     def __init__(self, color=None, intensity=None, name=None):
-        super().__init__("directional", color, intensity, name=name)
+        super().__init__(color, intensity, name=name)
 
 
 class PointLight(Light):
     """intensity: candela. range: metres, None for no limit."""
 
-    def __init__(self, color=None, intensity=None, range=None, name=None):
-        super().__init__("point", color, intensity, range, name)
+    KIND = "point"
 
 
 class SpotLight(Light):
     """intensity: candela. range: metres. innerConeAngle, outerConeAngle: half angles in radians."""
 
+    KIND = "spot"
+
     def __init__(self, color=None, intensity=None, range=None, innerConeAngle=0.0, outerConeAngle=math.pi / 4, name=None):
-        super().__init__("spot", color, intensity, range, name)
-        outer = number(outerConeAngle, "outerConeAngle", 1e-6, math.pi / 2)
-        self.entry["spot"] = {"innerConeAngle": number(innerConeAngle, "innerConeAngle", 0, outer), "outerConeAngle": outer}
+        self.innerConeAngle, self.outerConeAngle = innerConeAngle, outerConeAngle
+        super().__init__(color, intensity, range, name)
+
+    def entry(self):
+        outer = number(self.outerConeAngle, "outerConeAngle", 1e-6, math.pi / 2)
+        return {**super().entry(), "spot": {"innerConeAngle": number(self.innerConeAngle, "innerConeAngle", 0, outer), "outerConeAngle": outer}}
 
 
 CAMERAS = (PerspectiveCamera, IntrinsicsCamera, OrthographicCamera)
