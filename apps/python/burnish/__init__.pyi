@@ -75,10 +75,13 @@ class Picture:
     def __dlpack__(self, **keywords: Any) -> Any: ...
     def layer(self, name: Layer) -> Values:
         """Returns a layer asked for by render(layers=[...]) or render(aov=[...]). Raises KeyError."""
-    def png(self, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral") -> bytes:
-        """Returns the bytes of a PNG file. exposure: stops, -64 to 64."""
-    def save(self, path: Path, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral") -> None:
-        """Writes .exr .hdr .pfm .png .jpg or .tif. exposure: stops, -64 to 64. Floats have neither exposure nor tone curve."""
+    def png(self, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral", progress: Progress | None = None) -> bytes:
+        """Returns the bytes of a PNG file. exposure: stops, -64 to 64. progress: See load()."""
+    def save(self, path: Path, exposure: float = 0.0, tonemap: Tonemap = "pbr-neutral", progress: Progress | None = None) -> None:
+        """Writes .exr .hdr .pfm .png .jpg or .tif. exposure: stops, -64 to 64. Floats have neither exposure nor tone curve.
+
+        progress: See load(). Work that is stopped leaves no file, or the old one.
+        """
     def _repr_png_(self) -> bytes: ...
     def _repr_html_(self) -> str: ...
 
@@ -160,7 +163,7 @@ class Scene:
         zoom: Magnification: shows the scene so many times as large.
         camera: Camera of the scene, by index or name; unset: the first, else the whole scene is shown.
         shadows: Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too).
-        shadow_samples: Samples a pixel for shadows, in steps of 16.
+        shadow_samples: Samples a pixel for shadows, rounded up to steps of 16.
         layers: Layers of the picture, with commas between: depth, normal, albedo.
         aov: Another name of layers.
         axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
@@ -536,7 +539,7 @@ def meshes(
     key_lights: int | Literal["auto", "off"] = "auto",
     cache: bool = True,
 ) -> Scene:
-    """Makes a scene of meshes. environment and progress: see load().
+    """Makes a scene of meshes, one at least. environment and progress: see load().
 
     threads: Worker threads; 0: all cores.
     light: Area lights in the words that the program takes, several with ';' between.

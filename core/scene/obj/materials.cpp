@@ -39,6 +39,7 @@ std::optional<std::string> find_file(const fs::path& folder, std::string name, c
 }
 
 class MaterialMaker {
+    using Picture = std::pair<const std::pair<std::string, bool>, Image>; // by path, and whether its colours were read
   public:
     MaterialMaker(Scene& scene, fs::path folder, const Limits& limits) : scene_(scene), folder_(std::move(folder)), limits_(limits) {}
 
@@ -84,15 +85,15 @@ class MaterialMaker {
     }
 
     // Reads a picture once. An empty picture stands for a missing one, which was warned of.
-    Result<const Image*> picture(const std::string& name, bool colours)
+    Result<const Picture*> picture(const std::string& name, bool colours)
     {
-        const auto key = std::pair(name, colours);
-        if (const auto known = pictures_.find(key); known != pictures_.end())
-            return &known->second;
         const std::optional<std::string> path = find_file(folder_, name, limits_);
+        const auto key = std::pair(path.value_or(name), colours);
+        if (const auto known = pictures_.find(key); known != pictures_.end())
+            return &*known;
         if (!path) {
             scene_.warnings.push_back(fmt::format("picture {} is not found in the folder of the OBJ file, and left out", printable(name)));
-            return &(pictures_[key] = Image());
+            return &*pictures_.emplace(key, Image()).first;
         }
         Limits rest = limits_;
         for (const Image& image : scene_.images)
@@ -108,7 +109,7 @@ class MaterialMaker {
             return Error{ExitCode::bad_input, *path, "",
                          fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
         scene_.files.push_back(*path);
-        return &(pictures_[key] = std::move(*image));
+        return &*pictures_.emplace(key, std::move(*image)).first;
     }
 
     TextureRef placed(std::int32_t texture, const MtlMap& map)
@@ -136,10 +137,10 @@ class MaterialMaker {
     {
         if (map.file.empty())
             return {};
-        const Result<const Image*> image = picture(map.file, colours);
-        BN_TRY(image);
-        if (!(*image)->empty())
-            to = textured(map.file + (colours ? "" : " as data"), **image, map);
+        const Result<const Picture*> read = picture(map.file, colours);
+        BN_TRY(read);
+        if (const auto& [key, image] = **read; !image.empty())
+            to = textured(key.first + (colours ? "" : " as data"), image, map);
         return {};
     }
 
@@ -168,9 +169,9 @@ class MaterialMaker {
         const MtlMap* const maps[2] = {&from.metallic_map, &from.roughness_map};
         for (int i = 0; i < 2; ++i)
             if (!maps[i]->file.empty()) {
-                const Result<const Image*> image = picture(maps[i]->file, false);
-                BN_TRY(image);
-                parts[i] = *image;
+                const Result<const Picture*> read = picture(maps[i]->file, false);
+                BN_TRY(read);
+                parts[i] = &(*read)->second;
             }
         if (parts[0]->empty() && parts[1]->empty())
             return {};

@@ -1,11 +1,9 @@
 #include "asset.h"
 
-#include <atomic>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "core/scene/gltf/gltf.h"
 
@@ -154,31 +152,6 @@ void expect_sound(const Scene& scene)
     for (const Texture& t : scene.textures)
         EXPECT_LT(static_cast<std::size_t>(t.image), scene.images.size());
     EXPECT_FALSE(scene.materials.empty());
-}
-
-TempFolder::TempFolder()
-{
-    static std::atomic<int> counter{0};
-    folder_ = std::filesystem::temp_directory_path() / fmt::format("burnish-gltf-{}-{}", ::getpid(), counter++);
-    std::filesystem::create_directories(folder_);
-}
-
-TempFolder::~TempFolder()
-{
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string TempFolder::write(const std::string& name, const std::string& content) const
-{
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return path(name);
-}
-
-std::string TempFolder::write(const std::string& name, const ByteVector& content) const
-{
-    return write(name, std::string(content.begin(), content.end()));
 }
 
 ByteVector read_bytes(const std::string& path)

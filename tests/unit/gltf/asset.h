@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/scene/scene.h"
 #include "tests/unit/data.h"
+#include "tests/unit/temp_folder.h"
 
 namespace burnish::test {
 
@@ -60,21 +61,6 @@ std::string error_of(const Result<Scene>& result); // "place: reason", or "" for
 
 // Fails the test where a table of the scene is inconsistent: ranges, finiteness, unit vectors.
 void expect_sound(const Scene& scene);
-
-// A new folder below the build tree's temporary place. The destructor removes the folder with its contents.
-class TempFolder {
-  public:
-    TempFolder();
-    ~TempFolder();
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    std::string write(const std::string& name, const std::string& content) const; // returns the file's path
-    std::string write(const std::string& name, const ByteVector& content) const;
-
-  private:
-    std::filesystem::path folder_;
-};
 
 ByteVector read_bytes(const std::string& path);
 
