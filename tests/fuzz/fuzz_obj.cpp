@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as an OBJ file. A loaded scene must be consistent.
+// libFuzzer entry: any text as an OBJ file, and as a material library. A loaded scene must be consistent.
 #include <cmath>
 #include <string>
 
@@ -11,6 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace burnish;
     Limits limits;
     limits.accessor_bytes = 1u << 20;
+    const obj::MtlLibrary library = obj::parse_mtl("fuzz", std::string(data, data + size));
+    BN_CHECK(!library.wrong || !library.wrong->reason.empty());
+    for (const obj::MtlMaterial& m : library.materials)
+        BN_CHECK(m.roughness.value_or(0.0f) >= 0.0f && m.roughness.value_or(0.0f) <= 1.0f && std::isfinite(m.rotation.value_or(0.0f)));
     const Result<Scene> scene = load_obj_text(std::string(data, data + size), "fuzz", limits);
     if (!scene) {
         BN_CHECK(!scene.error().reason.empty());
