@@ -1,10 +1,14 @@
 #include "core/scene/obj/materials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "core/base/file.h"
 #include "core/base/text.h"
@@ -21,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostMissing = 20; // libraries named in warnings
+
 // Returns the file that a name means, or nothing.
 std::optional<std::string> find_file(const fs::path& folder, std::string name, const Limits& limits)
 {
@@ -33,13 +39,23 @@ std::optional<std::string> find_file(const fs::path& folder, std::string name, c
         if (failed || !fs::is_regular_file(file, failed))
             continue;
         if (limits.uris_outside || std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end())
-            return whole.string();
+            return file.string();
     }
     return std::nullopt;
 }
 
+std::size_t values_not_finite(const Image& image)
+{
+    const std::size_t count = image.bytes.size() / sizeof(float);
+    return static_cast<std::size_t>(std::count_if(image.f32(), image.f32() + count, [](float v) { return !std::isfinite(v); }));
+}
+
+struct Picture {
+    std::string path; // without links; empty: not found
+    Image image;
+};
+
 class MaterialMaker {
-    using Picture = std::pair<const std::pair<std::string, bool>, Image>; // by path, and whether its colours were read
   public:
     MaterialMaker(Scene& scene, fs::path folder, const Limits& limits) : scene_(scene), folder_(std::move(folder)), limits_(limits) {}
 
@@ -47,11 +63,9 @@ class MaterialMaker {
     {
         Material m;
         m.name = from.name;
-        const bool has_map = !from.metallic_map.file.empty() || !from.roughness_map.file.empty();
         m.base_color = glm::vec4(from.diffuse.value_or(glm::vec3(1.0f)), 1.0f);
-        m.metallic = from.metallic.value_or(from.metallic_map.file.empty() ? 0.0f : 1.0f);
-        m.roughness =
-            from.roughness.value_or(has_map && !from.roughness_map.file.empty() ? 1.0f : roughness_of(from.exponent.value_or(0.0f)));
+        m.metallic = from.metallic.value_or(0.0f);
+        m.roughness = from.roughness.value_or(roughness_of(from.exponent.value_or(0.0f)));
         if (from.specular)
             m.specular_color = 2.0f * *from.specular;
         if (from.emission)
@@ -62,15 +76,17 @@ class MaterialMaker {
             m.base_color.a = *from.opacity, m.alpha_mode = AlphaMode::blend;
         m.clearcoat = from.clearcoat.value_or(0.0f), m.clearcoat_roughness = from.clearcoat_roughness.value_or(0.0f);
         const float anisotropy = from.anisotropy.value_or(0.0f);
+        const double turns = std::fmod(static_cast<double>(from.rotation.value_or(0.0f)), 1.0) + (anisotropy < 0.0f ? 0.25 : 0.0);
         m.anisotropy_strength = std::fabs(anisotropy); // below 0: across
-        m.anisotropy_rotation =
-            static_cast<float>(2.0 * kPi * static_cast<double>(from.rotation.value_or(0.0f)) + (anisotropy < 0.0f ? 0.5 * kPi : 0.0));
+        m.anisotropy_rotation = static_cast<float>(2.0 * kPi * turns);
         BN_TRY(put_maps(from, m));
         scene_.materials.push_back(std::move(m));
         return {};
     }
 
   private:
+    using Key = std::tuple<std::string, std::string, bool, bool>; // paths, whether they hold colours, whether they clamp
+
     // GGX is as wide as a Phong lobe where alpha^2 is 2 / (n + 2): Walter et al. 2007, "Microfacet Models for Refraction through Rough
     // Surfaces".
     static float roughness_of(float exponent)
@@ -84,108 +100,156 @@ class MaterialMaker {
         m.emissive = light / most, m.emissive_strength = most;
     }
 
-    // Reads a picture once. An empty picture stands for a missing one, which was warned of.
+    void warn(const std::string& text)
+    {
+        if (++warnings_ <= kMostWarnings)
+            scene_.warnings.push_back(text);
+    }
+
+    std::uint64_t texture_bytes_left() const
+    {
+        std::uint64_t left = limits_.texture_bytes;
+        for (const Image& image : scene_.images)
+            left -= std::min<std::uint64_t>(left, image.bytes.size());
+        return left;
+    }
+
+    Error too_large(const std::string& path) const
+    {
+        return {ExitCode::bad_input, path, "",
+                fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
+    }
+
+    // Reads a picture once. Its path is empty where it is not found, which is warned of.
     Result<const Picture*> picture(const std::string& name, bool colours)
     {
         const std::optional<std::string> path = find_file(folder_, name, limits_);
-        const auto key = std::pair(path.value_or(name), colours);
-        if (const auto known = pictures_.find(key); known != pictures_.end())
-            return &*known;
         if (!path) {
-            scene_.warnings.push_back(fmt::format("picture {} is not found in the folder of the OBJ file, and left out", printable(name)));
-            return &*pictures_.emplace(key, Image()).first;
+            warn(fmt::format("picture {} is not found in the folder of the OBJ file, and left out", printable(name)));
+            return &none_;
         }
+        const auto key = std::pair(*path, colours);
+        if (const auto known = pictures_.find(key); known != pictures_.end())
+            return &known->second;
         Limits rest = limits_;
-        for (const Image& image : scene_.images)
-            rest.texture_bytes -= std::min<std::uint64_t>(rest.texture_bytes, image.bytes.size());
+        rest.texture_bytes = texture_bytes_left();
         PictureNotes notes;
         Result<Image> image = colours ? read_colours(*path, rest, notes) : read_image(*path, rest, &notes);
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
-            scene_.warnings.push_back(*path + ": " + warning);
-        if (colours)
-            clip_negative_colours(*image);
+            warn(*path + ": " + warning);
+        if (const std::size_t clipped = colours ? clip_negative_colours(*image) : 0)
+            warn(fmt::format("{}: {} texels of negative colour are set to 0", *path, clipped));
+        if (const std::size_t bad = image->type == PixelType::f32 ? values_not_finite(*image) : 0)
+            warn(fmt::format("{}: {} values are no numbers and are repaired", *path, bad));
         if (image->bytes.size() > rest.texture_bytes)
-            return Error{ExitCode::bad_input, *path, "",
-                         fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
-        scene_.files.push_back(*path);
-        return &*pictures_.emplace(key, std::move(*image)).first;
+            return too_large(*path);
+        if (std::find(scene_.files.begin(), scene_.files.end(), *path) == scene_.files.end())
+            scene_.files.push_back(*path);
+        return &pictures_.emplace(key, Picture{*path, std::move(*image)}).first->second;
     }
 
-    TextureRef placed(std::int32_t texture, const MtlMap& map)
+    // Returns a reference to the key's texture. `make` makes the texture's image where the key is new.
+    template <class Make> Result<TextureRef> textured(const Key& key, const MtlMap& map, const Make& make)
     {
+        auto known = textures_.find(key);
+        if (known == textures_.end()) {
+            Result<Image> image = make();
+            BN_TRY(image);
+            if (image->bytes.size() > texture_bytes_left())
+                return too_large(std::get<0>(key));
+            Texture like;
+            if (map.clamps)
+                like.wrap_s = like.wrap_t = WrapMode::clamp;
+            known = textures_.emplace(key, add_texture(scene_, std::get<0>(key).c_str(), std::move(*image), like)).first;
+        }
         TextureRef ref;
-        ref.texture = texture;
+        ref.texture = known->second;
         const glm::vec2 s = map.scale, o = map.offset; // v runs up in the file, down in the scene
         ref.uv_transform = glm::mat3x2(glm::vec2(s.x, 0.0f), glm::vec2(0.0f, s.y), glm::vec2(o.x, 1.0f - s.y - o.y));
         return ref;
     }
 
-    TextureRef textured(const std::string& key, const Image& image, const MtlMap& map)
-    {
-        const std::string whole = key + (map.clamps ? " clamps" : "");
-        const auto known = textures_.find(whole);
-        Texture like;
-        if (map.clamps)
-            like.wrap_s = like.wrap_t = WrapMode::clamp;
-        const std::int32_t texture = known != textures_.end() ? known->second : add_texture(scene_, key.c_str(), image, like);
-        textures_[whole] = texture;
-        return placed(texture, map);
-    }
+    enum class Content { colours, normals };
 
-    Status put_map(const MtlMap& map, bool colours, TextureRef& to)
+    Status put_map(const MtlMap& map, Content content, TextureRef& to)
     {
         if (map.file.empty())
             return {};
+        const bool colours = content == Content::colours;
         const Result<const Picture*> read = picture(map.file, colours);
         BN_TRY(read);
-        if (const auto& [key, image] = **read; !image.empty())
-            to = textured(key.first + (colours ? "" : " as data"), image, map);
+        const Picture& found = **read;
+        if (found.path.empty())
+            return {};
+        const Result<TextureRef> ref = textured({found.path, "", colours, map.clamps}, map, [&]() -> Result<Image> {
+            if (colours)
+                return Image(found.image);
+            if (found.image.channels < 3)
+                return Error{ExitCode::bad_input, found.path, "", "a map of normals has red, green and blue"};
+            return whole_normals(found.image).image;
+        });
+        BN_TRY(ref);
+        to = *ref;
         return {};
     }
 
     Status put_maps(const MtlMaterial& from, Material& m)
     {
-        BN_TRY(put_map(from.diffuse_map, true, m.base_color_tex));
-        BN_TRY(put_map(from.emission_map, true, m.emissive_tex));
+        BN_TRY(put_map(from.diffuse_map, Content::colours, m.base_color_tex));
+        BN_TRY(put_map(from.emission_map, Content::colours, m.emissive_tex));
         if (m.emissive_tex.used() && !from.emission)
             m.emissive = glm::vec3(1.0f);
-        BN_TRY(put_map(from.normal_map, false, m.normal_tex));
+        BN_TRY(put_map(from.normal_map, Content::normals, m.normal_tex));
         m.normal_scale = from.normal_map.strength;
-        if (m.normal_tex.used() &&
-            scene_.images[static_cast<std::size_t>(scene_.textures[static_cast<std::size_t>(m.normal_tex.texture)].image)].channels < 3)
-            return Error{ExitCode::bad_input, from.normal_map.file, "", "a map of normals has red, green and blue"};
-        if (!from.opacity_map.file.empty() && from.opacity_map.file == from.diffuse_map.file)
-            m.alpha_mode = AlphaMode::mask;
-        else if (!from.opacity_map.file.empty())
-            scene_.warnings.push_back(fmt::format("material \"{}\": map_d is read only where it is map_Kd", printable(from.name)));
+        if (from.opacity_map.file.empty())
+            return put_metal_rough(from, m);
+        if (from.opacity_map.file != from.diffuse_map.file)
+            warn(fmt::format("material \"{}\": map_d is read only where it is map_Kd", printable(from.name)));
+        else if (m.base_color_tex.used())
+            m.alpha_mode = AlphaMode::mask, m.base_color.a = 1.0f;
         return put_metal_rough(from, m);
     }
 
     Status put_metal_rough(const MtlMaterial& from, Material& m)
     {
-        Image none;
-        const Image* parts[2] = {&none, &none};
+        const Picture* parts[2] = {&none_, &none_};
         const MtlMap* const maps[2] = {&from.metallic_map, &from.roughness_map};
         for (int i = 0; i < 2; ++i)
             if (!maps[i]->file.empty()) {
                 const Result<const Picture*> read = picture(maps[i]->file, false);
                 BN_TRY(read);
-                parts[i] = &(*read)->second;
+                parts[i] = *read;
             }
-        if (parts[0]->empty() && parts[1]->empty())
+        const Image &metallic = parts[0]->image, &roughness = parts[1]->image;
+        if (metallic.empty() && roughness.empty())
             return {};
-        const MtlMap& map = *maps[parts[1]->empty() ? 0 : 1];
-        const std::string key = maps[0]->file + " and " + maps[1]->file;
-        m.metallic_roughness_tex = textured(key, metal_rough_of(*parts[0], *parts[1]), map);
+        m.metallic = from.metallic.value_or(metallic.empty() ? m.metallic : 1.0f);
+        m.roughness = from.roughness.value_or(roughness.empty() ? m.roughness : 1.0f);
+        const MtlMap &map = *maps[roughness.empty() ? 0 : 1], &other = *maps[0];
+        if (!metallic.empty() && (map.scale != other.scale || map.offset != other.offset || map.clamps != other.clamps))
+            warn(fmt::format("material \"{}\": map_Pm lies as map_Pr does", printable(from.name)));
+        const Result<TextureRef> ref = textured({parts[0]->path, parts[1]->path, false, map.clamps}, map, [&]() -> Result<Image> {
+            const auto most = [](int a, int b) { return static_cast<std::uint64_t>(std::max(a, b)); };
+            constexpr std::uint64_t kTexel = 6; // three channels with 16 bits
+            if (most(metallic.width, roughness.width) * most(metallic.height, roughness.height) > texture_bytes_left() / kTexel)
+                return too_large(parts[roughness.empty() ? 0 : 1]->path);
+            return metal_rough_of(metallic, roughness);
+        });
+        BN_TRY(ref);
+        m.metallic_roughness_tex = *ref;
         return {};
     }
+
+    static constexpr int kMostWarnings = 20;
 
     Scene& scene_;
     fs::path folder_;
     const Limits& limits_;
-    std::map<std::pair<std::string, bool>, Image> pictures_;
-    std::map<std::string, std::int32_t> textures_;
+    const Picture none_;
+    std::map<std::pair<std::string, bool>, Picture> pictures_; // by path, and whether colours were read
+    std::map<Key, std::int32_t> textures_;
+    int warnings_ = 0;
 };
 
 // Returns the files that an mtllib statement names: its words, or all of it as one name with blanks.
@@ -201,21 +265,24 @@ std::vector<std::string> files_of(std::string_view statement, const fs::path& fo
 
 } // namespace
 
-Result<std::vector<std::string>> read_materials(Scene& scene, const std::string& obj, const std::vector<std::string>& libraries,
-                                                const Limits& limits)
+Result<std::map<std::string, std::int32_t>> read_materials(Scene& scene, const std::string& obj, const std::vector<std::string>& libraries,
+                                                           const Limits& limits)
 {
     const fs::path folder = fs::path(obj).parent_path();
-    std::vector<std::string> names;
+    std::map<std::string, std::int32_t> indices;
+    std::set<std::string> seen;
     MaterialMaker maker(scene, folder, limits);
     for (const std::string& statement : libraries)
         for (const std::string& name : files_of(statement, folder, limits)) {
             const std::optional<std::string> path = find_file(folder, name, limits);
+            if (!seen.insert(path.value_or(name)).second)
+                continue;
             if (!path) {
-                scene.warnings.push_back(fmt::format("material library {} is not found in the folder of the OBJ file", printable(name)));
+                if (seen.size() <= kMostMissing)
+                    scene.warnings.push_back(
+                        fmt::format("material library {} is not found in the folder of the OBJ file", printable(name)));
                 continue;
             }
-            if (std::find(scene.files.begin(), scene.files.end(), *path) != scene.files.end())
-                continue;
             const Result<std::vector<std::uint8_t>> bytes = read_file(*path, limits.file_bytes);
             BN_TRY(bytes);
             scene.files.push_back(*path);
@@ -224,12 +291,10 @@ Result<std::vector<std::string>> read_materials(Scene& scene, const std::string&
                 return *library.wrong;
             scene.warnings.insert(scene.warnings.end(), library.warnings.begin(), library.warnings.end());
             for (const MtlMaterial& material : library.materials)
-                if (std::find(names.begin(), names.end(), material.name) == names.end()) {
+                if (indices.emplace(material.name, static_cast<std::int32_t>(scene.materials.size())).second)
                     BN_TRY(maker.add(material));
-                    names.push_back(material.name);
-                }
         }
-    return names;
+    return indices;
 }
 
 } // namespace burnish::obj

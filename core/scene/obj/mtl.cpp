@@ -52,11 +52,11 @@ constexpr std::string_view kWithoutEffect[] = {"Ka", "map_Ka", "illum", "sharpne
 
 struct MapOption {
     std::string_view word;
-    int least, most; // numbers of words that follow
+    int words; // that follow; 0: at most three numbers
 };
-constexpr MapOption kMapOptions[] = {{"-blendu", 1, 1}, {"-blendv", 1, 1},  {"-cc", 1, 1}, {"-clamp", 1, 1},
-                                     {"-mm", 2, 2},     {"-o", 1, 3},       {"-s", 1, 3},  {"-t", 1, 3},
-                                     {"-texres", 1, 1}, {"-imfchan", 1, 1}, {"-bm", 1, 1}, {"-type", 1, 1}};
+constexpr MapOption kMapOptions[] = {{"-blendu", 1}, {"-blendv", 1}, {"-cc", 1},     {"-clamp", 1},   {"-mm", 2}, {"-o", 0},
+                                     {"-s", 0},      {"-t", 0},      {"-texres", 1}, {"-imfchan", 1}, {"-bm", 0}, {"-type", 1}};
+constexpr float kMostScale = 1e6f; // of -s, -o and -bm
 
 template <class Table> auto find(const Table& table, std::string_view word)
 {
@@ -107,23 +107,23 @@ class MtlParser {
         if (const auto at = find(kMaps, word); at != std::end(kMaps))
             return map(rest, m.*at->to);
         if (std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), word) == std::end(kWithoutEffect))
-            warn_once(word, fmt::format("'{}' is not read", shown(word)));
+            warn_once("unknown", fmt::format("'{}' is not read", shown(word)));
     }
 
     void begin(std::string_view name)
     {
-        skips_ = std::any_of(out_.materials.begin(), out_.materials.end(), [&](const MtlMaterial& m) { return m.name == name; });
+        skips_ = !names_.insert(std::string(name)).second;
         if (skips_)
             return warn_once("twice", fmt::format("material '{}' stands here again; the first is used", shown(name)));
         out_.materials.emplace_back();
         out_.materials.back().name = name;
     }
 
-    // Reads at most three numbers in front. Returns their count, or -1 after an error.
-    int numbers(std::string_view& text, std::string_view word, std::array<float, 3>& values, bool may_end)
+    // Reads at most `most` numbers in front. Returns their count, or -1 after an error. may_end: a word may follow.
+    int numbers(std::string_view& text, std::string_view word, std::array<float, 3>& values, bool may_end, int most = 3)
     {
         int count = 0;
-        for (std::string_view rest = text; count < 3; ++count, text = rest) {
+        for (std::string_view rest = text; count < most; ++count, text = rest) {
             const std::string_view next = take_word(rest);
             float value = 0.0f;
             const Number read = next.empty() ? Number::none : read_number(next, value);
@@ -183,10 +183,12 @@ class MtlParser {
             if (option == std::end(kMapOptions))
                 break; // a file's name
             std::array<float, 3> values{};
-            if (word == "-o" || word == "-s" || word == "-t" || word == "-bm") {
-                const int count = numbers(text, word, values, true);
+            if (option->words == 0) {
+                const int count = numbers(text, word, values, true, word == "-bm" ? 1 : 3);
                 if (count < 0)
                     return;
+                for (float& value : values)
+                    value = within(value, -kMostScale, kMostScale, word);
                 if (word == "-s")
                     read.scale = {values[0], count > 1 ? values[1] : 1.0f};
                 else if (word == "-o")
@@ -194,8 +196,9 @@ class MtlParser {
                 else if (word == "-bm")
                     read.strength = values[0];
             } else {
-                for (int i = 0; i < option->least; ++i)
-                    read.clamps = take_word(text) == "on" && word == "-clamp";
+                for (int i = 0; i < option->words; ++i)
+                    if (const bool on = take_word(text) == "on"; word == "-clamp")
+                        read.clamps = on;
             }
             if (word == "-mm" || word == "-t" || word == "-cc" || word == "-imfchan")
                 warn_once(word, fmt::format("{} is not read", word));
@@ -203,14 +206,14 @@ class MtlParser {
         }
         read.file = rest;
         if (rest.empty())
-            return refuse("a picture's name is missing");
+            return warn_once("no picture", "a picture's name is missing");
         to = std::move(read);
     }
 
     const std::string& path_;
     Lines lines_;
     MtlLibrary out_;
-    std::set<std::string> said_;
+    std::set<std::string> said_, names_;
     bool skips_ = false;
 };
 

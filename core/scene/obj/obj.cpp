@@ -249,15 +249,13 @@ Result<std::vector<std::int32_t>> materials_of_groups(Scene& scene, const obj::P
                                            : "its materials (MTL) are read from files alone: they are white");
         return worn;
     }
-    const auto first = static_cast<std::int32_t>(scene.materials.size());
-    const Result<std::vector<std::string>> names = obj::read_materials(scene, path, parsed.libraries, limits);
-    BN_TRY(names);
+    const Result<std::map<std::string, std::int32_t>> indices = obj::read_materials(scene, path, parsed.libraries, limits);
+    BN_TRY(indices);
     std::set<std::string> missing;
     for (std::size_t g = 0; g < worn.size(); ++g) {
         const std::string& name = parsed.groups[g].material;
-        const auto at = std::find(names->begin(), names->end(), name);
-        if (at != names->end())
-            worn[g] = first + static_cast<std::int32_t>(at - names->begin());
+        if (const auto at = indices->find(name); at != indices->end())
+            worn[g] = at->second;
         else if (!name.empty() && missing.insert(name).second && missing.size() <= kMostMissing)
             scene.warnings.push_back(fmt::format("no library has material '{}', which is white", printable(name, kShownName)));
     }

@@ -133,7 +133,6 @@ TEST(mtl, wrong_numbers_are_errors_with_their_line)
                                       {"Ns", "a number is missing"},
                                       {"Pr nan", "'nan' is no number"},
                                       {"Ke 1e99 0 0", "'1e99' is no number"},
-                                      {"map_Kd", "a picture's name is missing"},
                                       {"map_Kd -s x a.png", "a number is missing"}}) {
         const TempFolder folder;
         const Result<Scene> scene = load_wearing(folder, "newmtl a\n" + line + "\n");
@@ -149,6 +148,7 @@ TEST(mtl, what_is_not_drawn_is_said)
 {
     EXPECT_EQ(warnings_of("illum 2\nKa 1 1 1\nsharpness 60"), "");
     for (const auto& [line, words] : {std::pair<std::string, std::string>{"Pr 3", "Pr 3 is taken as 1"},
+                                      {"map_Kd", "a picture's name is missing"},
                                       {"Ps 0.5", "'Ps' is not read"},
                                       {"map_Bump b.png", "'map_Bump' is not read"},
                                       {"Kd spectral a.rfl", "Kd spectral is not read"},
@@ -158,6 +158,46 @@ TEST(mtl, what_is_not_drawn_is_said)
         EXPECT_NE(warnings_of(line).find(words), std::string::npos) << line << ": " << warnings_of(line);
     const std::string twice = warnings_of("Ps 0.5\nPs 0.6");
     EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 1) << twice;
+}
+
+TEST(mtl, missing_pictures_change_nothing)
+{
+    const Material metal = material_of("Pm 1\nPr .3\nmap_Pm none.png\nmap_Pr none.png\nmap_Kd none.png\nmap_d none.png\nd .3");
+    EXPECT_EQ(metal.metallic, 1.0f);
+    EXPECT_EQ(metal.roughness, 0.3f);
+    EXPECT_EQ(metal.alpha_mode, AlphaMode::blend);
+    const Material plain = material_of("Ns 98\nmap_Pm none.png\nmap_Pr none.png\nmap_Ke none.png");
+    EXPECT_EQ(plain.metallic, 0.0f);
+    EXPECT_LT(plain.roughness, 0.4f);
+    EXPECT_EQ(plain.emissive, glm::vec3(0.0f));
+}
+
+TEST(mtl, options_of_pictures_are_read_in_any_order)
+{
+    for (const std::string options :
+         {"-clamp on -blendu on", "-blendu on -clamp on", "-bm 1 -clamp on -mm 0 1", "-clamp on -type sphere"}) {
+        const obj::MtlLibrary library = obj::parse_mtl("x", "newmtl a\nmap_Kd " + options + " 2 b.png\n");
+        ASSERT_FALSE(library.wrong) << options;
+        EXPECT_TRUE(library.materials[0].diffuse_map.clamps) << options;
+        EXPECT_EQ(library.materials[0].diffuse_map.file, "2 b.png") << options;
+    }
+    EXPECT_FALSE(obj::parse_mtl("x", "newmtl a\nmap_Kd -clamp off -blendu on b.png\n").materials[0].diffuse_map.clamps);
+    const Material turned = material_of("Pm 1\naniso 1\nanisor 1e30");
+    EXPECT_TRUE(std::isfinite(turned.anisotropy_rotation));
+    const obj::MtlLibrary far = obj::parse_mtl("x", "newmtl a\nmap_Kd -s 1 -3e38 b.png\n");
+    EXPECT_EQ(far.materials[0].diffuse_map.scale.y, -1e6f);
+    EXPECT_EQ(far.warnings.size(), 1u);
+}
+
+TEST(mtl, alpha_cuts_out_whatever_d_says)
+{
+    const TempFolder folder;
+    write_picture(folder.path("leaf.png"), 2, 2, {255, 0, 0});
+    const Result<Scene> scene = load_wearing(folder, "newmtl a\nd 0.3\nmap_Kd leaf.png\nmap_d leaf.png\nnewmtl b\n");
+    ASSERT_TRUE(scene);
+    const Material& m = scene->materials[static_cast<std::size_t>(scene->primitives[0].material)];
+    EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(m.base_color.a, 1.0f);
 }
 
 TEST(mtl, names_without_a_material_are_said)
@@ -207,6 +247,20 @@ TEST(mtl, pictures_count_against_the_limits)
     const Result<Scene> refused = load_obj(folder.path("a.obj"), limits);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ExitCode::bad_input);
+    // Long maps packed together are as large as both
+    write_picture(folder.path("wide.png"), 512, 1, {255, 0, 0});
+    write_picture(folder.path("high.png"), 1, 512, {255, 0, 0});
+    limits.texture_bytes = 100000;
+    folder.write("a.mtl", "newmtl a\nmap_Pm wide.png\nmap_Pr high.png\n");
+    ASSERT_FALSE(load_obj(folder.path("a.obj"), limits));
+    std::string many;
+    for (int i = 0; i < 40; ++i)
+        many += "newmtl m" + std::to_string(i) + "\nmap_Pm wide.png\nmap_Pr ./high.png\n";
+    folder.write("a.mtl", many);
+    const Result<Scene> shared = load_obj(folder.path("a.obj"), Limits());
+    ASSERT_TRUE(shared);
+    EXPECT_EQ(shared->textures.size(), 1u);
+    folder.write("a.mtl", "newmtl a\nmap_Kd colour.png\n");
     folder.write("colour.png", "no picture");
     EXPECT_FALSE(load_obj(folder.path("a.obj"), Limits()));
 }
