@@ -115,6 +115,17 @@ class Writer {
     }
     Status write(const std::string& name, const std::string& text) { return write(name, text.data(), text.size()); }
 
+    // Removes a texture of an earlier bake.
+    void remove(const std::string& name) const
+    {
+        std::error_code ignored;
+        const fs::path folder(folder_);
+        for (const char* end : {".ktx2", ".dds"})
+            fs::remove(folder / (name + end), ignored);
+        for (const char* face : kFaces)
+            fs::remove(folder / fmt::format("{}_00_{}.exr", name, face), ignored);
+    }
+
     EnvironmentTextures written;
 
   private:
@@ -146,6 +157,8 @@ Result<EnvironmentTextures> write_environment_textures(const std::string& folder
     BN_TRY(writer.write("irradiance", texture_of(environment.irradiance)));
     if (!environment.extracted_lights.empty())
         BN_TRY(writer.write("whole", texture_of(environment.whole)));
+    else
+        writer.remove("whole");
     BN_TRY(writer.write("dfg", texture_of(dfg)));
     const std::vector<ExtractedLight> lights = turned_extracted_lights(environment);
     BN_TRY(writer.write("key_lights.json", json_text(extracted_lights_json(lights), 2) + "\n"));

@@ -25,6 +25,7 @@
 #include "core/base/file.h"
 #include "core/base/text.h"
 #include "core/image/io/image_io.h"
+#include "core/image/metrics/metrics.h"
 #include "core/jobs/cores.h"
 
 namespace burnish {
@@ -206,10 +207,12 @@ Status bless_row(const GoldenRow& row, const std::string& golden, const GoldenAr
 {
     constexpr std::uint64_t kMostBytes = 1ull << 30;
     const std::string picture = arguments.results + "/pictures/" + file_stem(row.name) + row.extension;
+    PictureNotes notes; // results may come from somebody else
+    const Result<Image> image = read_colours(picture, arguments.input, notes);
+    BN_TRY(image);
+    if (const std::int64_t bad = not_finite_pixels(*image, *image))
+        return Error{ExitCode::not_finite, picture, "", fmt::format("{} pixels are NaN or Inf", bad)};
     if (row.hash_alone) {
-        PictureNotes notes;
-        const Result<Image> image = read_colours(picture, arguments.input, notes);
-        BN_TRY(image);
         const std::string text = golden_hash(*image) + "\n";
         return replace(golden, {text.begin(), text.end()}, changed);
     }
@@ -291,6 +294,7 @@ int merge(const GoldenArguments& arguments, Report& report)
     std::vector<GoldenResult> all;
     std::set<std::string> names;
     std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
+    std::set<std::size_t> indices;
     std::string manifest;
     for (const std::string& folder : arguments.paths) {
         if (same_file(folder, arguments.results))
@@ -305,6 +309,9 @@ int merge(const GoldenArguments& arguments, Report& report)
             manifest = origin->manifest;
         if (origin->manifest != manifest)
             return fail(Error{ExitCode::bad_input, folder, "", "is made from other rows than " + arguments.paths.front()});
+        if (!indices.insert(origin->shard.index).second)
+            return fail(Error{ExitCode::bad_input, folder, "",
+                              fmt::format("is shard {}/{}, as an earlier folder is", origin->shard.index + 1, origin->shard.count)});
         ++shards[origin->shard.count];
         for (const GoldenResult& r : *results) {
             if (!names.insert(r.name).second)

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
+#include <span>
 #include <system_error>
 
 #include "apps/cli/outputs.h"
@@ -105,6 +106,20 @@ Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrig
 }
 
 Status NewResults::take_over()
+{
+    const Status moved = move_all();
+    if (moved)
+        return moved;
+    for (const auto& names : {std::span<const char* const>(kResultFolders), std::span<const char* const>(kReports)})
+        for (const char* name : names)
+            if (std::error_code none; fs::exists(old_ + "/" + name, none)) { // bring the earlier results back, as far as they go
+                fs::remove_all(results_ + "/" + name, none);
+                fs::rename(old_ + "/" + name, results_ + "/" + name, none);
+            }
+    return moved;
+}
+
+Status NewResults::move_all()
 {
     // No page stands beside another run's pictures, wherever this stops
     BN_TRY(make_empty(old_));

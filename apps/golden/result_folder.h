@@ -34,6 +34,8 @@ class NewResults {
     Status take_over(); // moves the files into the place of the earlier ones
 
   private:
+    Status move_all();
+
     std::string results_, folder_, old_;
     bool made_ = false;
 };

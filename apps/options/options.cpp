@@ -78,7 +78,7 @@ Status check_shadows(const OptionTable& given, const RenderOptions& out)
 Status check_floor(const RenderOptions& out)
 {
     const bool mirror = out.floor == FloorChoice::mirror;
-    if (mirror && out.backend == "reference" && out.reference.mode == ReferenceMode::direct)
+    if (mirror && out.backend == "reference" && out.reference.mode != ReferenceMode::path)
         return usage_error("--floor", "mirror: the reference reflects it with --reference-mode path alone");
     if ((mirror || out.floor == FloorChoice::shadow) && out.backend == "vulkan" && out.vulkan.pipeline != VulkanPipeline::ids)
         return usage_error("--floor", "needs --pipeline ids");

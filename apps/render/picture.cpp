@@ -31,6 +31,14 @@ class Stopwatch {
     Clock::time_point begin_ = Clock::now();
 };
 
+// Returns the names that --variant takes.
+std::vector<std::string> named_variants(const Scene& scene)
+{
+    std::vector<std::string> names = scene.variants;
+    names.erase(std::remove(names.begin(), names.end(), ""), names.end());
+    return names;
+}
+
 void report_scene(const SceneData& data, Report& report)
 {
     const Scene& scene = data.scene;
@@ -38,8 +46,8 @@ void report_scene(const SceneData& data, Report& report)
                                       counted(scene.materials.size(), "material"), counted(scene.textures.size(), "texture"),
                                       counted(data.tables.lights.size(), "light"),
                                       data.tables.area_lights.empty() ? "" : ", " + counted(data.tables.area_lights.size(), "area light")));
-    if (!scene.variants.empty())
-        report.event("variants", printable(join(scene.variants)));
+    if (!named_variants(scene).empty())
+        report.event("variants", printable(join(named_variants(scene))));
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
 }

@@ -369,8 +369,8 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return usage(session ? "out" : "session", "is NULL");
         Result<CSettings> settings = settings_of(options, BURNISH_REFERENCE);
         BN_TRY(settings);
-        if (session->mirrors && settings->reference.mode == ReferenceMode::direct)
-            return usage("reference_mode", "direct: the reference reflects on a mirror floor in mode path alone");
+        if (session->mirrors && settings->reference.mode != ReferenceMode::path)
+            return usage("reference_mode", "the reference reflects on a mirror floor in mode path alone");
         if (settings->samples)
             settings->reference.samples = static_cast<std::uint64_t>(*settings->samples);
         settings->desc.technique = "mc", settings->desc.samples = 1;

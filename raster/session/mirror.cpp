@@ -63,9 +63,6 @@ Status reflect(const ShadowSettings& shadows, const FrameDesc& desc, Session& se
     const std::size_t samples = pixels * static_cast<std::size_t>(desc.msaa);
     if (lit.triangle_ids.size() != samples || (lit.through.size() != 0 && lit.through.size() != samples))
         return Error{ExitCode::usage, "", "/triangle_ids", "are missing: draw with FrameDesc::triangle_ids"};
-    for (const PixelPart& part : lit.parts)
-        if (part.pixel >= pixels || part.first >= desc.msaa)
-            return Error{ExitCode::usage, "", "/parts", "are those of another picture"};
     FrameDesc plain = desc;
     plain.layers = plain.parts = plain.triangle_ids = plain.stages = plain.profile = false;
     plain.view = mirrored(desc.view, floor->bounds_max.y);

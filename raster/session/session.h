@@ -147,6 +147,7 @@ class Session {
     // read. References into scene() and tables() see the changes.
     Status change(SceneChanges changes);
 
+    // These functions need a session that was not moved to another object.
     const SessionParts& parts() const { return parts_; }
     const Scene& scene() const { return parts_.scene->scene; }
     const DrawTables& tables() const { return parts_.scene->tables; }

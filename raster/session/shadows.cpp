@@ -65,6 +65,8 @@ Status darken_by_rays(const ShadowSettings& settings, const FrameDesc& desc, Ses
             without.lamps = false;
         Result<Frame> unlit = session.render(without);
         BN_TRY(unlit);
+        if (unlit->parts.size() != lit.parts.size())
+            return Error{ExitCode::usage, "", "/parts", "are those of another picture"};
         const TraceSpan span("shadows");
         darken(lit.color, open, unlit->color, *ratio);
         darken(lit.parts, open_parts, unlit->parts, *ratio);
@@ -76,6 +78,8 @@ Status darken_by_rays(const ShadowSettings& settings, const FrameDesc& desc, Ses
 
 bool casts_shadows(const ShadowSettings& settings, const FrameDesc& desc, const Session& session)
 {
+    if (!session.parts().scene)
+        return false;
     return shade(Lights::area, settings, desc, session) || shade(Lights::lamps, settings, desc, session);
 }
 
@@ -95,6 +99,10 @@ Status check_drawn(const Frame& lit, const FrameDesc& desc)
     if (lit.color.width != desc.width || lit.color.height != desc.height || lit.color.channels != 3 || lit.color.type != PixelType::f32)
         return Error{ExitCode::usage, "", "/color",
                      fmt::format("is no picture of {}x{} pixels, as FrameDesc says", desc.width, desc.height)};
+    const std::int64_t pixels = std::int64_t{desc.width} * desc.height;
+    for (const PixelPart& part : lit.parts)
+        if (part.pixel >= pixels || part.first >= desc.msaa)
+            return Error{ExitCode::usage, "", "/parts", "are those of another picture"};
     return {};
 }
 

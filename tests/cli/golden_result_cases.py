@@ -26,6 +26,8 @@ def foreign_shards(bench):
     write(bench, rows)
     shard(2)
     bench.run("golden", "merge", "s1", "s2", "-o", "merged").expect(5)
+    # One shard twice is not two shards
+    bench.run("golden", "merge", "s2", "s2", "-o", "merged").expect(4).expect_one_line("s2", "shard 2/2")
     # Paths stay within the folder
     path = bench.folder / "s2/results.jsonl"
     result = json.loads(path.read_text())
@@ -72,6 +74,12 @@ def not_finite(bench):
     check({path.name: path.read_bytes() for path in (bench.folder / "goldens").iterdir()} == goldens, "a golden has changed")
     (bench.folder / "list.txt").write_text("hold\n")
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(6).expect_one_line("'hold' is not blessed", "2 of 4")
+    path = bench.folder / "golden-results/results.jsonl"  # may come from somebody else
+    listed = path.read_text()
+    path.write_text(listed.replace('"not_finite":true', '"not_finite":false').replace('"verdict":"failed"', '"verdict":"differs"'))
+    bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(6).expect_one_line("2 pixels are NaN or Inf")
+    check({path.name: path.read_bytes() for path in (bench.folder / "goldens").iterdir()} == goldens, "a golden has changed by forged results")
+    path.write_text(listed)
     # The gravest verdict makes the exit code, and bless takes the others over
     (bench.folder / "other.pfm").write_bytes(whole)
     rows.append({"name": "new", "picture": "other.pfm"})

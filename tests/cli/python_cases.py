@@ -135,7 +135,7 @@ for code, words, call in ((4, 'absent.glb', lambda: burnish.load('absent.glb')),
                           (2, 'width', lambda: scene.render(width=65536)), (2, 'msaa', lambda: scene.render(msaa=-1)),
                           (2, 'eye', lambda: scene.render(eye=(1, 2))), (2, 'layer', lambda: scene.render(layers=['none'])),
                           (2, 'samples', lambda: scene.render(samples=-5)), (2, 'threads', lambda: burnish.load('builtin:plate', threads=-1)),
-                          (2, 'exposure', lambda: scene.render({FRAME}).png(130)), (2, 'exposure', lambda: scene.render({FRAME}).save('x.png', float('nan'))),
+                          (2, 'exposure', lambda: scene.render({FRAME}).png(130)), (2, 'tonemap', lambda: scene.render({FRAME}).png(tonemap=None)), (2, 'exposure', lambda: scene.render({FRAME}).save('x.png', float('nan'))),
                           (7, 'none/a.png', lambda: scene.render({FRAME}).save('none/a.png')), (4, 'absent.hdr', lambda: burnish.load('builtin:plate', 'absent.hdr'))):
     try: call()
     except burnish.Error as error: assert error.code == code and words in str(error), (error.code, str(error))

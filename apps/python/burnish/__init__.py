@@ -11,6 +11,7 @@ Errors of the library are exceptions of class Error with the program's words. nu
 
 import contextlib
 import ctypes
+import numbers
 import operator
 import os
 import warnings
@@ -101,16 +102,18 @@ class Picture(_native.Alone):
         return f"{library().burnish_frame_hash(self._frame):016x}"
 
     @contextlib.contextmanager
-    def _exposed(self, tonemap):
+    def _exposed(self, exposure, tonemap):
         """Chooses the tone curve. Gives the options of a call."""
+        if not isinstance(exposure, numbers.Real):
+            raise TypeError(f"exposure: {exposure!r} is no number")
         with _native.Options({}, "render()") as given, self._alone():
-            _native.call("burnish_frame_tonemap", self._frame, tonemap.encode())
+            _native.call("burnish_frame_tonemap", self._frame, str(tonemap).encode())
             yield given
 
     def png(self, exposure=0.0, tonemap="pbr-neutral", progress=None):
         """The picture as bytes of a PNG file. exposure: stops. tonemap: "none", "pbr-neutral" or "aces". progress: see load()."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
-        with self._exposed(tonemap) as given:
+        with self._exposed(exposure, tonemap) as given:
             _native.call_told("burnish_frame_png_told", given, progress, self._frame, exposure, given, ctypes.byref(data), ctypes.byref(size),
                               undo=lambda: None)
             return ctypes.string_at(data.value, size.value)
@@ -119,7 +122,7 @@ class Picture(_native.Alone):
         """Writes .exr .hdr .pfm (linear floats; .exr with layers) or .png .jpg .tif (exposed, tonemapped). exposure, tonemap and progress: see
         png(). Work that is stopped leaves no file, or the old one."""
         name = _native.path(path)
-        with self._exposed(tonemap) as given:
+        with self._exposed(exposure, tonemap) as given:
             _native.call_told("burnish_write_told", given, progress, self._frame, name, exposure, given,
                               undo=lambda: None)  # Ctrl-C counts even where the file is whole
 
@@ -158,6 +161,11 @@ class Scene(_native.Alone):
     def materials(self):
         """Names of the materials, by index."""
         return _native.texts("burnish_scene_material", self._session)
+
+    @property
+    def variants(self):
+        """Names of the variants of materials, for load(path, variant=...)."""
+        return _native.texts("burnish_scene_variant", self._session)
 
     @property
     def lights(self):

@@ -96,6 +96,9 @@ class Scene:
     def materials(self) -> list[str]:
         """Names by index."""
     @property
+    def variants(self) -> list[str]:
+        """Names, for load(path, variant=...)."""
+    @property
     def lights(self) -> list[str]:
         """Names by index."""
     def render(

@@ -131,6 +131,7 @@ TEST(bad_scenes, sessions_of_nothing_are_refused)
     Result<Session> session = Session::make(plain_parts());
     ASSERT_TRUE(session);
     const Session taken = std::move(*session);
+    EXPECT_FALSE(casts_shadows({Shadows::on}, plain_desc(), *session));
     for (const Error& error :
          {session->render(plain_desc()).error(), session->render_any(plain_desc()).error(), session->change({}).error()})
         EXPECT_EQ(error.field, "Session") << error.line();
@@ -174,6 +175,11 @@ TEST(bad_scenes, frames_for_shadows_and_mirrors_are_checked)
              {"/layers", [](Frame&f, FrameDesc&, ShadowSettings&) { f.layers = {}; }, true, false},
              {"/triangle_ids", [](Frame&f, FrameDesc&, ShadowSettings&) { f.triangle_ids = {}; }, false, true},
              {"/triangle_ids", [](Frame&, FrameDesc&d, ShadowSettings&) { d.msaa *= 2; }, false, true},
+             {"/parts",
+              [](Frame&f, FrameDesc&, ShadowSettings&) {
+                  f.parts.push_back({40 * 30, 0, 1, false, {}, 1.0f});
+              },
+              true, true},
              {"FrameDesc::msaa", [](Frame&, FrameDesc&d, ShadowSettings&) { d.msaa = 3; }, false, true},
              {"ShadowSettings::samples", [](Frame&, FrameDesc&, ShadowSettings&s) { s.samples = 0; }, true, true},
              {"ShadowSettings::of", [](Frame&, FrameDesc&, ShadowSettings&s) { s.of = static_cast<Shadows>(9); }, true, true}}) {
