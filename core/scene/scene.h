@@ -150,7 +150,7 @@ struct Scene {
 struct Moment {
     std::optional<float> seconds; // from 0 on; empty: the scene at rest
     int animation = 0;
-    std::string variant; // a name of Scene::variants; empty: the meshes' own materials
+    std::string variant = {}; // a name of Scene::variants; empty: the meshes' own materials
 };
 
 void update_world(Scene& scene); // fills Node::world from Node::local and the origin
