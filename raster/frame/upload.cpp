@@ -39,6 +39,16 @@ template <int kCount> void put(float (&to)[kCount], const glm::vec<kCount, float
         to[i] = from[i];
 }
 
+bool above_zero(float x)
+{
+    return x > 0.0f;
+}
+
+bool above_zero(const glm::vec3& v)
+{
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
 MaterialRecord material_record(const Material& m)
 {
     MaterialRecord r = {};
@@ -58,7 +68,7 @@ MaterialRecord material_record(const Material& m)
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
     r.relief = m.heights;
-#define BN_COATING(id, at, strength, trait) r.coatings |= m.strength > 0.0f && !m.unlit ? 1 << at : 0;
+#define BN_COATING(id, at, strength, lobe) r.coatings |= above_zero(m.strength) && !m.unlit ? 1 << at : 0;
 #include "shading/coatings.def"
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;

@@ -381,7 +381,7 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
         add_coating(r.r, k, c, reflected);
         r.emission = r.emission * (lit(1.0) - c.share);
     };
-#define BN_COATING(id, bit, strength, trait)                                                                                               \
+#define BN_COATING(id, bit, strength, lobe)                                                                                                \
     if (has_coating(m, bit))                                                                                                               \
         cover(bit, id##_coating(f, m, at, x.geometric_axes, x.s.v, facing_handedness(g.fragment)));
 #include "shading/coatings.def"

@@ -98,7 +98,7 @@ BN_INLINE CoatingUnderLamps coating_under_lamps(const ReferenceParams& f, const 
         return c;
     const coating& layer = r.coats[at];
     dfg_value albedo = {lit(1.0), lit(0.0)};
-#define BN_COATING(id, bit, strength, trait)                                                                                               \
+#define BN_COATING(id, bit, strength, lobe)                                                                                                \
     if (at == (bit))                                                                                                                       \
         albedo = id##_albedo(f, layer, coating_n_dot_v(layer, r.x.s.v));
 #include "shading/coatings.def"

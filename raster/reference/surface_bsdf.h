@@ -27,7 +27,7 @@ struct SurfaceBsdf {
 
 constexpr int kDefaultLobeIndex = lobe_with(kDefaultLobe);
 constexpr int kCoatingLobes[] = {
-#define BN_COATING(id, at, strength, trait) lobe_with(trait),
+#define BN_COATING(id, at, strength, lobe) kLobe_##lobe,
 #include "shading/coatings.def"
 };
 

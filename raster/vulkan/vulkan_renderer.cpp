@@ -276,9 +276,9 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
         lobes |= m.refracts ? 1 << kGpuTransmits : 0;
         // Add its coatings and their lobes
-#define BN_COATING(id, at, strength, trait)                                                                                                \
+#define BN_COATING(id, at, strength, lobe)                                                                                                 \
     if (m.coatings >> at & 1)                                                                                                              \
-        lobes |= 1 << (kGpuFirstCoating + at) | 1 << lobe_with(trait);
+        lobes |= 1 << (kGpuFirstCoating + at) | 1 << kLobe_##lobe;
 #include "shading/coatings.def"
     }
     return {techniques, lobes};

@@ -56,17 +56,20 @@ const int kPunctualOnly = 8; // has no albedo: only punctual lights use it
 const int kLies_round = 16, kLies_level = 32, kLies_surface = 64, kLies_thread = 128;
 const int kSeparableLobe = 1024, kSeparableTiltedLobe = 2048; // replace the default and the tilted lobe under separable masking
 const int kPhongLobe = 4096;                                  // the Ashikhmin-Shirley lobe, see MaterialRecord::phong_slice
+const int kBroadLobe = 8192; // covers the hemisphere, and leans away from the mirror direction: lights/broad.t.h
 const int kNormals_ggx = 256, kNormals_own = 512;
 const int kLobeCount = 0
 #define BN_LOBE(id, at, type, lies, normals, traits, made_of) +1
 #include "shading/models.def"
     ;
+#define BN_LOBE(id, at, type, lies, normals, traits, made_of) const int kLobe_##id = at;
+#include "shading/models.def"
 
 const int kCoatings = 0 // layers above a material's own lobe
-#define BN_COATING(id, at, strength, trait) +1
+#define BN_COATING(id, at, strength, lobe) +1
 #include "shading/coatings.def"
     ;
-#define BN_COATING(id, at, strength, trait) const int kCoating_##id = at;
+#define BN_COATING(id, at, strength, lobe) const int kCoating_##id = at;
 #include "shading/coatings.def"
 
 const int kMostFacets = 32; // per material, see MaterialRecord::facet

@@ -10,10 +10,11 @@
 
 BN_KERNELS_BEGIN
 
-// Returns true where `mc` samples the extracted lights with the environment: for interfaces and lobes without GGX normals.
+// Returns true where `mc` samples the extracted lights with the environment: for interfaces, and for lobes without GGX normals that
+// are not broad.
 BN_FN bool extracted_lights_are_sampled(BN_IN(shaded_point) x, lobe_layer layer)
 {
-    return layer_has(layer, kNormals_own) || interface_is_sampled(x);
+    return (layer_has(layer, kNormals_own) && !layer_has(layer, kBroadLobe)) || interface_is_sampled(x);
 }
 
 struct extracted_light_lobe { // the lobe under extracted lights
@@ -104,6 +105,13 @@ BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_I
     // Transform the light's half axes to the lobe's frame
     real3 u = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_u));
     real3 v = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].axis_v));
+    // Take a broad lobe for constant over the light
+    if (layer_has(layer, kBroadLobe)) {
+        real size = k_length3(k_cross(u, v)) * lit(3.14159265358979324);
+        r.lobe = select(risen, bsdf_lobe_eval_cos(lobe.bsdf, direction) * size, lit(0.0));
+        r.v_dot_h = bsdf_lobe_o_dot_h(lobe.bsdf, direction);
+        return r;
+    }
     real3 h = l + lobe.eye; // twice as long as the cosine between eye and half vector
     real h2 = k_dot3(h, h);
     real up = lit(1.0) / max(h.z, lit(1e-4));
@@ -199,6 +207,8 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
     // Blend narrow lobes into a mirror
     real narrowness = lit(1.0) - lobe.lobe.sigma_u * lit(1414.2135623730951); // 0 from the least width on, alpha = 0.001
     real mirror = k_saturate(narrowness);
+    if (layer_has(layer, kBroadLobe))
+        mirror = lit(0.0);
     // Leave lobes that samples evaluate, unless they are mirrors
     if (extracted_lights_are_sampled(x, layer)) {
         real width = lobe.lobe.sigma_u + lobe.lobe.sigma_v;

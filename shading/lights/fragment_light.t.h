@@ -6,6 +6,7 @@
 #include "shading/lang/stage.h"
 #include "shading/lang/techniques.h"
 #include "shading/lights/area.t.h"
+#include "shading/lights/broad.t.h"
 #include "shading/lights/environment.t.h"
 #include "shading/lights/extracted.t.h"
 #include "shading/lights/punctual.t.h"
@@ -45,7 +46,8 @@ struct coating_light {
 };
 
 // Shades a coating. albedo: of its lobe; lobe: its index in shading/models.def. samples, traits: the technique's. A technique that samples
-// lobes samples the coating's too; lobe_line takes its environment light from a line of samples, others from one prefiltered fetch.
+// lobes samples the coating's too; lobe_line takes its environment light from a line of samples, others from one prefiltered fetch. Broad
+// lobes have lights of their own (broad.t.h).
 BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(dfg_value) albedo, int lobe, BN_IN(material_inputs) at,
                                      BN_IN(surface_frame) axes, BN_IN(visible_point) p, integer pixel_id, int samples, int traits)
 {
@@ -53,11 +55,14 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
     c.pixel_id = pixel_id;
     c.samples = samples;
     make_coating_point(layer, albedo, axes, k_normalize3(-p.ray), at.occlusion, layer.has_surface_horizon, c);
+    bool broad = lobe_has(lobe, kBroadLobe);
     // Add environment light
     real3 light = vec3_all(lit(0.0));
     if ((traits & kSamplesLobe) != 0)
         light = environment_light(f, c, kSamplesLobe + kTestsHorizon,
                                   mc_of_lobe(f, c, make_bsdf_lobe(lobe, c.lobe, c.s.n, c.s.v, c.geometric_axes)));
+    else if (broad)
+        light = environment_light(f, c, kSamplesLobe, broad_specular(f, c));
     else if ((traits & kRoundAlone) != 0)
         light = environment_light(f, c, kSamplesLobe, lobe_line_specular(f, c));
     else
@@ -67,8 +72,13 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
         light = light + light_from_extracted_lights(f, c, lobe, layer_with_lobe(lobe));
     if (the_frame(f).light_count > 0)
         light = light + light_from_punctual(f, c, lobe, p.position);
-    if (the_frame(f).area_light_count > 0)
-        light = light + light_from_area(f, c, lobe, p.position, layer_with_lobe(lobe));
+    if (the_frame(f).area_light_count > 0) {
+        bool by_cosine = the_frame(f).area_way != kAreaWay_off && the_frame(f).area_way != kAreaWay_mc;
+        if (broad && by_cosine)
+            light = light + broad_light_of_areas(f, c, p.position);
+        else
+            light = light + light_from_area(f, c, lobe, p.position, layer_with_lobe(lobe));
+    }
     // Return the coating's light and transmittance
     coating_light r;
     r.passed = lit(1.0) - layer.share;
@@ -77,7 +87,7 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
 }
 
 // Define light_of_<id>() for each coating.
-#define BN_COATING(id, at_bit, strength, trait)                                                                                            \
+#define BN_COATING(id, at_bit, strength, lobe)                                                                                             \
     BN_STAGE coating_light light_of_##id(any_frame f, any_material m, BN_IN(material_inputs) at, BN_IN(visible_point) p, integer pixel_id, \
                                          int traits)                                                                                       \
     {                                                                                                                                      \
@@ -85,7 +95,7 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
         real3 v = k_normalize3(-p.ray);                                                                                                    \
         coating layer = id##_coating(f, m, at, axes, v, facing_handedness(p));                                                             \
         dfg_value albedo = id##_albedo(f, layer, coating_n_dot_v(layer, v));                                                               \
-        return light_of_coating(f, layer, albedo, lobe_that_has(trait), at, axes, p, pixel_id, the_material(m).samples, traits);           \
+        return light_of_coating(f, layer, albedo, kLobe_##lobe, at, axes, p, pixel_id, the_material(m).samples, traits);                   \
     }
 #include "shading/coatings.def"
 
@@ -220,7 +230,7 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
         }
     }
     // Put the coatings over it
-#define BN_COATING(id, bit, strength, trait)                                                                                               \
+#define BN_COATING(id, bit, strength, lobe)                                                                                                \
     if (coating_used(bit) && has_coating(m, bit))                                                                                          \
         r = under_coating(r, light_of_##id(f, m, at, p, x.pixel_id, traits), shares);
 #include "shading/coatings.def"

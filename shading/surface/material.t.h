@@ -126,7 +126,7 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
         // Coatings
-#define BN_COATING(id, at, strength, trait) id##_inputs(m, t, r);
+#define BN_COATING(id, at, strength, lobe) id##_inputs(m, t, r);
 #include "shading/coatings.def"
     return r;
 }

@@ -39,7 +39,7 @@ BN_FN real2 mc_point(BN_IN(mc_points) points, int i)
 // Samples a lobe.
 BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe)
 {
-    bool samples_extracted_lights = !lobe_has(lobe.model, kNormals_ggx); // extracted.t.h leaves this lobe to samples
+    bool samples_extracted_lights = !lobe_has(lobe.model, kNormals_ggx + kBroadLobe); // extracted.t.h leaves this lobe to samples
     // Choose the environment: with extracted lights where samples meet them
     cube_desc cube = prefiltered_env(f);
     uniform_real scale = 1.0f;

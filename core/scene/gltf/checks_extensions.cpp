@@ -90,7 +90,6 @@ struct Ignored {
 };
 constexpr double kMost = 3.4028234663852886e38;
 constexpr Ignored kIgnored[] = {
-    {"KHR_materials_sheen/sheenRoughnessFactor", 0.0, 1.0},
     {"KHR_materials_volume/thicknessFactor", 0.0, kMost},
     {"KHR_materials_volume/attenuationDistance", 1e-30, kMost},
     {"KHR_materials_iridescence/iridescenceFactor", 0.0, 1.0},

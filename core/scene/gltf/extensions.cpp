@@ -30,7 +30,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_materials_emissive_strength", supported, ""},
         {"KHR_materials_ior", supported, ""},
         {"KHR_materials_iridescence", ignored, ""},
-        {"KHR_materials_sheen", ignored, ""},
+        {"KHR_materials_sheen", supported, "factors, textures"},
         {"KHR_materials_specular", supported, "factor, colour, textures"},
         {"KHR_materials_transmission", supported, "factor, texture"},
         {"KHR_materials_unlit", supported, ""},

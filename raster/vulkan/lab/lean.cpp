@@ -38,7 +38,7 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 base, dielectric, f0, diffuse, factors, emissive, lobe, grain;
     glm::vec4 place[2 * kTextureSlots];
 };
-static_assert(kTextureSlots == 15 && sizeof(LeanMaterial) == 608);
+static_assert(kTextureSlots == 17 && sizeof(LeanMaterial) == 672);
 constexpr std::uint32_t kTableSamplers = 4;  // albedo tables of set 0
 constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
 

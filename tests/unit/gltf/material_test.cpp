@@ -76,6 +76,8 @@ TEST(material, defaults_are_those_of_gltf)
     EXPECT_EQ(m.transmission, 0.0f);
     EXPECT_EQ(m.clearcoat, 0.0f);
     EXPECT_EQ(m.clearcoat_roughness, 0.0f);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0.0f));
+    EXPECT_EQ(m.sheen_roughness, 0.0f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
     EXPECT_EQ(m.alpha_cutoff, 0.5f);
     EXPECT_EQ(m.anisotropy_strength, 0.0f);
@@ -92,6 +94,7 @@ TEST(material, every_factor_and_extension_arrives)
         R"("KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":10},"KHR_materials_ior":{"ior":1.33},)"
         R"("KHR_materials_transmission":{"transmissionFactor":0.75},)"
         R"("KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
+        R"("KHR_materials_sheen":{"sheenColorFactor":[0.1,0.2,0.3],"sheenRoughnessFactor":0.6},)"
         R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[2,1,0]},)"
         R"("KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":1.5}}})");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -110,6 +113,8 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_EQ(m.transmission, 0.75f);
     EXPECT_EQ(m.clearcoat, 0.7f);
     EXPECT_EQ(m.clearcoat_roughness, 0.2f);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.sheen_roughness, 0.6f);
     EXPECT_EQ(m.specular, 0.5f);
     EXPECT_EQ(m.specular_color, glm::vec3(2, 1, 0));
     EXPECT_EQ(m.anisotropy_strength, 0.6f);

@@ -22,6 +22,13 @@ Material coated_or_not(float roughness, float metallic, float coat)
     return m;
 }
 
+Material cloth()
+{
+    Material m = coated_or_not(0.8f, 0.0f, 0.0f);
+    m.sheen_color = glm::vec3(0.2f), m.sheen_roughness = 0.4f;
+    return m;
+}
+
 struct Surface {
     const char* name;
     Material material;
@@ -32,7 +39,8 @@ const std::vector<Surface>& each_surface()
     static const std::vector<Surface> all = {{"plastic", coated_or_not(0.5f, 0.0f, 0.0f)},
                                              {"rough plastic", coated_or_not(0.9f, 0.0f, 0.0f)},
                                              {"half a metal", coated_or_not(0.6f, 0.5f, 0.0f)},
-                                             {"coated plastic", coated_or_not(0.7f, 0.0f, 1.0f)}};
+                                             {"coated plastic", coated_or_not(0.7f, 0.0f, 1.0f)},
+                                             {"cloth", cloth()}};
     return all;
 }
 
