@@ -104,6 +104,7 @@ class Writer {
         if (format_ == TextureFormat::exr) {
             for (const auto& [picture, image] : pictures_of(name, texture))
                 BN_TRY(note(picture + ".exr", write_image(path(picture + ".exr"), image)));
+            remove_levels(name, texture.levels.size());
             return {};
         }
         if (const std::uint64_t beyond = type_ == TexelType::half ? count_beyond_half(texture) : 0)
@@ -122,13 +123,21 @@ class Writer {
         const fs::path folder(folder_);
         for (const char* end : {".ktx2", ".dds"})
             fs::remove(folder / (name + end), ignored);
-        for (const char* face : kFaces)
-            fs::remove(folder / fmt::format("{}_00_{}.exr", name, face), ignored);
+        remove_levels(name, 0);
     }
 
     EnvironmentTextures written;
 
   private:
+    // Removes faces of levels that an earlier bake left. first: the lowest of them.
+    void remove_levels(const std::string& name, std::size_t first) const
+    {
+        constexpr std::size_t kMostLevels = 32;
+        std::error_code ignored;
+        for (std::size_t level = first; level < kMostLevels; ++level)
+            for (const char* face : kFaces)
+                fs::remove(fs::path(folder_) / fmt::format("{}_{:02}_{}.exr", name, level, face), ignored);
+    }
     std::string path(const std::string& name) const { return (fs::path(folder_) / name).string(); }
     Status note(const std::string& name, Status status)
     {

@@ -1,6 +1,10 @@
 #include "apps/golden/result_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
@@ -94,6 +98,9 @@ Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrig
     if (fs::is_directory(results_, none) && !ours && !fs::is_empty(results_, none))
         return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results_));
     BN_TRY(make_output_folder(results_));
+    lock_.reset(::open(results_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (lock_ && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) // file systems without locks take both runs
+        return Error{ExitCode::output_failed, results_, "", "another run of burnish golden writes here"};
     const std::string text = fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n", origin.shard.index + 1,
                                          origin.shard.count, origin.manifest);
     if (!ours)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/descriptor.h"
 #include "core/base/result.h"
 
 namespace burnish {
@@ -28,7 +29,8 @@ class NewResults {
     NewResults& operator=(const NewResults&) = delete;
     ~NewResults();
 
-    // Makes the folders. Refuses a folder of results with files of other programs, and one that holds an input.
+    // Makes the folders. Refuses a folder of results with files of other programs, one that holds an input, and one into which another run
+    // writes.
     Status make(const std::vector<std::string>& inputs, const ResultOrigin& origin);
     const std::string& folder() const { return folder_; }
     Status take_over(); // moves the files into the place of the earlier ones
@@ -37,6 +39,7 @@ class NewResults {
     Status move_all();
 
     std::string results_, folder_, old_;
+    Descriptor lock_; // on `results_`; one run at a time
     bool made_ = false;
 };
 

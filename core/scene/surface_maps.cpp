@@ -74,6 +74,12 @@ std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
     return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
 }
 
+PixelType metal_rough_type(const Image& metallic, const Image& roughness)
+{
+    const auto is_short = [](const Image& image) { return image.empty() || image.type == PixelType::u8; };
+    return is_short(metallic) && is_short(roughness) ? PixelType::u8 : PixelType::u16;
+}
+
 } // namespace
 
 SurfaceMap normals_of_quaternions(const Image& quaternions)
@@ -172,10 +178,16 @@ void flip_green(Image& normals)
     }
 }
 
+std::uint64_t metal_rough_bytes(const Image& metallic, const Image& roughness)
+{
+    const auto most = [](int a, int b) { return static_cast<std::uint64_t>(std::max(a, b)); };
+    const std::uint64_t texel = metal_rough_type(metallic, roughness) == PixelType::u8 ? 3 : 6;
+    return most(metallic.width, roughness.width) * most(metallic.height, roughness.height) * texel;
+}
+
 Image metal_rough_of(const Image& metallic, const Image& roughness)
 {
     const int width = std::max(metallic.width, roughness.width), height = std::max(metallic.height, roughness.height);
-    const auto is_short = [](const Image& image) { return image.empty() || image.type == PixelType::u8; };
     const auto put = [&](auto* to, int unit) { // codes of 16 bits an own one
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x, to += 3)
@@ -183,7 +195,7 @@ Image metal_rough_of(const Image& metallic, const Image& roughness)
                     to[c] = static_cast<std::remove_reference_t<decltype(*to)>>(
                         c == 0 ? 65535 / unit : red_at(c == 1 ? roughness : metallic, x, y, width, height) / unit);
     };
-    Image out = make_image(width, height, 3, is_short(metallic) && is_short(roughness) ? PixelType::u8 : PixelType::u16);
+    Image out = make_image(width, height, 3, metal_rough_type(metallic, roughness));
     if (out.type == PixelType::u8)
         put(reinterpret_cast<std::uint8_t*>(out.bytes.data()), 257);
     else

@@ -42,6 +42,7 @@ SurfaceMap whole_normals(Image normals);
 // Packs the red channels of two maps as glTF does: green roughness, blue metalness. The result has the larger width and height, and 8 bits
 // where both maps have no more. An empty map counts as 1.
 Image metal_rough_of(const Image& metallic, const Image& roughness);
+std::uint64_t metal_rough_bytes(const Image& metallic, const Image& roughness); // of that picture
 
 // Converts a DirectX normal map, whose green points down, to glTF. Exact.
 void flip_green(Image& normals);

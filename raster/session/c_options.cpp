@@ -117,7 +117,10 @@ std::string c_words(const std::string& text)
                                                                  {"MipSettings::gains", "mip_gain"},
                                                                  {"Moment::animation", "animation"},
                                                                  {"Moment::seconds", "time"},
-                                                                 {"Moment::variant", "variant"}};
+                                                                 {"Moment::variant", "variant"},
+                                                                 {"FloorSettings::kind", "floor"},
+                                                                 {"ShadowSettings::of", "shadows"},
+                                                                 {"ShadowSettings::samples", "shadow_samples"}};
     std::string out = text;
     for (const auto& [field, option] : fields)
         for (std::size_t at = out.find(field); at != std::string::npos; at = out.find(field, at))

@@ -71,6 +71,7 @@ def time_goes_through_the_scene_s_own(bench):
     same(steps[2], bench.figures(*seen, "--time", "5"))
     bench.run("render", *seen, "--time", "1", "--animation", "4", "-o", "b.png").expect(4).expect_one_line("turning.gltf", "--animation")
     bench.run("render", *seen, "--time", "-1", "-o", "b.png").expect(2).expect_one_line("--time")
+    bench.run("render", "builtin:plate", *seen[1:], "--time", "1", "-o", "b.png").expect(4).expect_one_line("builtin:plate", "--time")
     check(not (bench.folder / "b.png").exists(), "b.png was written")
 
 

@@ -39,6 +39,19 @@ def foreign_shards(bench):
     check(len(results(bench, "merged")) == 2, "the earlier results are gone")
 
 
+@case("golden.two_checks_do_not_share_a_folder", budget=10)
+def shared_folder(bench):
+    begun = bench.folder / "begun"
+    wait = program(bench, "wait.sh", f"touch {begun}; sleep 2; printf 'P6 1 1 255\\n\\0\\0\\0' > out.ppm")
+    write(bench, [{"name": "slow", "command": [wait], "picture": "out.ppm"}])
+    first = subprocess.Popen([bench.program, "golden", "check", "m.json", "-o", "r"], cwd=bench.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not begun.exists():
+        time.sleep(0.02)
+    bench.run("golden", "check", "m.json", "-o", "r").expect(7).expect_one_line("r:", "another run")
+    check(first.wait(timeout=60) == 5 and len(results(bench, "r")) == 1, "the first check")
+    bench.run("golden", "check", "m.json", "-o", "r").expect(5)
+
+
 @case("golden.pictures_with_nan_fail_and_are_not_blessed", budget=10)
 def not_finite(bench):
     pfm = lambda *values: b"PF\n2 2\n-1.0\n" + struct.pack("<12f", *values, *[0.5] * (12 - len(values)))

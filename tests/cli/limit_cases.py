@@ -22,6 +22,18 @@ def texture_bytes(bench):
     accept(bench, scene, "--limit-texture-bytes", "1M")
 
 
+@case("limit.texture_bytes_hold_for_packed_maps", "input")
+def packed_maps(bench):
+    """A long and a high picture become one that is both."""
+    folder = bench.folder / "set"
+    folder.mkdir()
+    (folder / "a_metallic.png").write_bytes(files.png(1000, 1))
+    (folder / "a_roughness.png").write_bytes(files.png(1, 1000))
+    words = ("builtin:plate", "--material", "set")
+    bench.run("render", *words, "--size", "16x16", "--limit-texture-bytes", "2M").expect(4).expect_one_line("a_roughness.png", "2097152")
+    accept(bench, *words, "--limit-texture-bytes", "4M")
+
+
 @case("limit.json_depth_is_kept", "input")
 def json_depth(bench):
     gltf = files.triangle()

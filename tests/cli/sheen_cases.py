@@ -41,7 +41,7 @@ def faults(bench):
     listed = bench.run("list", "extensions").expect(0).out
     check(any(line.split()[:2] == ["KHR_materials_sheen", "supported"] for line in listed.splitlines()), listed)
     words = (scene(bench, "all", textures=("sheenColor", "sheenRoughness")), *CLOSE, "--strict")
-    check("sheen" not in bench.run("render", *words).expect(0).err, "--strict has something to say of sheen")
+    check("KHR_materials_sheen" not in bench.run("render", *words).expect(0).err, "--strict has something to say of sheen")
 
 
 @case("sheen.each_of_its_numbers_is_seen")
@@ -50,8 +50,6 @@ def seen(bench):
             (("cloth", {}), ("bare", dict(color=(0, 0, 0))), ("grey", dict(color=(0.5, 0.5, 0.5))), ("smooth", dict(roughness=0.2)),
              ("by colour", dict(textures=("sheenColor",))))}
     check(len(set(full.values())) == len(full), f"two layers give one picture: {full}")
-    opaque = bench.figures(scene(bench, "by roughness", textures=("sheenRoughness",)), *CLOSE)["pixel_hash"]
-    check(opaque == full["cloth"], "a roughness texture without alpha is no factor of 1")
     textured = scene(bench, "none", textures=("sheenColor", "sheenRoughness"), color=(0, 0, 0))
     check(full["bare"] == bench.figures(textured, *CLOSE)["pixel_hash"], "a textured black layer is seen")
 
@@ -77,7 +75,7 @@ def agrees(bench):
 def devices(bench):
     mapped = scene(bench, "mapped", textures=("sheenColor", "sheenRoughness"))
     small = ("--size", "32x24", "--env", "builtin:sky")
-    check_equal(parity(bench, mapped, *small, "--msaa", "4", "--technique", "auto", also=[("--brdf", "charlie")]))
-    check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4"))
+    check_equal(parity(bench, mapped, *small, "--msaa", "4", "--technique", "auto"))
+    check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4", also=[("--brdf", "charlie")]))
     light = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided")
     check_equal(parity(bench, mapped, *small, *light, "--msaa", "1", "--technique", "bent_normal"))

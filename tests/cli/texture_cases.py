@@ -106,6 +106,12 @@ def textures(bench):
             rows = [pixels[side * y:side * y + side] for y in reversed(range(side))]
             scratch(bench, "face.pfm", f"PF\n{side} {side}\n-1.0\n".encode() + struct.pack(f"<{3 * side * side}f", *[v for row in rows for p in row for v in p]))
             bench.run("compare", f"e/{name}_{end}.exr", "face.pfm", "--fail-flip", "1e-9", "-q").expect(0)
+    # A smaller bake leaves no levels of a larger one behind
+    small = ["16" if word == "32" else word for word in BAKE]
+    bench.run(*small, "--textures", "exr", "-o", "e").expect(0)
+    names = {path.name for path in (bench.folder / "e").glob("*.exr")}
+    bench.run(*small, "--textures", "exr", "-o", "fresh").expect(0)
+    check(names == {path.name for path in (bench.folder / "fresh").glob("*.exr")}, f"{names}")
     # A bake without key lights leaves no texture of theirs behind
     bench.run(*BAKE, "--key-lights", "off", "--textures", "ktx2", "-o", "k").expect(0)
     check(not (bench.folder / "k/whole.ktx2").exists(), "whole.ktx2 of an earlier bake")

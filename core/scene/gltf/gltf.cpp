@@ -151,6 +151,8 @@ Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Mo
     const std::string kBuiltin = "builtin:";
     if (!moment.variant.empty() && (spec.compare(0, kBuiltin.size(), kBuiltin) == 0 || is_obj(spec)))
         return Error{ExitCode::bad_input, spec, "", "has no variants (Moment::variant); glTF files may have some"};
+    if (moment.seconds && (spec.compare(0, kBuiltin.size(), kBuiltin) == 0 || is_obj(spec)))
+        return Error{ExitCode::bad_input, spec, "", "has no animations (Moment::seconds); glTF files may have some"};
     if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
         return make_builtin_scene(spec.substr(kBuiltin.size()));
     if (is_obj(spec))

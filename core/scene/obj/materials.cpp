@@ -75,6 +75,8 @@ class MaterialMaker {
         if (from.opacity.value_or(1.0f) < 1.0f)
             m.base_color.a = *from.opacity, m.alpha_mode = AlphaMode::blend;
         m.clearcoat = from.clearcoat.value_or(0.0f), m.clearcoat_roughness = from.clearcoat_roughness.value_or(0.0f);
+        if (from.sheen)
+            m.sheen_color = glm::vec3(*from.sheen), m.sheen_roughness = 0.5f;
         const float anisotropy = from.anisotropy.value_or(0.0f);
         const double turns = std::fmod(static_cast<double>(from.rotation.value_or(0.0f)), 1.0) + (anisotropy < 0.0f ? 0.25 : 0.0);
         m.anisotropy_strength = std::fabs(anisotropy); // below 0: across
@@ -230,9 +232,7 @@ class MaterialMaker {
         if (!metallic.empty() && (map.scale != other.scale || map.offset != other.offset || map.clamps != other.clamps))
             warn(fmt::format("material \"{}\": map_Pm lies as map_Pr does", printable(from.name)));
         const Result<TextureRef> ref = textured({parts[0]->path, parts[1]->path, false, map.clamps}, map, [&]() -> Result<Image> {
-            const auto most = [](int a, int b) { return static_cast<std::uint64_t>(std::max(a, b)); };
-            constexpr std::uint64_t kTexel = 6; // three channels with 16 bits
-            if (most(metallic.width, roughness.width) * most(metallic.height, roughness.height) > texture_bytes_left() / kTexel)
+            if (metal_rough_bytes(metallic, roughness) > texture_bytes_left())
                 return too_large(parts[roughness.empty() ? 0 : 1]->path);
             return metal_rough_of(metallic, roughness);
         });

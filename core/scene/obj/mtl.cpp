@@ -37,6 +37,7 @@ constexpr NumberStatement kNumbers[] = {{"Ns", &MtlMaterial::exponent, 0.0f, kAn
                                         {"Pm", &MtlMaterial::metallic, 0.0f, 1.0f},
                                         {"Pc", &MtlMaterial::clearcoat, 0.0f, 1.0f},
                                         {"Pcr", &MtlMaterial::clearcoat_roughness, 0.0f, 1.0f},
+                                        {"Ps", &MtlMaterial::sheen, 0.0f, 1.0f},
                                         {"aniso", &MtlMaterial::anisotropy, -1.0f, 1.0f},
                                         {"anisor", &MtlMaterial::rotation, -kAny, kAny}};
 

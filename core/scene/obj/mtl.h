@@ -19,10 +19,10 @@ struct MtlMap { // a picture and how it lies; empty: none
 
 struct MtlMaterial { // numbers that the file does not name are empty
     std::string name;
-    std::optional<glm::vec3> diffuse, specular, emission;                     // Kd, Ks, Ke: linear
-    std::optional<float> exponent, opacity, ior;                              // Ns, d or 1 - Tr, Ni
-    std::optional<float> roughness, metallic, clearcoat, clearcoat_roughness; // Pr, Pm, Pc, Pcr
-    std::optional<float> anisotropy, rotation;                                // aniso, [-1,1]; anisor, turns
+    std::optional<glm::vec3> diffuse, specular, emission;                            // Kd, Ks, Ke: linear
+    std::optional<float> exponent, opacity, ior;                                     // Ns, d or 1 - Tr, Ni
+    std::optional<float> roughness, metallic, clearcoat, clearcoat_roughness, sheen; // Pr, Pm, Pc, Pcr, Ps
+    std::optional<float> anisotropy, rotation;                                       // aniso, [-1,1]; anisor, turns
     MtlMap diffuse_map, emission_map, roughness_map, metallic_map, normal_map, opacity_map;
 };
 

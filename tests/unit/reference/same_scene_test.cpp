@@ -71,6 +71,7 @@ Material grained(float rotation)
     m.base_color = glm::vec4(0.9f, 0.6f, 0.3f, 1.0f), m.metallic = 0.25f, m.roughness = 0.4f;
     m.anisotropy_strength = 0.7f, m.anisotropy_rotation = rotation;
     m.clearcoat = 0.5f, m.clearcoat_roughness = 0.25f;
+    m.sheen_color = glm::vec3(0.25f, 0.5f, 0.75f), m.sheen_roughness = 0.5f;
     return m;
 }
 
@@ -160,6 +161,10 @@ TEST(outside, a_texture_of_one_texel_is_a_factor)
     expect_same("coat", grain, with_change(m, [](Scene& s, Material& to) {
                     to.clearcoat = to.clearcoat_roughness = 1.0f;
                     to.clearcoat_tex = to.clearcoat_roughness_tex = add_texel(s, glm::vec3(0.5f, 0.25f, 0.0f));
+                }));
+    expect_same("sheen", grain, with_change(m, [](Scene& s, Material& to) {
+                    to.sheen_color = glm::vec3(1.0f), to.sheen_color_tex = add_texel(s, glm::vec3(0.25f, 0.5f, 0.75f));
+                    to.sheen_roughness = 1.0f, to.sheen_roughness_tex = add_texel(s, glm::vec4(0.0f, 0.0f, 0.0f, 0.5f));
                 }));
     // as_mc finds half vectors in another way where roughness has a texture.
     expect_same("roughness and metal", {plane_scene(round)},

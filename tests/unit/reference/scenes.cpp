@@ -70,6 +70,14 @@ TextureRef add_texel(Scene& to, const glm::vec3& values)
     return add_image(to, image);
 }
 
+TextureRef add_texel(Scene& to, const glm::vec4& values)
+{
+    Image image = make_image(1, 1, 4, PixelType::f32);
+    for (int c = 0; c < 4; ++c)
+        image.f32()[c] = values[c];
+    return add_image(to, image);
+}
+
 namespace {
 
 void push_vertex(Scene& s, const glm::vec3& p, const glm::vec3& n, const glm::vec3& t)

@@ -25,6 +25,7 @@ Scene room_scene(const Material& material); // a cube from -1 to 1, seen from in
 Scene lit_by(Scene scene, const std::vector<AreaLight>& lights, bool shown);
 TextureRef add_texel(Scene& to, const glm::ivec3& code);                            // a 1x1 texture of 8 bits
 TextureRef add_texel(Scene& to, const glm::vec3& values);                           // a 1x1 texture of floats
+TextureRef add_texel(Scene& to, const glm::vec4& values);                           // the same with alpha
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
 
 Material lambert(float albedo);                                // diffuse only

@@ -149,15 +149,23 @@ TEST(mtl, what_is_not_drawn_is_said)
     EXPECT_EQ(warnings_of("illum 2\nKa 1 1 1\nsharpness 60"), "");
     for (const auto& [line, words] : {std::pair<std::string, std::string>{"Pr 3", "Pr 3 is taken as 1"},
                                       {"map_Kd", "a picture's name is missing"},
-                                      {"Ps 0.5", "'Ps' is not read"},
+                                      {"Pz 0.5", "'Pz' is not read"},
                                       {"map_Bump b.png", "'map_Bump' is not read"},
                                       {"Kd spectral a.rfl", "Kd spectral is not read"},
                                       {"map_Kd missing.png", "missing.png is not found"},
                                       {"map_d alpha.png", "map_d is read only where it is map_Kd"},
                                       {"newmtl a", "stands here again"}})
         EXPECT_NE(warnings_of(line).find(words), std::string::npos) << line << ": " << warnings_of(line);
-    const std::string twice = warnings_of("Ps 0.5\nPs 0.6");
+    const std::string twice = warnings_of("Pz 0.5\nPz 0.6");
     EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 1) << twice;
+}
+
+TEST(mtl, sheen_is_white_and_half_rough)
+{
+    const Material cloth = material_of("Kd .2 .1 .1\nPs .4");
+    EXPECT_EQ(cloth.sheen_color, glm::vec3(0.4f));
+    EXPECT_EQ(cloth.sheen_roughness, 0.5f);
+    EXPECT_EQ(material_of("Kd 1 1 1").sheen_color, glm::vec3(0.0f));
 }
 
 TEST(mtl, missing_pictures_change_nothing)
