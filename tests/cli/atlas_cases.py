@@ -207,12 +207,12 @@ SEEDED = {
     "--roughness 0.1": "area_lights_left_out few_points_of_lights round_cosines_on_brushed_metal colours_that_face_the_eye sphere_through_the_horizon",
     "--area-lights ltc-isotropic": "cosines_of_thin_lobes cosines_of_sharp_lobes cosines_at_grazing_angles sphere_for_a_polygon cosines_for_ward "
                                    "lamps_below_the_horizon cosines_are_no_lunes cosines_through_the_horizon cosines_across_the_grain cosines_unaligned cosines_unsymmetric cosines_inverse",
-    "--frame-map off": "tangents_left slopes_in_a_frame_left frames_turned_around mip_box_of_sharp_lobes mip_lean_of_sharp_lobes "
-                       "mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes mip_leadr_of_sharp_lobes mip_ssgt_of_sharp_lobes "
+    "--frame-map off": "tangents_left slopes_in_a_frame_left frames_turned_around mip_box_of_sharp_lobes "
+                       "mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes mip_ssgt_of_sharp_lobes "
                        "mip_kappa_of_sharp_lobes",
     "--normal-y down": "mip_net_at_first_levels",
     "--height-scale 0": "steps_of_relief relief_at_80_degrees depths_by_stretched_coordinates",
-    "--anisotropy -0.9": "cores_of_few_texels",
+    "--anisotropy -0.9": "cores_of_few_texels mip_lean_of_sharp_lobes mip_leadr_of_sharp_lobes",
     "--msaa 2": "edges_of_bright_things",
     "--zoom 4": "darkness_measured",
     "--fov 0.2": "eye_far_away",
