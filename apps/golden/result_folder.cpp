@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <span>
@@ -99,7 +100,9 @@ Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrig
         return usage_error("-o", fmt::format("'{}' holds files, and none of burnish golden", results_));
     BN_TRY(make_output_folder(results_));
     lock_.reset(::open(results_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (lock_ && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) // file systems without locks take both runs
+    if (!lock_)
+        return Error{ExitCode::output_failed, results_, "", std::strerror(errno)};
+    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) // file systems without locks take both runs
         return Error{ExitCode::output_failed, results_, "", "another run of burnish golden writes here"};
     const std::string text = fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n", origin.shard.index + 1,
                                          origin.shard.count, origin.manifest);

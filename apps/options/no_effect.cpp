@@ -38,8 +38,6 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
     if (!out.moment.seconds)
         if (given.given("--animation"))
             out.warnings.push_back("--animation has no effect without --time");
-    if (out.scene.starts_with("builtin:"))
-        warn("--time", out.scene);
     const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.mips.filter)].name;
     if (!takes_kappa(out.mips.filter))
         warn("--mip-kappa", of_filter);

@@ -65,6 +65,8 @@ BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_poin
     r.phong_diffuse = f.diffuse_model != 0;
     r.diffuse = diffuse_brdf(f, x);
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
+    if (lobe_has(f.lobe, kBroadLobe)) // has a least width
+        r.mirror = mask_from_bits(0);
     r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
     // Choose terms by their reflected energy
     real specular = luminance_of((s.f0 * x.energy.dfg.scale + s.f90 * x.energy.dfg.bias) * x.energy.gain);

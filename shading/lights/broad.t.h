@@ -1,5 +1,5 @@
 // Light of a coating whose lobe is broad and leans away from the mirror direction (kBroadLobe). One fetch or one cosine
-// about the lobe's mean direction stands for it.
+// about the lobe's mean direction stands for it. charlie.k.h has the fit, so the trait is that lobe's alone.
 #ifndef BN_BROAD_T_H
 #define BN_BROAD_T_H
 
@@ -14,7 +14,6 @@ BN_KERNELS_BEGIN
 struct broad_lobe {
     real3 direction; // mean direction of the light that the lobe reflects, unit, world space
     real roughness;  // of the round GGX lobe that is as wide
-    real above;      // share of a cosine about the direction that lies above the surface
 };
 
 BN_FN broad_lobe broad_lobe_of(BN_IN(shaded_point) x)
@@ -28,7 +27,6 @@ BN_FN broad_lobe broad_lobe_of(BN_IN(shaded_point) x)
     r.direction = k_normalize3(whole);
     // Find the prefiltered lobe whose mean direction is as long: that of roughness 1 has length 2/3
     r.roughness = min(max(lit(1.0) - lit(2.8) * (length - lit(0.66666667)), lit(0.3)), lit(1.0));
-    r.above = lit(0.5) + lit(0.5) * k_saturate(k_dot3(x.s.n, r.direction));
     return r;
 }
 
@@ -45,7 +43,7 @@ BN_FN real3 broad_light_of_areas(frame_ref f, BN_IN(shaded_point) x, real3 posit
 {
     broad_lobe lobe = broad_lobe_of(x);
     ltc_lobe dull = ltc_cosine();
-    // Make axes about the mean direction, and find the surface's horizon in them
+    // Make axes about the mean direction, and find the surface's horizon in them, with the cosine's share above it
     area_axes across = area_axes_of(lobe.direction);
     aniso_lobe axes;
     axes.u_axis = across.u;
@@ -55,6 +53,7 @@ BN_FN real3 broad_light_of_areas(frame_ref f, BN_IN(shaded_point) x, real3 posit
     real3 up = to_lobe(axes, lobe.direction, x.s.n);
     if (x.has_surface_horizon)
         up = to_lobe(axes, lobe.direction, x.geometric_axes.n);
+    real above = max(lit(0.5) + lit(0.5) * up.z, lit(0.1));
     // Visit the lights that face the point
     real3 sum = vec3_all(lit(0.0));
     for (int i = 0; i < the_frame(f).area_light_count; ++i) {
@@ -79,7 +78,7 @@ BN_FN real3 broad_light_of_areas(frame_ref f, BN_IN(shaded_point) x, real3 posit
             radiance = area_radiance_through(f, i, dull, seen.flow, corner, side_u, side_v);
         sum = sum + select(faces, radiance, vec3_all(lit(0.0))) * seen.part;
     }
-    return sum * x.energy.albedo / lobe.above;
+    return sum * x.energy.albedo / above;
 }
 
 BN_KERNELS_END

@@ -43,7 +43,8 @@ BN_FN extracted_light_lobe extracted_light_lobe_of(BN_IN(shaded_point) x, int mo
     if (layer_has(layer, kLies_surface))
         r.eye = to_lobe(r.lobe, x.s.n, x.s.v);
     // For masking only: normals at silhouettes may face away from the eye, and lobes flare up there
-    r.bsdf.o.z = max(r.bsdf.o.z, lit(0.02));
+    if (!layer_has(layer, kBroadLobe))
+        r.bsdf.o.z = max(r.bsdf.o.z, lit(0.02));
     // Find the inverse widths
     real alpha_u = r.lobe.sigma_u * root2;
     real alpha_v = r.lobe.sigma_v * root2;

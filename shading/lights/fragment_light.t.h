@@ -62,7 +62,7 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
         light = environment_light(f, c, kSamplesLobe + kTestsHorizon,
                                   mc_of_lobe(f, c, make_bsdf_lobe(lobe, c.lobe, c.s.n, c.s.v, c.geometric_axes)));
     else if (broad)
-        light = environment_light(f, c, kSamplesLobe, broad_specular(f, c));
+        light = environment_light(f, c, kSamplesLobe + kTestsHorizon, broad_specular(f, c)); // fades tell of mirror directions
     else if ((traits & kRoundAlone) != 0)
         light = environment_light(f, c, kSamplesLobe, lobe_line_specular(f, c));
     else
@@ -73,8 +73,8 @@ BN_FN coating_light light_of_coating(frame_ref f, BN_IN(coating) layer, BN_IN(df
     if (the_frame(f).light_count > 0)
         light = light + light_from_punctual(f, c, lobe, p.position);
     if (the_frame(f).area_light_count > 0) {
-        bool by_cosine = the_frame(f).area_way != kAreaWay_off && the_frame(f).area_way != kAreaWay_mc;
-        if (broad && by_cosine)
+        bool cosines = area_way_used(kAreaWay_ltc) || area_way_used(kAreaWay_ltc_clipless) || area_way_used(kAreaWay_ltc_isotropic);
+        if (broad && cosines && the_frame(f).area_way != kAreaWay_mc)
             light = light + broad_light_of_areas(f, c, p.position);
         else
             light = light + light_from_area(f, c, lobe, p.position, layer_with_lobe(lobe));

@@ -1,6 +1,7 @@
 // Cloth: Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF", the lobe of KHR_materials_sheen. Fibres stand up
 // from the surface, so that most normals lie near its horizon. Conventions: microfacet.k.h. Cosines in denominators count as
-// at least 1e-4. At views more grazing than 3 degrees the lobe reflects more light than it receives.
+// at least 1e-4. Below roughness .25 and at views more grazing than 3 degrees the lobe
+// reflects more light than it receives.
 #ifndef BN_CHARLIE_K_H
 #define BN_CHARLIE_K_H
 
@@ -112,7 +113,7 @@ BN_FN real charlie_cubic(real x, real c0, real c1, real c2, real c3)
 }
 
 // Returns the directional albedo, at most 1. n_dot_v: [0,1]; roughness: perceptual, [.1,1]. A fit to integrals of this file's
-// lobe: off by at most .008, by at most .05 at views more grazing than 3 degrees.
+// lobe: off by at most .01, by at most .05 at views more grazing than 3 degrees.
 BN_FN real charlie_albedo(real n_dot_v, real roughness)
 {
     real r = min(max(roughness, lit(0.1)), lit(1.0));
@@ -131,7 +132,8 @@ struct charlie_mean {
     real along, up;
 };
 
-// Returns the mean direction by a fit to integrals of the lobe, off by about .01. Parameters: charlie_albedo().
+// Returns the mean direction by a fit to integrals of the lobe, off by at most .05 where the albedo is above .05. Parameters:
+// charlie_albedo().
 BN_FN charlie_mean charlie_mean_of(real n_dot_v, real roughness)
 {
     real r = min(max(roughness, lit(0.1)), lit(1.0));

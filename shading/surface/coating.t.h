@@ -1,4 +1,4 @@
-// A coating: a layer above a material's own lobe, with a round lobe about its own normal. shading/coatings.def lists them.
+// A coating: a layer above a material's own lobe, with a lobe and a normal of its own. shading/coatings.def lists them.
 #ifndef BN_COATING_T_H
 #define BN_COATING_T_H
 
@@ -12,7 +12,7 @@ BN_KERNELS_BEGIN
 // The coatings' functions <id>_coating(f, m, at, axes, v, handedness) return this record. axes: the geometry's, facing the
 // eye; v: to the eye, unit, world space; handedness: facing_handedness().
 struct coating {
-    surface_frame axes;       // about the coating's normal, which ignores the base layer's normal map
+    surface_frame axes;       // about the coating's normal
     real3 horizon;            // normal of the horizon; light from below it is not reflected
     bool has_surface_horizon; // that is the geometry's horizon, and the normal may differ from the geometry's
     real3 reflectance;        // factor on the coating's lobe, [0,1]

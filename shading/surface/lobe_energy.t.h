@@ -64,10 +64,11 @@ BN_FN dfg_value directional_albedo(frame_ref f, material_ref m, BN_IN(surface) s
     return own;
 }
 
-// Returns true where lobes are compensated by their own albedo, which no table of the default lobe holds.
+// Returns true where lobes are compensated by their own albedo, which no table of the default lobe holds. Fibres absorb the light that a
+// broad lobe does not reflect.
 BN_FN bool has_own_gain(frame_ref f)
 {
-    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kDefaultLobe + kPunctualOnly)) == 0 &&
+    return the_frame(f).energy_compensation != 0 && (the_frame(f).lobe_traits & (kDefaultLobe + kPunctualOnly + kBroadLobe)) == 0 &&
            !uses_substitute_lobe(f);
 }
 
@@ -172,7 +173,7 @@ BN_FN void find_energy(frame_ref f, material_ref m, BN_IN(material_inputs) at, B
     // Find the gain by energy compensation, and the albedo ratio of a substitute lobe
     x.energy.albedo_ratio = lit(1.0);
     x.energy.own_dfg = x.energy.dfg;
-    if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
+    if ((the_frame(f).lobe_traits & (kPunctualOnly + kBroadLobe)) != 0)
         x.energy.gain = vec3_all(lit(1.0));
     else if ((the_frame(f).lobe_traits & kDefaultLobe) == 0) {
         bool compensated = the_frame(f).energy_compensation != 0;

@@ -4,6 +4,7 @@
 
 #include "shading/lang/lang.h"
 #include "shading/lang/stage.h"
+#include "shading/surface/frame_by_map.t.h"
 #include "shading/surface/lobe_energy.t.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"
@@ -37,16 +38,6 @@ BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs)
     x.energy.gain = vec3_all(lit(1.0));
     if (the_frame(f).energy_compensation != 0)
         x.energy.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
-}
-
-// Returns the surface's frame under a normal map, turned by the method that the material's record names.
-BN_FN surface_frame frame_by_map(material_ref m, surface_frame axes, real3 map, real handedness)
-{
-    if (the_material(m).frame_map == kFrameQuaternion)
-        return turned_frame(axes, map);
-    if (the_material(m).frame_map == kFrameNormalOnly)
-        return bent_frame(axes, map);
-    return mapped_frame(axes, map, handedness);
 }
 
 // Return the geometry's frame; a surface seen from behind shows its other side.

@@ -8,6 +8,7 @@
 #include "shading/models/charlie.k.h"
 #include "shading/surface/coating.t.h"
 #include "shading/surface/dfg.k.h"
+#include "shading/surface/frame_by_map.t.h"
 #include "shading/surface/material_inputs.t.h"
 #include "shading/surface/surface.k.h"
 
@@ -42,10 +43,10 @@ BN_FN coating sheen_coating(frame_ref f, material_ref m, BN_IN(material_inputs) 
 {
     coating c;
     // Find the normal and the horizon
-    bool mapped = texture_used(m, kNormalTex) && the_frame(f).frame_map != kFrameOff;
+    bool mapped = texture_used(m, kNormalTex);
     c.axes = axes;
     if (mapped)
-        c.axes = mapped_frame(axes, at.normal_map, handedness);
+        c.axes = frame_by_map(m, axes, at.normal_map, handedness);
     c.has_surface_horizon = mapped && the_frame(f).horizon != 0;
     c.horizon = c.axes.n;
     if (the_frame(f).horizon != 0)

@@ -60,6 +60,8 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe
     real3 mean = cube_terms_value(sum) * splat(points.inv);
     if (samples_extracted_lights)
         mean = mean * splat(scale);
+    if (lobe_has(lobe.model, kBroadLobe)) // has a least width
+        return mean;
     return mirrors_apart(f, x, mean, bsdf_lobe_mirror_albedo(lobe));
 }
 

@@ -28,7 +28,7 @@ def lobes(bench):
 @case("brdf.list_models_names_what_it_takes", tier="nightly")
 def names(bench):
     found = lobes(bench)
-    check(len(found) == 10 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
+    check(len(found) == 11 and [name for name, lamps in found.items() if lamps] == ["heidrich_seidel"], f"{found}")
     hashes = {}
     for name in found:
         hashes[name] = bench.figures(*CLOSE, "--technique", "mc", "--samples", "4", "--brdf", name)

@@ -45,7 +45,7 @@ def shared_folder(bench):
     wait = program(bench, "wait.sh", f"touch {begun}; sleep 2; printf 'P6 1 1 255\\n\\0\\0\\0' > out.ppm")
     write(bench, [{"name": "slow", "command": [wait], "picture": "out.ppm"}])
     first = subprocess.Popen([bench.program, "golden", "check", "m.json", "-o", "r"], cwd=bench.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not begun.exists():
+    while not begun.exists() and first.poll() is None:
         time.sleep(0.02)
     bench.run("golden", "check", "m.json", "-o", "r").expect(7).expect_one_line("r:", "another run")
     check(first.wait(timeout=60) == 5 and len(results(bench, "r")) == 1, "the first check")

@@ -158,10 +158,10 @@ def more_options_of_shading(bench):
 
 @case("parity.everything_is_equal", tier="nightly")
 def everything(bench):
-    check_equal(parity(bench, "--suite", "default", timeout=590.0))
+    check_equal(parity(bench, "--suite", "default", timeout=1100.0))
     for folder in bench.data:
         if (folder / "models").exists():
-            check_equal(parity(bench, "--models", folder / "models", timeout=590.0))
+            check_equal(parity(bench, "--models", folder / "models", timeout=1100.0))
 
 
 CAUSES = {"equal", "visibility", "interpolants", "material inputs", "shaded colour", "resolved colour", "rounding"}

@@ -128,7 +128,7 @@ class Scene:
         axis_beta: float = 2.3,
         brdf: Literal[
             "ggx_aniso", "ggx", "ellipsoid", "ggx_aniso_separable", "beckmann", "ashikhmin_shirley", "ward", "ward_cheap",
-            "heidrich_seidel", "ellipsoid_correlated",
+            "heidrich_seidel", "ellipsoid_correlated", "charlie",
         ] = "ggx_aniso",
         diffuse: Literal["lambert", "ashikhmin-shirley"] = "lambert",
         tilt: Vector2 = (0.0, 0.0),
@@ -172,7 +172,7 @@ class Scene:
         axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
         axis_beta: Overlap of samples on the major axis, 0 to 100.
         brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
-            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated.
+            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated, charlie.
         diffuse: Diffuse part: lambert (scaled by the light that the lobe lets through) or ashikhmin-shirley (reciprocal, darker at grazing
             angles).
         tilt: Tilt of every lobe against its surface, -80 to 80 degrees: towards the bitangent, and away from the tangent.
@@ -216,7 +216,7 @@ class Scene:
         target_error: float | None = None,
         brdf: Literal[
             "ggx_aniso", "ggx", "ellipsoid", "ggx_aniso_separable", "beckmann", "ashikhmin_shirley", "ward", "ward_cheap",
-            "heidrich_seidel", "ellipsoid_correlated",
+            "heidrich_seidel", "ellipsoid_correlated", "charlie",
         ] = "ggx_aniso",
         diffuse: Literal["lambert", "ashikhmin-shirley"] = "lambert",
         tilt: Vector2 = (0.0, 0.0),
@@ -253,7 +253,7 @@ class Scene:
         reference_textures: Texture reads of the reference: footprint (filtered over a pixel) or full (at each ray's hit).
         target_error: Relative error at which the reference stops early.
         brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,
-            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated.
+            ashikhmin_shirley, ward, ward_cheap, heidrich_seidel, ellipsoid_correlated, charlie.
         diffuse: Diffuse part: lambert (scaled by the light that the lobe lets through) or ashikhmin-shirley (reciprocal, darker at grazing
             angles).
         tilt: Tilt of every lobe against its surface, -80 to 80 degrees: towards the bitangent, and away from the tangent.
@@ -295,6 +295,8 @@ class Scene:
         clearcoat: float | None = None,
         clearcoat_roughness: float | None = None,
         clearcoat_normal_scale: float | None = None,
+        sheen_color: Vector3 | None = None,
+        sheen_roughness: float | None = None,
         conductor_eta: Vector3 | None = None,
         conductor_k: Vector3 | None = None,
         tilt: Vector2 | None = None,
@@ -329,6 +331,9 @@ class Scene:
         clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
+        sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
+            albedo; black: none.
+        sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
         conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
         conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
         tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.
@@ -407,6 +412,8 @@ class Mesh:
         clearcoat: float = 0.0,
         clearcoat_roughness: float = 0.0,
         clearcoat_normal_scale: float = 1.0,
+        sheen_color: Vector3 = (0.0, 0.0, 0.0),
+        sheen_roughness: float = 0.0,
         conductor_eta: Vector3 = (0.0, 0.0, 0.0),
         conductor_k: Vector3 = (0.0, 0.0, 0.0),
         tilt: Vector2 = (0.0, 0.0),
@@ -443,6 +450,9 @@ class Mesh:
         clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
+        sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
+            albedo; black: none.
+        sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
         conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
         conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
         tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.

@@ -23,6 +23,7 @@ const std::map<std::string, Ranges>& parameters()
         {"ward", {kWidth, kWidth}},
         {"ward_cheap", {kWidth, kWidth}},
         {"ashikhmin_shirley", {kExponent, kExponent}},
+        {"charlie", {{0.01, 1.0}}},
         {"heidrich_seidel", {{0.0, 1.0}, {0.0, 1.0}, {1.0, 1000.0}}},
         {"ellipsoid", {kWidth, kWidth, kTilt, kTilt, kTurn}},
         {"ellipsoid_correlated", {kWidth, kWidth, kTilt, kTilt, kTurn}},

@@ -195,6 +195,24 @@ TEST(sheen, one_fetch_is_near_what_its_samples_find)
         }
 }
 
+// The normal leans by 19 degrees, towards the eye and away from it.
+TEST(sheen, follows_the_normal_map)
+{
+    for (float roughness : {0.3f, 0.6f})
+        for (int lean : {86, 170}) {
+            Scene scene = plane_scene(with_sheen(black_cloth(), roughness));
+            scene.materials[0].normal_tex = add_texel(scene, glm::ivec3(lean, 128, 249));
+            Stage stage(scene, 1.0f, 2), flat(plane_scene(with_sheen(black_cloth(), roughness)), 1.0f, 2);
+            for (Stage* each : {&stage, &flat})
+                each->environment = environment_of(cloth_sky, 64, each->jobs);
+            const double sampled = mean_of(stage.render(cloth_view(0.5f, "mc", 4096), best_isa()));
+            EXPECT_NEAR(mean_of(stage.render(cloth_view(0.5f, "bent_normal", 1), best_isa())), sampled, 0.12 * sampled + 0.01)
+                << roughness << ' ' << lean;
+            const double straight = mean_of(flat.render(cloth_view(0.5f, "mc", 4096), best_isa()));
+            EXPECT_GT(std::abs(straight / sampled - 1.0), 0.1) << roughness << ' ' << lean;
+        }
+}
+
 TEST(sheen, black_is_no_layer_word_for_word)
 {
     Stage bare(plane_scene(cloth_base())), none(plane_scene(with_sheen(cloth_base(), 0.3f, 0.0f))),
