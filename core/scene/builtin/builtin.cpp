@@ -32,6 +32,7 @@ constexpr Maker<Scene> kScenes[] = {
     {{"lacquer", "balls under clear coats on satin plastic: carbon weave (highlights across its threads), car paint, and steel (highlights "
                  "around it)"},
      make_lacquer},
+    {{"cloth", "balls of velvet and felt before a drape of satin, whose highlights run across its threads"}, make_cloth},
     {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters", false},
      make_shaderballs},
 };

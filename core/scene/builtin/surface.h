@@ -55,6 +55,7 @@ Scene make_lights();
 Scene make_glass();
 Scene make_bumps();
 Scene make_lacquer();
+Scene make_cloth();
 Scene make_shaderballs();
 struct FailureSceneMaker {
     BuiltinInfo info;

@@ -63,7 +63,7 @@ TEST(builtin, unknown_names_are_errors_that_list_the_known)
     const Result<Scene> scene = make_builtin_scene("kettle");
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().line(), "builtin:kettle: no built-in scene has this name; there are teapot, spheres, sphere, plate, lights, "
-                                    "glass, bumps, lacquer, shaderballs");
+                                    "glass, bumps, lacquer, cloth, shaderballs");
     EXPECT_FALSE(make_builtin_environment("cave"));
 }
 
