@@ -65,8 +65,8 @@ def glb(gltf, binary=POSITIONS + INDICES):
 
 
 def png(width, height, rows=None, color=None):
-    """Returns an RGB image with one colour or color(x, y). If `rows` is less than `height`, the header promises more than the file
-    holds."""
+    """Returns an image with one colour or color(x, y), which may have alpha. If `rows` is less than `height`, the header promises more
+    than the file holds."""
     if color:
         raw = b"".join(b"\0" + b"".join(bytes(color(x, y)) for x in range(width)) for y in range(height))
     else:
@@ -75,5 +75,6 @@ def png(width, height, rows=None, color=None):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    kind = 6 if color and len(color(0, 0)) == 4 else 2
+    header = struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")

@@ -12,7 +12,7 @@ PLACE = "/materials/0/extensions/KHR_materials_sheen"
 
 
 def worn(x, y):
-    return (60 + 40 * (x % 4), 90 + 30 * (y % 4), 200)
+    return (60 + 40 * (x % 4), 90 + 30 * (y % 4), 200, 255 - 30 * (y % 5))
 
 
 def cloth(roughness=0.4, textures=(), color=(0.7, 0.4, 0.5), sheen=None, **more):
@@ -48,7 +48,7 @@ def faults(bench):
 def seen(bench):
     full = {name: bench.figures(scene(bench, name, **material), *CLOSE)["pixel_hash"] for name, material in
             (("cloth", {}), ("bare", dict(color=(0, 0, 0))), ("grey", dict(color=(0.5, 0.5, 0.5))), ("smooth", dict(roughness=0.2)),
-             ("by colour", dict(textures=("sheenColor",))))}
+             ("by colour", dict(textures=("sheenColor",))), ("by roughness", dict(textures=("sheenRoughness",))))}
     check(len(set(full.values())) == len(full), f"two layers give one picture: {full}")
     textured = scene(bench, "none", textures=("sheenColor", "sheenRoughness"), color=(0, 0, 0))
     check(full["bare"] == bench.figures(textured, *CLOSE)["pixel_hash"], "a textured black layer is seen")
