@@ -37,8 +37,10 @@ std::uint64_t hash_scene(const Scene& scene)
 // Pins bits that are equal on every machine and with every compiler. Change the hashes on purpose only.
 TEST(builtin, bits_are_pinned)
 {
-    const std::map<std::string, std::uint64_t> scenes = {
-        {"teapot", 0xc7e1fb7e9946dd9eull}, {"spheres", 0x4de7ec20301778b3ull}, {"plate", 0x7f8dcd862d1fc796ull}};
+    const std::map<std::string, std::uint64_t> scenes = {{"teapot", 0xc7e1fb7e9946dd9eull},
+                                                         {"spheres", 0x4de7ec20301778b3ull},
+                                                         {"plate", 0x7f8dcd862d1fc796ull},
+                                                         {"cloth", 0x647da1336d24225ull}};
     const std::map<std::string, std::uint64_t> environments = {{"studio", 0x19febed410644343ull}, {"sky", 0xf287c30da37dad5bull}};
     for (const auto& [name, want] : scenes)
         EXPECT_EQ(hash_scene(*make_builtin_scene(name)), want) << name;
@@ -50,7 +52,7 @@ TEST(builtin, bits_are_pinned)
 
 TEST(builtin, lists_name_what_can_be_made)
 {
-    ASSERT_EQ(builtin_scenes().size(), 9u);
+    ASSERT_EQ(builtin_scenes().size(), 10u);
     ASSERT_EQ(builtin_environments().size(), 3u);
     for (const BuiltinInfo& info : builtin_scenes())
         EXPECT_TRUE(make_builtin_scene(info.name)) << info.name;
