@@ -124,6 +124,7 @@ BREACHES = {
     ("ltc-isotropic", "roughness to 0 by lamps"): (58.15, 0),
     ("ltc-isotropic", "lamp that leaves"): (169.37, 0),
     ("ggx", "anisotropy through 0"): (289.32, 289.32),
+    ("charlie", "anisotropy through 0"): (299.56, 299.56),
     ("ggx_aniso", "anisotropy through 0"): (20.68, 12.92),
     ("ggx_aniso", "roughness to 1"): (1.37, 0),
     ("ggx_aniso_separable", "anisotropy through 0"): (20.67, 12.94),
