@@ -73,26 +73,12 @@ class MapWriter {
         return {};
     }
 
-    std::uint64_t texture_bytes_left() const
-    {
-        std::uint64_t left = limits_.texture_bytes;
-        for (const Image& image : scene_.images)
-            left -= std::min<std::uint64_t>(left, image.bytes.size());
-        return left;
-    }
-
-    Error too_large(const std::string& path) const
-    {
-        return {ExitCode::bad_input, path, "",
-                fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
-    }
-
     // colours: of the material; other maps hold data, whatever primaries their files name.
     Result<Image> read(const std::string& path, int channels, bool colours = false)
     {
         BN_TRY(check_coordinates(path));
         Limits rest = limits_;
-        rest.texture_bytes = texture_bytes_left();
+        rest.texture_bytes = texture_bytes_left(scene_, limits_);
         PictureNotes notes;
         Result<Image> image = colours ? read_colours(path, rest, notes) : read_image(path, rest, &notes);
         BN_TRY(image);
@@ -103,7 +89,7 @@ class MapWriter {
         if (image->channels < channels)
             return Error{ExitCode::bad_input, path, "", "a map of directions or normals has red, green and blue"};
         if (image->bytes.size() > rest.texture_bytes)
-            return too_large(path);
+            return textures_too_large(path, limits_);
         scene_.files.push_back(path);
         return image;
     }
@@ -251,7 +237,7 @@ Status find_pictures(const std::string& folder, std::string (&found)[kRoles], st
     return {};
 }
 
-Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with)
+Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, const Limits& limits)
 {
     std::string found[kRoles];
     if (Status pictures = find_pictures(with.material, found, scene.warnings); !pictures)
@@ -282,8 +268,8 @@ Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with)
         }
     if (parts[0].empty())
         on.each([](Material& m) { m.metallic = 0.0f; });
-    if (metal_rough_bytes(parts[0], parts[1]) > on.texture_bytes_left())
-        return on.too_large(found[parts[1].empty() ? kMetallic : kRoughness]);
+    if (metal_rough_bytes(parts[0], parts[1]) > texture_bytes_left(scene, limits))
+        return textures_too_large(found[parts[1].empty() ? kMetallic : kRoughness], limits);
     if (!parts[0].empty() || !parts[1].empty())
         on.put(on.add(metal_rough_of(parts[0], parts[1]), "metalness and roughness"), &Material::metallic_roughness_tex);
     if (!found[kDepth].empty()) {
@@ -330,7 +316,7 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
         BN_TRY(check_strokes(with));
     MapWriter on(scene, limits);
     if (!with.material.empty())
-        if (Status put = put_material(on, scene, with); !put)
+        if (Status put = put_material(on, scene, with, limits); !put)
             return put;
     if (Status put = put_maps(on, with); !put)
         return put;

@@ -1,6 +1,7 @@
 #include "core/scene/texture.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace burnish {
@@ -20,6 +21,20 @@ std::int32_t add_texture(Scene& scene, const char* name, Image image, Texture li
     scene.images.push_back(std::move(image));
     scene.textures.push_back(std::move(like));
     return static_cast<std::int32_t>(scene.textures.size()) - 1;
+}
+
+std::uint64_t texture_bytes_left(const Scene& scene, const Limits& limits)
+{
+    std::uint64_t left = limits.texture_bytes;
+    for (const Image& image : scene.images)
+        left -= std::min<std::uint64_t>(left, image.bytes.size());
+    return left;
+}
+
+Error textures_too_large(const std::string& path, const Limits& limits)
+{
+    return {ExitCode::bad_input, path, "",
+            fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits.texture_bytes)};
 }
 
 } // namespace burnish

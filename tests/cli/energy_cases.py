@@ -269,8 +269,10 @@ def all_places(bench):
 
 
 # Measured deficit below 1 in images of white metal under uniform light, by option. For two options the deficits add up. Tilted lobes
-# reflect below the surface, and mapped normals lose the light from below its horizon. The other models' masking differs from the model of the albedo that scales them.
-OFF = {"tilted": 0.0101, "projected": 0.0191, "turned": 0.0191, "model ggx_aniso_separable": 0.0173, "model ashikhmin_shirley": 0.0025, "model ward": 0.0029, "model ward_cheap": 0.0011,
+# reflect below the surface, and mapped normals lose the light from below its horizon. The other models' masking differs from the model of
+# the albedo that scales them.
+OFF = {"tilted": 0.0101, "projected": 0.0191, "turned": 0.0191,
+       "model ggx_aniso_separable": 0.0173, "model ashikhmin_shirley": 0.0025, "model ward": 0.0029, "model ward_cheap": 0.0011,
        "model ellipsoid": 0.0210, "model ellipsoid_correlated": 0.0172}
 # Pairs whose deficits do not add up. Random samples have the lobe's exact albedo, which the fit misses. A tilt costs sharp lobes more,
 # since their whole highlight moves, and costs techniques more whose samples do not reach below the surface.

@@ -54,16 +54,6 @@ void add_drape(Scene& scene)
     });
 }
 
-void add_draped(Scene& scene, const Material& material, const glm::vec3& at, void (*add)(Scene&))
-{
-    scene.materials.push_back(material);
-    const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size()) - 1);
-    add(scene);
-    glm::mat4 local(1.0f);
-    local[3] = glm::vec4(at, 1.0f);
-    add_node(scene, material.name.c_str(), add_mesh(scene, material.name.c_str(), first), local);
-}
-
 } // namespace
 
 Scene make_cloth()
@@ -72,10 +62,9 @@ Scene make_cloth()
     scene.name = "cloth";
     const auto ball = [](Scene& s) { add_sphere(s, 96, 48, kClothBall); };
     const auto high = static_cast<float>(kClothBall);
-    add_draped(scene, satin(), {0.0f, 0.0f, -0.12f}, add_drape);
-    add_draped(scene, fibres("velvet", glm::vec3(0.12f, 0.004f, 0.012f), glm::vec3(0.9f, 0.25f, 0.3f), 0.35f), {-0.075f, high, 0.02f},
-               ball);
-    add_draped(scene, fibres("felt", glm::vec3(0.03f, 0.12f, 0.09f), glm::vec3(0.25f, 0.4f, 0.35f), 0.8f), {0.075f, high, 0.02f}, ball);
+    add_part(scene, satin(), {0.0f, 0.0f, -0.12f}, add_drape);
+    add_part(scene, fibres("velvet", glm::vec3(0.12f, 0.004f, 0.012f), glm::vec3(0.9f, 0.25f, 0.3f), 0.35f), {-0.075f, high, 0.02f}, ball);
+    add_part(scene, fibres("felt", glm::vec3(0.03f, 0.12f, 0.09f), glm::vec3(0.25f, 0.4f, 0.35f), 0.8f), {0.075f, high, 0.02f}, ball);
     Camera camera;
     camera.name = "front", camera.yfov = 0.34f, camera.znear = 0.05f;
     scene.cameras.push_back(camera);

@@ -82,16 +82,6 @@ Material car_paint()
     return coated("car paint", m, 0.03f);
 }
 
-void add_lacquered(Scene& scene, const Material& material, const glm::vec3& at, void (*add)(Scene&))
-{
-    scene.materials.push_back(material);
-    const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size()) - 1);
-    add(scene);
-    glm::mat4 local(1.0f);
-    local[3] = glm::vec4(at, 1.0f);
-    add_node(scene, material.name.c_str(), add_mesh(scene, material.name.c_str(), first), local);
-}
-
 } // namespace
 
 Scene make_lacquer()
@@ -102,13 +92,13 @@ Scene make_lacquer()
     plastic.name = "satin plastic";
     plastic.base_color = glm::vec4(0.06f, 0.065f, 0.075f, 1.0f);
     plastic.metallic = 0.0f, plastic.roughness = 0.4f;
-    add_lacquered(scene, plastic, glm::vec3(0.0f), add_lacquer_floor);
+    add_part(scene, plastic, glm::vec3(0.0f), add_lacquer_floor);
     const auto ball = [](Scene& s) { add_sphere(s, 96, 48, kBall); };
     const auto high = static_cast<float>(kBall);
-    add_lacquered(scene, carbon(scene), {-0.14f, high, 0.0f}, ball);
-    add_lacquered(scene, car_paint(), {0.0f, high, 0.0f}, ball);
+    add_part(scene, carbon(scene), {-0.14f, high, 0.0f}, ball);
+    add_part(scene, car_paint(), {0.0f, high, 0.0f}, ball);
     const Material steel = brushed_metal(0.35, 0.8, glm::vec3(0.56f, 0.57f, 0.58f));
-    add_lacquered(scene, coated("steel under varnish", steel, 0.35f), {0.14f, high, 0.0f}, ball);
+    add_part(scene, coated("steel under varnish", steel, 0.35f), {0.14f, high, 0.0f}, ball);
     Light lamp;
     lamp.name = "lamp", lamp.type = LightType::directional, lamp.intensity = 0.5f; // lux
     scene.lights.push_back(lamp);

@@ -66,6 +66,16 @@ void add_front_camera(Scene& scene)
 
 } // namespace
 
+void add_part(Scene& scene, const Material& material, const glm::vec3& at, void (*add)(Scene&))
+{
+    scene.materials.push_back(material);
+    const std::uint32_t first = begin_primitive(scene, static_cast<std::int32_t>(scene.materials.size()) - 1);
+    add(scene);
+    glm::mat4 local(1.0f);
+    local[3] = glm::vec4(at, 1.0f);
+    add_node(scene, material.name.c_str(), add_mesh(scene, material.name.c_str(), first), local);
+}
+
 Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour)
 {
     Material material;

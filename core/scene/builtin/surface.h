@@ -13,6 +13,9 @@ namespace burnish {
 // About the origin. Tangents point east.
 void add_sphere(Scene& scene, int meridians, int parallels, double radius);
 
+// Adds a node at `at` with a mesh that `add` makes, in one material.
+void add_part(Scene& scene, const Material& material, const glm::vec3& at, void (*add)(Scene&));
+
 // Returns metal with GGX widths alpha_lin^2 (1 +- eta) along and across the tangent.
 Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
 

@@ -108,20 +108,6 @@ class MaterialMaker {
             scene_.warnings.push_back(text);
     }
 
-    std::uint64_t texture_bytes_left() const
-    {
-        std::uint64_t left = limits_.texture_bytes;
-        for (const Image& image : scene_.images)
-            left -= std::min<std::uint64_t>(left, image.bytes.size());
-        return left;
-    }
-
-    Error too_large(const std::string& path) const
-    {
-        return {ExitCode::bad_input, path, "",
-                fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", limits_.texture_bytes)};
-    }
-
     // Reads a picture once. Its path is empty where it is not found, which is warned of.
     Result<const Picture*> picture(const std::string& name, bool colours)
     {
@@ -134,7 +120,7 @@ class MaterialMaker {
         if (const auto known = pictures_.find(key); known != pictures_.end())
             return &known->second;
         Limits rest = limits_;
-        rest.texture_bytes = texture_bytes_left();
+        rest.texture_bytes = texture_bytes_left(scene_, limits_);
         PictureNotes notes;
         Result<Image> image = colours ? read_colours(*path, rest, notes) : read_image(*path, rest, &notes);
         BN_TRY(image);
@@ -145,7 +131,7 @@ class MaterialMaker {
         if (const std::size_t bad = image->type == PixelType::f32 ? values_not_finite(*image) : 0)
             warn(fmt::format("{}: {} values are no numbers and are repaired", *path, bad));
         if (image->bytes.size() > rest.texture_bytes)
-            return too_large(*path);
+            return textures_too_large(*path, limits_);
         if (std::find(scene_.files.begin(), scene_.files.end(), *path) == scene_.files.end())
             scene_.files.push_back(*path);
         return &pictures_.emplace(key, Picture{*path, std::move(*image)}).first->second;
@@ -158,8 +144,8 @@ class MaterialMaker {
         if (known == textures_.end()) {
             Result<Image> image = make();
             BN_TRY(image);
-            if (image->bytes.size() > texture_bytes_left())
-                return too_large(std::get<0>(key));
+            if (image->bytes.size() > texture_bytes_left(scene_, limits_))
+                return textures_too_large(std::get<0>(key), limits_);
             Texture like;
             if (map.clamps)
                 like.wrap_s = like.wrap_t = WrapMode::clamp;
@@ -232,8 +218,8 @@ class MaterialMaker {
         if (!metallic.empty() && (map.scale != other.scale || map.offset != other.offset || map.clamps != other.clamps))
             warn(fmt::format("material \"{}\": map_Pm lies as map_Pr does", printable(from.name)));
         const Result<TextureRef> ref = textured({parts[0]->path, parts[1]->path, false, map.clamps}, map, [&]() -> Result<Image> {
-            if (metal_rough_bytes(metallic, roughness) > texture_bytes_left())
-                return too_large(parts[roughness.empty() ? 0 : 1]->path);
+            if (metal_rough_bytes(metallic, roughness) > texture_bytes_left(scene_, limits_))
+                return textures_too_large(parts[roughness.empty() ? 0 : 1]->path, limits_);
             return metal_rough_of(metallic, roughness);
         });
         BN_TRY(ref);
