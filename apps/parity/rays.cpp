@@ -30,6 +30,16 @@ struct Place {
     bool near_edge(const ProjectedTriangle& t) const { return !t.seen_at_all || std::fabs(t.inside(x, y)) <= edge; }
 };
 
+// Returns true where a ray's triangle does not cover the sample by its exact projection. Rays lose digits on triangles a hundred thousand
+// times as large as the eye's distance.
+bool ray_is_off(const Place& place, std::uint32_t right)
+{
+    if (right == kNoTriangle)
+        return false;
+    const ProjectedTriangle t = place.triangle(right);
+    return !t.seen_at_all || t.inside(place.x, place.y) <= 0;
+}
+
 // Returns true where rounding may choose between two triangles, or between one and none.
 bool may_be_either(const Place& place, std::uint32_t one, std::uint32_t other)
 {
@@ -90,7 +100,7 @@ Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, 
                              x + Long(pattern.x[s]) / kSubpixel,
                              y + Long(pattern.y[s]) / kSubpixel,
                              Long(edge)};
-        if (may_be_either(place, found, right))
+        if (ray_is_off(place, right) || may_be_either(place, found, right))
             continue;
         ++out.wrong;
         out.worst_x = x, out.worst_y = y;

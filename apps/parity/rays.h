@@ -20,7 +20,7 @@ Result<Session> ray_session(const SessionParts& parts, Isa isa);
 inline constexpr double kOwnEdge = 1.0 / 64.0, kDeviceEdge = 1.0 / 8.0;
 
 // Compares the triangle of each sample. A triangle other than the ray's is right where the sample is nearer than `edge` pixels to an edge
-// of either triangle, and where both are equally deep.
+// of either triangle, where both are equally deep, and where the ray's triangle does not cover the sample by exact projection.
 Result<RayCounts> compare_with_rays(const Frame& device, const FrameDesc& desc, Session& rays, double edge = kOwnEdge);
 
 } // namespace burnish
