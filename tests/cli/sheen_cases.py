@@ -5,6 +5,7 @@ from brdf_cases import against_files
 from fresnel_cases import CLOSE
 from harness import case, check
 from input_cases import refuse, scratch
+from model_cases import read_pfm
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
@@ -52,6 +53,25 @@ def seen(bench):
     check(len(set(full.values())) == len(full), f"two layers give one picture: {full}")
     textured = scene(bench, "none", textures=("sheenColor", "sheenRoughness"), color=(0, 0, 0))
     check(full["bare"] == bench.figures(textured, *CLOSE)["pixel_hash"], "a textured black layer is seen")
+
+
+@case("sheen.area_lights_on_the_eye_s_side_are_near_their_samples")
+def area_lights(bench):
+    """Over a black base. A lobe about another direction gives a fraction: lights on the far side do (apps/manual/limits.md)."""
+    gltf = cloth(roughness=0.5, color=(1, 1, 1))
+    gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0, 0, 0, 1]
+    gltf["materials"][0]["extensions"]["KHR_materials_specular"] = {"specularFactor": 0}
+    gltf["extensionsUsed"].append("KHR_materials_specular")
+    black = scratch(bench, "black.gltf", files.text(gltf))
+    for low in (0.2, -1.2):
+        light = f"quad:points=1,{low},0.1/1,{low + 1},0.1/1,{low + 1},0.7/1,{low},0.7:radiance=5,5,5:two-sided"
+        means = []
+        for way in ("mc", "ltc"):
+            bench.run("render", black, *CLOSE, "--env", "builtin:night", "--light", light, "--area-lights", way, "--light-samples", "1024", "-q",
+                      "-o", "a.pfm").expect(0)
+            values = read_pfm(bench.folder / "a.pfm")[2]
+            means.append(sum(values) / len(values))
+        check(0.7 < means[1] / means[0] < 1.1, f"{low}: {means}")
 
 
 @case("sheen.mc_agrees_with_the_reference", tier="nightly")
