@@ -89,6 +89,8 @@ BN_INLINE real4 vertex_coordinates(any_frame f, const LaneSetup& t, int k)
 
 BN_INLINE void blend_vertices(any_frame f, const LaneSetup& t, real3 b, bool all_words, vertex_words& a)
 {
+    for (int c = 8; c < 16 && !all_words; ++c)
+        a.at[c] = lit(0.0);
     if (t.common_vertex[0] != kManyTriangles) {
         blend_common(f, t, b, 0, a.at), blend_common(f, t, b, 4, a.at + 4);
         if (all_words)
@@ -106,10 +108,11 @@ BN_INLINE real3 vertex_place(any_frame f, const LaneSetup& t, int k)
 }
 
 // Interpolates fragments. samples: covered sample mask. pixel_x, pixel_y: in the image. lights: there are lights that need the position.
+// bends: as in point_of().
 BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_params& view, const LaneSetup& t, integer pixel_x,
-                                    integer pixel_y, integer samples, bool lights)
+                                    integer pixel_y, integer samples, bool lights, bool bends)
 {
-    visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights, wants_bends(f, m));
+    visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights, bends);
     if (m.relief != 0)
         see_relief(f, m, relief_plane_of(f, t), p);
     return p;
@@ -118,18 +121,18 @@ BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_para
 // Loads the setups and interpolates. common: the triangle of all fragments, or kManyTriangles.
 BN_INLINE visible_point make_fragment_inline(frame_ref f, material_ref m, const view_params& view, const TileScratch& scratch,
                                              integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples,
-                                             bool lights)
+                                             bool lights, bool bends)
 {
     LaneSetup t;
     load_setup(scratch, triangle, common, t);
-    return fragment_of(f, m, view, t, pixel_x, pixel_y, samples, lights);
+    return fragment_of(f, m, view, t, pixel_x, pixel_y, samples, lights, bends);
 }
 
 // Not inlined: compiled once per file.
 BN_STAGE visible_point make_fragment(const FrameParams& f, const MaterialRecord& m, const view_params& view, const TileScratch& scratch,
                                      integer triangle, std::int32_t common, integer pixel_x, integer pixel_y, integer samples)
 {
-    return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.positions != 0);
+    return make_fragment_inline(f, m, view, scratch, triangle, common, pixel_x, pixel_y, samples, f.positions != 0, wants_bends(f, m));
 }
 
 } // namespace BN_ISA_NS

@@ -12,8 +12,8 @@ inline namespace BN_ISA_NS {
 
 // Values that are equal for all fragments with a material, computed once.
 struct MaterialPlan {
-    bool uniform;       // no input changes between fragments
-    material_inputs at; // the inputs, if uniform
+    bool untextured;    // no input changes between fragments, except by vertex colours
+    material_inputs at; // the inputs, if untextured; colour_inputs() applies vertex colours
     bool one_shape;     // no texture changes the lobe's shape, or nothing needs the shape
     lobe_shape shape;   // the shape, if there is one
 };
@@ -22,8 +22,8 @@ BN_INLINE MaterialPlan plan_material(frame_ref f, material_ref m)
 {
     MaterialPlan plan;
     plan.one_shape = m.unlit || (one_lobe_shape(m) && !f.specular_aa);
-    plan.uniform = !m.textured && !m.uses_color;
-    if (plan.uniform)
+    plan.untextured = !m.textured;
+    if (plan.untextured)
         plan.at = fetch_lanes(f, m, visible_point{});
     if (plan.one_shape)
         plan.shape = only_lobe_shape(f, m);
@@ -45,7 +45,8 @@ BN_INLINE shared_sample_record shade_planned(frame_ref f, material_ref m, const 
                                              integer y)
 {
     alignas(material_inputs) std::byte fetched[sizeof(material_inputs)]; // large, so constructed in place
-    const material_inputs& at = plan.uniform ? plan.at : *::new (fetched) material_inputs(fetch_lanes(f, m, p));
+    const bool uniform = plan.untextured && !m.uses_color;
+    const material_inputs& at = uniform ? plan.at : *::new (fetched) material_inputs(fetch_lanes(f, m, p));
     const lobe_shape shape = plan.one_shape ? plan.shape : lobe_shape_at(f, m, at, p);
     return shade_fragments<kTechnique>(f, m, at, shape, p, x, y);
 }

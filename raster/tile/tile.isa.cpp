@@ -52,7 +52,7 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
     const PlainFrame frame{t.f};
     const Material material{m};
     const view_params eye = view;
-    const material_inputs at = found.at;
+    material_inputs at = found.at;
     const lobe_shape shape = found.shape;
     LaneSetup setup = {};
     std::int32_t setup_of = kManyTriangles;
@@ -61,7 +61,8 @@ void shade_plain_slot(const Tile& t, const view_params& view, const MaterialReco
         if (b.common == kManyTriangles || b.common != setup_of)
             load_setup(t.s, b.triangle, b.common, setup);
         setup_of = b.common;
-        const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false);
+        const visible_point p = fragment_of(frame, material, eye, setup, b.x, b.y, b.samples, false, wants_bends(frame, material));
+        colour_inputs(material, p, at);
         const shared_sample_record light = shade_fragments<kTechnique>(frame, material, at, shape, p, b.x, b.y);
         if ((technique_tag<kTechnique>::kTraits & kSharesSamples) != 0 && (m.technique_traits & kSharesSamples) != 0)
             store_shared_samples(t, b, light);
@@ -74,7 +75,7 @@ template <Technique kTechnique>
 void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m, std::uint32_t begin, std::uint32_t end)
 {
     const MaterialPlan plan = plan_material(t.f, m);
-    if (plan.uniform && m.unlit) { // one colour everywhere
+    if (plan.untextured && !m.uses_color && m.unlit) { // one colour everywhere
         for (std::uint32_t i = begin; i < end; i += kLanes)
             store_batch(t, load_batch(t, i, end), plan.at.base);
         return;
@@ -84,7 +85,7 @@ void shade_slot(const Tile& t, const view_params& view, const MaterialRecord& m,
     constexpr bool kAlsoRound = (kTraits & kAutomatic) != 0;
     using Material = std::conditional_t<(kTraits & kPhongGrid) != 0, PlainMaterial, UntabledMaterial>;
     constexpr std::uint32_t kWorthACopy = 8 * kLanes; // below this, copies and hoisted values do not pay
-    if (plan.uniform && end - begin >= kWorthACopy && PlainFrame::fits(t.f) && Material::fits(m)) {
+    if (plan.untextured && end - begin >= kWorthACopy && PlainFrame::fits(t.f) && Material::fits(m)) {
         if (kAlsoRound && RoundMaterial::fits(m))
             shade_plain_slot<kTechnique, std::conditional_t<kAlsoRound, RoundMaterial, Material>>(t, view, m, plan, begin, end);
         else

@@ -20,7 +20,8 @@ struct OpaqueBlocks {
 
 BN_STAGE real alpha_at(const Tile& t, const MaterialRecord& m, const view_params& view, std::int32_t id, integer x, integer y)
 {
-    return fetch_alpha(t.f, m, make_fragment_inline(t.f, m, view, t.s, int_lit(id), id, x, y, int_lit((1 << t.f.msaa) - 1), false));
+    const integer all_samples = int_lit((1 << t.f.msaa) - 1);
+    return fetch_alpha(t.f, m, make_fragment_inline(t.f, m, view, t.s, int_lit(id), id, x, y, all_samples, false, false));
 }
 
 // Alpha test of one triangle in one block.

@@ -152,8 +152,8 @@ BN_INLINE constexpr bool coating_used(int)
     return true;
 }
 
-// Constants of records: lists of a member and its value. Only geometry varies with such records: they have no textures and no
-// lights but the environment, and the default lobe in its plainest form.
+// Constants of records: lists of a member and its value. Only geometry and vertex colours vary with such records: they have no
+// textures and no lights but the environment, and the default lobe in its plainest form.
 #define BN_PLAIN_FRAME(constant)                                                                                                           \
     constant(light_count, 0);                                                                                                              \
     constant(area_light_count, 0);                                                                                                         \
@@ -167,7 +167,6 @@ BN_INLINE constexpr bool coating_used(int)
     constant(lobe_traits, lobe_traits_of(lobe));
 #define BN_PLAIN_MATERIAL(constant)                                                                                                        \
     constant(textured, 0);                                                                                                                 \
-    constant(uses_color, 0);                                                                                                               \
     constant(unlit, 0);                                                                                                                    \
     constant(refracts, 0);                                                                                                                 \
     constant(coatings, 0);                                                                                                                 \

@@ -29,6 +29,15 @@ BN_FN real4 base_color_of(material_ref m, BN_IN(texture_fetches) t, BN_IN(visibl
     return vec4_of(color.x, color.y, color.z, alpha);
 }
 
+// Applies the vertex colour to the inputs of a material without textures.
+BN_FN void colour_inputs(material_ref m, BN_IN(visible_point) p, BN_INOUT(material_inputs) r)
+{
+    if (the_material(m).uses_color == 0)
+        return;
+    r.base = splat3(the_material(m).base_color) * rgb_of(p.color);
+    r.alpha = splat(the_material(m).base_color[3]) * p.color.w;
+}
+
 // Returns the normal map's normal, any length.
 BN_FN real3 normal_of_texel(material_ref m, real4 texel)
 {
