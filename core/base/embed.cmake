@@ -8,6 +8,14 @@ function(bn_embed source header)
     set(name ${CMAKE_MATCH_1})
     set(file ${CMAKE_MATCH_2})
     list(APPEND files ${file})
+    if(EMSCRIPTEN) # an assembler of its own
+      file(SIZE ${file} size)
+      math(EXPR end "${size} + 1")
+      string(APPEND text "asm(\".section .rodata.bn_${name},\\\"\\\",@\\n.hidden bn_${name}\\n.globl bn_${name}\\n.p2align 4\\n\"\n"
+        "    \".type bn_${name},@object\\nbn_${name}:\\n.incbin \\\"${file}\\\"\\n.int8 0\\n.size bn_${name},${end}\\n.text\");\n"
+        "extern \"C\" const char bn_${name}[];\nconst EmbeddedFile ${name} = {bn_${name}, ${size}};\n")
+      continue()
+    endif()
     string(APPEND text "asm(\".pushsection .rodata\\n.balign 16\\n.hidden bn_${name}\\n.hidden bn_${name}_end\\n\"\n"
       "    \".global bn_${name}\\nbn_${name}:\\n.incbin \\\"${file}\\\"\\n.global bn_${name}_end\\nbn_${name}_end:\\n.byte 0\\n.popsection\");\n"
       "extern \"C\" const char bn_${name}[], bn_${name}_end[];\n"

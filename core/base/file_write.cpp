@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -84,7 +83,7 @@ int sync_folder(const fs::path& folder)
 std::string random_digits()
 {
     std::uint64_t value = 0;
-    if (::getrandom(&value, sizeof(value), 0) != static_cast<ssize_t>(sizeof(value)))
+    if (::getentropy(&value, sizeof(value)) != 0)
         value = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count()) ^
                 static_cast<std::uint64_t>(::getpid()) << 40;
     char text[kHexDigits + 1];
@@ -264,10 +263,12 @@ int make_locked_folder(const fs::path& target, std::string& name, Descriptor& he
 // Renames a folder. Fails with EEXIST where the new name is taken.
 int rename_to_new(const std::string& from, const std::string& to)
 {
+#ifndef __EMSCRIPTEN__
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
         return 0;
     if (errno != EINVAL && errno != ENOSYS)
         return -1;
+#endif
     const int code = ::rename(from.c_str(), to.c_str()); // rename() replaces only an empty folder
     if (code != 0 && errno == ENOTEMPTY)
         errno = EEXIST;

@@ -1,6 +1,8 @@
 #include "core/jobs/cores.h"
 
+#ifndef __EMSCRIPTEN__
 #include <sched.h>
+#endif
 
 #include <algorithm>
 #include <fstream>
@@ -14,12 +16,16 @@ namespace {
 
 int affinity_cores()
 {
+#ifdef __EMSCRIPTEN__ // compiled without threads
+    return 1;
+#else
     cpu_set_t set;
     CPU_ZERO(&set);
     if (sched_getaffinity(0, sizeof(set), &set) == 0 && CPU_COUNT(&set) > 0)
         return CPU_COUNT(&set);
     // The machine has more cores than cpu_set_t holds.
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+#endif
 }
 
 // Returns the cores that a cgroup v2 folder's cpu.max grants ("max 100000" or "150000 100000"), or `unlimited`.

@@ -7,7 +7,9 @@
 # dynamic loader refuses the library there.
 # Lane integers wrap: -fwrapv says it to the compiler.
 set(BN_BASELINE_FLAGS)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(EMSCRIPTEN)
+  set(BN_MACHINE wasm32)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(BN_MACHINE x86_64)
   set(BN_BASELINE_FLAGS -march=x86-64-v2)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define BURNISH_API_VERSION 3 /* grows when functions or members are added; what is there keeps its meaning */
+#define BURNISH_API_VERSION 4 /* grows when functions or members are added; what is there keeps its meaning */
 
 typedef struct burnish_session burnish_session; /* a scene under an environment, prepared for drawing */
 typedef struct burnish_frame burnish_frame;     /* a picture and its layers */
@@ -112,6 +112,9 @@ const float* burnish_frame_layer(const burnish_frame* frame, const char* name, i
 uint64_t burnish_frame_hash(const burnish_frame* frame); /* over the pixels' bits: equal on every machine */
 /* The tone curve of the 8-bit pictures that follow: "none", "pbr-neutral" or "aces". A new frame has pbr-neutral. */
 int burnish_frame_tonemap(burnish_frame* frame, const char* name);
+/* The picture as screens show it: 8-bit sRGB, red, green, blue and 255 a pixel, by rows from the top. Lives as long as the frame, until the
+ * next call. One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */
+int burnish_frame_rgba8(burnish_frame* frame, float exposure_ev, const unsigned char** pixels);
 /* The picture as PNG; the bytes live as long as the frame, until the next call.
  * One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size);

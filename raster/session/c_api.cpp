@@ -440,6 +440,24 @@ int burnish_frame_tonemap(burnish_frame* frame, const char* name)
     });
 }
 
+int burnish_frame_rgba8(burnish_frame* frame, float exposure_ev, const unsigned char** pixels)
+{
+    return guarded_call([&]() -> Status {
+        if (!frame || !pixels)
+            return usage(frame ? "pixels" : "frame", "is NULL");
+        BN_TRY(check_exposure(exposure_ev));
+        const Image shown = tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev);
+        const std::size_t count = static_cast<std::size_t>(shown.width) * static_cast<std::size_t>(shown.height);
+        frame->rgba8.resize(4 * count);
+        for (std::size_t p = 0; p < count; ++p) {
+            std::memcpy(&frame->rgba8[4 * p], reinterpret_cast<const unsigned char*>(shown.bytes.data()) + p * static_cast<std::size_t>(shown.channels), 3);
+            frame->rgba8[4 * p + 3] = 255;
+        }
+        *pixels = frame->rgba8.data();
+        return {};
+    });
+}
+
 int burnish_frame_png(burnish_frame* frame, float exposure_ev, const unsigned char** bytes, size_t* size)
 {
     return burnish_frame_png_told(frame, exposure_ev, nullptr, bytes, size);

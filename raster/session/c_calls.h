@@ -23,6 +23,7 @@ struct burnish_frame {
     std::vector<std::pair<std::string, int>> names;
     burnish::Tonemap tonemap = burnish::Tonemap::pbr_neutral; // of 8-bit pictures
     std::string png;
+    std::vector<unsigned char> rgba8;
 };
 
 namespace burnish {

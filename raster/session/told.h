@@ -24,6 +24,24 @@ struct Reported {
     double done = -1.0;
 };
 
+#ifdef __EMSCRIPTEN__ // compiled without threads: the work itself tells
+template <class Work> auto run_told(const std::function<int(const char* work, double done)>& tell, const Work& work) -> decltype(work())
+{
+    if (!tell)
+        return work();
+    std::stop_source stop;
+    auto told = std::chrono::steady_clock::now();
+    const Controlled controlled({stop.get_token(), [&](const std::string& name, double done) {
+                                     const auto now = std::chrono::steady_clock::now();
+                                     if (now - told < std::chrono::milliseconds(100))
+                                         return;
+                                     told = now;
+                                     if (tell(name.c_str(), done) != 0)
+                                         stop.request_stop();
+                                 }});
+    return work();
+}
+#else
 // Returns the result of work(), which runs in a thread of its own while the calling thread calls `tell` ten times a second. A result of
 // `tell` other than 0 stops the work. Without `tell`, the calling thread works.
 template <class Work> auto run_told(const std::function<int(const char* work, double done)>& tell, const Work& work) -> decltype(work())
@@ -69,5 +87,6 @@ template <class Work> auto run_told(const std::function<int(const char* work, do
             std::rethrow_exception(by);
     return std::move(*result);
 }
+#endif
 
 } // namespace burnish

@@ -2,8 +2,9 @@
 """Compares bakes and images of two builds of burnish_hashes, by every instruction set of the second: all bits must be equal.
 
 Usage: pixels.py HASHES OTHER-HASHES                             another compiler's
-       pixels.py HASHES --aarch64 SOURCE-FOLDER BUILD-FOLDER     built here for aarch64, run by qemu
-Exits with 77 where there is no cross compiler or no qemu.
+       pixels.py HASHES --machine aarch64|wasm SOURCE-FOLDER BUILD-FOLDER
+                                                                 built here for another machine, run by qemu or node
+Exits with 77 where there is no cross compiler or nothing that runs its programs.
 """
 
 import pathlib
@@ -11,8 +12,12 @@ import shutil
 import subprocess
 import sys
 
-EMULATOR = ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu")
-COMPILER = "aarch64-linux-gnu-g++"
+# Compiler, what runs its programs, the program's file, its instruction sets, flags: images do not depend on optimisation.
+MACHINES = {
+    "aarch64": ("aarch64-linux-gnu-g++", ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"), "burnish_hashes", {"scalar", "portable8"},
+                ("-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",)),
+    "wasm": ("emcc", ("node", "--no-experimental-fetch"), "burnish_hashes.js", {"wasm"}, ()),
+}
 FEWEST = 40  # minimum of different hashes, since black images would also be equal
 
 
@@ -28,12 +33,16 @@ def run(command, **options):
     return done.stdout
 
 
-def build(source, folder):
-    """Builds burnish_hashes for aarch64, quickly: its images do not depend on optimisation."""
+def build(machine, source, folder):
+    """Builds burnish_hashes for another machine. Returns the command that runs it."""
+    compiler, runner, program, isas, flags = MACHINES[machine]
+    for tool in (compiler, runner[0]):
+        if not shutil.which(tool):
+            skip(f"no {tool} on this machine")
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-    run(["cmake", "--preset", "aarch64", "-B", folder, "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", *launcher], cwd=source)
+    run(["cmake", "--preset", machine, "-B", folder, *flags, *launcher], cwd=source)
     run(["cmake", "--build", folder, "--target", "burnish_hashes"])
-    return folder / "tests" / "cross" / "burnish_hashes"
+    return [*runner, folder / "tests" / "cross" / program], isas
 
 
 def hashes(command, isa):
@@ -44,15 +53,12 @@ def hashes(command, isa):
 
 def main():
     program, *words = sys.argv[1:]
-    if words[0] == "--aarch64":
-        for tool in (COMPILER, EMULATOR[0]):
-            if not shutil.which(tool):
-                skip(f"no {tool} on this machine")
-        other = [*EMULATOR, build(*map(pathlib.Path, words[1:]))]
+    if words[0] == "--machine":
+        other, expected = build(words[1], *map(pathlib.Path, words[2:]))
     else:
-        other = words
+        other, expected = words, {"scalar"}
     isas = run(other).split()
-    if "scalar" not in isas or (words[0] == "--aarch64" and len(isas) < 2):
+    if not expected <= set(isas):
         sys.exit(f"instruction sets of {other[-1]}: {isas}")
     here = hashes([program], run([program]).split()[-1])
     if len(set(here.values())) < FEWEST:

@@ -1,0 +1,10 @@
+#include "core/simd/cpu.h"
+
+namespace burnish {
+
+std::string cpu_name()
+{
+    return "WebAssembly";
+}
+
+} // namespace burnish
