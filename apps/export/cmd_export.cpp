@@ -1,4 +1,4 @@
-// `burnish export`: writes techniques for other engines.
+// `burnish export`: writes techniques for other engines, and pages with a scene and the renderer inside.
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -11,6 +11,8 @@
 #include "apps/cli/values.h"
 #include "apps/export/assets.h"
 #include "apps/export/glsl_text.h"
+#include "apps/export/page.h"
+#include "apps/options/options.h"
 #include "core/base/version.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/grid_samples.h"
@@ -22,8 +24,12 @@ constexpr const char* kFooter =
     R"(glsl: one file for an engine, without includes. Given equal fetches, it computes the same bits as burnish. The file documents its arguments
 and the functions that the engine provides.
 
+page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
+those of this machine. It takes the options of the picture, as `burnish render` does.
+
 Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl
+  burnish export page lamp.glb --env workshop.hdr -o lamp.html
   burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl)";
 
 // Opening comment of the exported file.
@@ -40,6 +46,9 @@ constexpr const char* kHeading = R"(// {0}: {1}
 struct ExportArguments {
     std::string what = "glsl", technique = "major_axis", output;
     int samples = 0; // 0: the technique's default
+    std::string scene, renderer;
+    PictureSize size = {640, 360};
+    RenderArguments render; // of a page's picture
     bool quiet = false;
     int verbosity = 0;
 };
@@ -55,10 +64,21 @@ std::vector<std::string> technique_names()
 OptionTable export_option_table(ExportArguments& to)
 {
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"glsl"})}});
+    table.add("", {{"WHAT", "", "{}", choice(to.what, {"glsl", "page"})},
+                   {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
     table.add("The technique",
-              {Option("--technique", "NAME", "Technique to export: {}", choice(to.technique, technique_names())).must_be_given(),
-               {"--samples", "N", "Samples in the file's default settings, {}", integer(to.samples, 1, 65536), "the technique's default"}});
+              {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()), "a page: auto"},
+               {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
+                "the technique's default"}});
+    table.add_needing("WHAT", "page",
+                      {{"--size", "WxH", "Size of the picture whose bits the page compares", picture_size(to.size)},
+                       {"--renderer", "FOLDER", "Folder of burnish_core.wasm and burnish_core.mjs", folder(to.renderer), "beside the program"}});
+    const OptionTable picture = render_option_table(to.render);
+    std::vector<Option> rows;
+    for (const Option& option : picture.options())
+        if (option.needed_option.empty() && (option.name == "--env" || (is_served(option) && !table.find(option.name))))
+            rows.push_back(option);
+    table.add_needing("WHAT", "page", rows);
     table.add("Output", {Option("-o,--output", "FILE", "File to write; - for standard output", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
     return table;
@@ -77,15 +97,56 @@ std::string text_of(const TechniqueInfo& technique, int samples)
     return glsl_of(kFlatTechniques.bytes, wish);
 }
 
-int run_export(const ExportArguments& arguments)
+Result<std::string> glsl_text(const ExportArguments& arguments, const OptionTable& given)
 {
+    if (!given.given("--technique"))
+        return usage_error("--technique", "is missing");
+    if (!arguments.scene.empty())
+        return usage_error("SCENE", "is for a page");
     const TechniqueInfo& technique = *find_technique(arguments.technique);
     const int asked = arguments.samples > 0 ? arguments.samples : technique.default_samples;
     if (asked > technique.most_samples)
-        return fail(usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples)));
+        return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
+    return text_of(technique, effective_samples(technique, asked));
+}
+
+// Returns what a page shows first: the options that were given.
+DrawRequest request_of(const ExportArguments& arguments, const OptionTable& given)
+{
+    constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
+    DrawRequest request;
+    request.scene = arguments.scene, request.width = arguments.size.width, request.height = arguments.size.height;
+    if (!given.given("--env-size"))
+        request.options.emplace_back("--env-size", kUsualCube);
+    for (const Option& option : given.options()) {
+        if (!option.given || option.positional() || option.group == "Output" || option.name == "--size" || option.name == "--renderer")
+            continue;
+        const std::string value = option.takes_value() ? option.value.get() : "";
+        if (option.name == "--env")
+            request.environment = value;
+        else
+            request.options.emplace_back(option.name, value);
+    }
+    return request;
+}
+
+Result<std::string> exported_page(const ExportArguments& arguments, const OptionTable& given)
+{
+    if (arguments.scene.empty())
+        return usage_error("SCENE", "is missing: a .gltf, .glb or .obj file, or builtin:NAME");
+    PageWish wish;
+    wish.request = request_of(arguments, given), wish.renderer_folder = arguments.renderer;
+    return page_text(wish);
+}
+
+int run_export(const ExportArguments& arguments, const OptionTable& given)
+{
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
-    if (Status written = write_text(arguments.output, text_of(technique, effective_samples(technique, asked))); !written)
+    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given) : glsl_text(arguments, given);
+    if (!text)
+        return fail(text.error());
+    if (Status written = write_text(arguments.output, *text); !written)
         return fail(written.error());
     Report report(arguments.quiet, arguments.verbosity);
     report.release();
@@ -98,8 +159,8 @@ int run_export(const ExportArguments& arguments)
 Command export_command()
 {
     auto arguments = std::make_shared<ExportArguments>();
-    return {"export", "Write a technique as a file for other engines", export_option_table(*arguments), kFooter,
-            [arguments](OptionTable&) { return run_export(*arguments); }};
+    return {"export", "Write a technique for other engines, or a page with the renderer inside", export_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_export(*arguments, given); }};
 }
 
 } // namespace burnish

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <thread>
 
+#include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/options/scene_view.h"
 #include "core/jobs/control.h"
@@ -16,7 +17,14 @@ namespace {
 
 constexpr std::size_t kKeptSessions = 4, kKeptPictures = 8;
 constexpr std::int64_t kKeptPixels = 8 << 20; // of all kept pictures
-constexpr std::chrono::milliseconds kPause(50);
+
+std::vector<std::string> files_read(const Session& session)
+{
+    std::vector<std::string> read = session.scene().files;
+    const std::vector<std::string>& lights = session.parts().environment->files;
+    read.insert(read.end(), lights.begin(), lights.end());
+    return read;
+}
 
 Error overtaken()
 {
@@ -29,6 +37,13 @@ std::filesystem::file_time_type time_of(const std::string& path)
     const auto time = std::filesystem::last_write_time(path, failed);
     return failed ? std::filesystem::file_time_type::min() : time;
 }
+
+#ifdef __EMSCRIPTEN__ // compiled without threads: who does not wait ends the worker
+struct Lookout {
+    Lookout(const std::function<bool()>&, std::stop_source&) {}
+};
+#else
+constexpr std::chrono::milliseconds kPause(50);
 
 // Stops the picture once nobody waits for it. Ends with the object.
 class Lookout {
@@ -58,8 +73,16 @@ class Lookout {
     bool ended_ = false; // under mutex_
     std::thread thread_;
 };
+#endif
 
 } // namespace
+
+Image shown_picture(const Drawn& drawn)
+{
+    const RenderOptions& o = drawn.options;
+    return drawn.rendered.shown.empty() ? display_picture(drawn.rendered.color, o.tonemap, o.exposure_ev, drawn.rendered.parts, o.resolve)
+                                        : drawn.rendered.shown;
+}
 
 void Drawings::note_file(const std::string& path, Time time)
 {
@@ -94,10 +117,7 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     made.session = std::make_shared<Session>(std::move(*session));
     made.warnings = report.warnings();
     const std::lock_guard lock(kept_);
-    std::vector<std::string> read = made.session->scene().files;
-    const std::vector<std::string>& lights = made.session->parts().environment->files;
-    read.insert(read.end(), lights.begin(), lights.end());
-    for (const std::string& path : read) {
+    for (const std::string& path : files_read(*made.session)) {
         const Time time = time_of(path);
         note_file(path, time > begin ? Time::min() : time); // changed while it was read
     }
@@ -137,6 +157,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     BN_TRY(rendered);
     drawn->warnings = made->warnings;
     drawn->warnings.insert(drawn->warnings.begin(), options->warnings.begin(), options->warnings.end());
+    drawn->files = files_read(session);
     const DrawTables& tables = session.tables();
     drawn->view = view->view, drawn->origin = session.scene().origin;
     drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));

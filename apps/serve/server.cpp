@@ -1,36 +1,15 @@
 #include "apps/serve/server.h"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <fmt/core.h>
-#include <memory>
-#include <mutex>
-#include <nlohmann/json.hpp>
 #include <random>
-#include <system_error>
 
-#include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/report.h"
-#include "apps/options/scene_view.h"
-#include "apps/render/stats.h"
 #include "apps/serve/assets.h"
 #include "apps/serve/http.h"
-#include "core/base/exception.h"
-#include "core/base/version.h"
-#include "core/image/image.h"
-#include "core/image/io/image_io.h"
-#include "core/image/magma.h"
-#include "core/image/metrics/flip.h"
-#include "core/image/metrics/metrics.h"
 
 namespace burnish {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char* kInfoHeader = "X-Burnish"; // JSON about the picture in the body
 
 std::string random_token()
 {
@@ -41,59 +20,12 @@ std::string random_token()
     return token;
 }
 
-Image shown_picture(const Drawn& drawn)
-{
-    const RenderOptions& o = drawn.options;
-    return drawn.rendered.shown.empty() ? display_picture(drawn.rendered.color, o.tonemap, o.exposure_ev, drawn.rendered.parts, o.resolve)
-                                        : drawn.rendered.shown;
-}
-
-// Returns the names and times of the frame's stages, milliseconds summed over threads. Stages without work are left out.
-Json stages_json(const FrameProfile& profile)
-{
-    Json stages = Json::array();
-    for (std::size_t i = 0; i < profile.stage_ns.size(); ++i)
-        if (profile.stage_ns[i] > 0)
-            stages.push_back({{"name", kFrameStageNames[i]}, {"ms", static_cast<double>(profile.stage_ns[i]) * 1e-6}});
-    return stages;
-}
-
-Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<std::string>& further)
-{
-    const RenderFigures& f = drawn.rendered.figures;
-    const auto vec3 = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
-    const View& view = drawn.view;
-    return {{"hash", hash_text(f.hash)},
-            {"command", command_of(request, further)},
-            {"width", drawn.rendered.color.width},
-            {"height", drawn.rendered.color.height},
-            {"frame_ms", f.frame_ms.empty() ? 0.0 : f.frame_ms.back()},
-            {"load_ms", f.load_ms},
-            {"environment_ms", f.bake_ms},
-            {"prepare_ms", f.prepare_ms},
-            {"stages", stages_json(drawn.rendered.profile)},
-            {"samples", f.frame.sampling.samples},
-            {"nan_pixels", f.nan_pixels},
-            {"centre", vec3(drawn.centre)},
-            {"radius", drawn.radius},
-            {"eye", vec3(drawn.origin + glm::dvec3(view.eye))},
-            {"forward", vec3(glm::dvec3(view.forward))},
-            {"fov", view.orthographic
-                        ? Json()
-                        : Json(2.0 * std::atan(static_cast<double>(view.tan_half_y)) / static_cast<double>(kRadiansPerDegree))},
-            {"warnings", drawn.warnings}};
-}
-
-class Pages {
+class Server {
   public:
-    Pages(const ServeSetting& setting, ServedLists lists)
-        : setting_(setting), lists_(std::make_shared<const ServedLists>(std::move(lists))), token_(random_token()),
-          drawings_(setting.limits, setting.threads)
-    {
-    }
+    Server(const ServeSetting& setting, ServedLists lists) : token_(random_token()), pages_(setting, std::move(lists)) {}
 
     const std::string& token() const { return token_; }
-    void stop() { drawings_.stop(); }
+    void stop() { pages_.stop(); }
     void listens_on(int port)
     {
         for (const char* host : {"127.0.0.1", "localhost"})
@@ -110,191 +42,19 @@ class Pages {
                              "default-src 'none'; img-src 'self' blob: data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
                              "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}};
         const std::string given = request.path == "/" ? request.parameter("token") : request.header("x-token");
-        if (std::find(hosts_.begin(), hosts_.end(), request.header("host")) == hosts_.end() || given != token_) {
+        if (std::find(hosts_.begin(), hosts_.end(), request.header("host")) == hosts_.end() || given != token_)
             response.status = 403, response.body = "This page needs the address that `burnish serve` printed, with its token.\n";
-            return response;
-        }
-        try {
-            const Status done = route(request, response);
-            if (!done)
-                refuse(response, done.error());
-        } catch (...) {
-            refuse(response, error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}));
-        }
+        else if (request.method == "GET" && request.path == "/")
+            response.type = "text/html; charset=utf-8", response.body.assign(kServePage.bytes, kServePage.size);
+        else
+            pages_.answer(request, response);
         return response;
     }
 
   private:
-    static void answer(HttpResponse& response, const Json& json)
-    {
-        response.type = "application/json", response.body = json_text(json, -1);
-    }
-
-    static void refuse(HttpResponse& response, const Error& error)
-    {
-        response.status = error.code == ExitCode::differ ? 409 : 400;
-        answer(response, {{"error", line_of(error)}});
-    }
-
-    Status route(const HttpRequest& request, HttpResponse& response)
-    {
-        if (request.method == "GET" && request.path == "/") {
-            response.type = "text/html; charset=utf-8", response.body.assign(kServePage.bytes, kServePage.size);
-            return {};
-        }
-        if (request.method == "GET" && request.path == "/lists") {
-            answer(response, lists_json());
-            return {};
-        }
-        if (request.method == "GET" && request.path == "/changes") {
-            answer(response, {{"changes", setting_.watch ? drawings_.look_for_changes() : 0}, {"lists", setting_.watch ? list_anew() : 0}});
-            return {};
-        }
-        constexpr std::pair<const char*, Status (Pages::*)(const Json&, const HttpRequest&, HttpResponse&)> kPosts[] = {
-            {"/draw", &Pages::draw}, {"/difference", &Pages::difference}, {"/save", &Pages::save}};
-        for (const auto& [path, work] : kPosts)
-            if (request.method == "POST" && request.path == path) {
-                const Result<Json> json = request_json(request.body);
-                return json ? (this->*work)(*json, request, response) : Status(json.error());
-            }
-        response.status = 404, response.body = "There is no such page.\n";
-        return {};
-    }
-
-    std::shared_ptr<const ServedLists> lists() const
-    {
-        const std::lock_guard lock(listing_);
-        return lists_;
-    }
-
-    // Lists the files of a served folder. Returns how often the lists have changed. A folder that cannot be read keeps its list.
-    std::uint64_t list_anew()
-    {
-        std::error_code failed;
-        if (!fs::is_directory(setting_.target, failed))
-            return 0;
-        Result<ServedLists> now = served_lists(setting_.target);
-        const std::lock_guard lock(listing_);
-        if (now && *now != *lists_)
-            lists_ = std::make_shared<const ServedLists>(std::move(*now)), ++list_changes_;
-        return list_changes_;
-    }
-
-    Json lists_json() const
-    {
-        const auto names = [](const std::vector<ServedFile>& files) {
-            Json out = Json::array();
-            for (const ServedFile& file : files)
-                out.push_back(file.name);
-            return out;
-        };
-        RenderArguments arguments;
-        const std::shared_ptr<const ServedLists> now = lists();
-        return {{"version", version()},
-                {"scenes", names(now->scenes)},
-                {"environments", names(now->environments)},
-                {"options", served_options(render_option_table(arguments))},
-                {"watch", setting_.watch},
-                {"save", !setting_.output_folder.empty()}};
-    }
-
-    static Status picture(HttpResponse& response, const Image& image, const Json& info)
-    {
-        Result<std::string> png = encode_png(image);
-        BN_TRY(png);
-        response.headers.emplace_back(kInfoHeader, json_text(info, -1));
-        response.type = "image/png", response.body = std::move(*png);
-        return {};
-    }
-
-    Status draw(const Json& json, const HttpRequest& asked, HttpResponse& response)
-    {
-        const Result<DrawRequest> request = draw_request_of(json, *lists());
-        BN_TRY(request);
-        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {true, asked.gone});
-        BN_TRY(drawn);
-        return picture(response, shown_picture(**drawn), info_of(*request, **drawn, setting_.limit_words));
-    }
-
-    // Draws both pictures. Returns HDR-FLIP of the second.
-    Result<FlipResult> flip_of(const Json& json, const HttpRequest& asked)
-    {
-        std::shared_ptr<const Drawn> both[2];
-        for (int i = 0; i < 2; ++i) {
-            const Result<DrawRequest> request =
-                draw_request_of(json.is_object() ? json.value(i ? "test" : "reference", Json()) : Json(), *lists());
-            BN_TRY(request);
-            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
-            BN_TRY(drawn);
-            both[i] = *drawn;
-        }
-        const Image &a = both[0]->rendered.color, &b = both[1]->rendered.color;
-        if (a.width != b.width || a.height != b.height)
-            return usage_error("test", "has another size");
-        if (not_finite_pixels(a, b))
-            return Error{ExitCode::not_finite, "", "", "pixels are NaN or Inf"};
-        const Jobs jobs(setting_.threads);
-        return flip_hdr(a, b, FlipOptions(), jobs);
-    }
-
-    // Answers with the error map of the second picture.
-    Status difference(const Json& json, const HttpRequest& asked, HttpResponse& response)
-    {
-        const Result<FlipResult> flip = flip_of(json, asked);
-        BN_TRY(flip);
-        const ErrorSummary summary = summarise_errors(flip->error);
-        return picture(response, magma_map(flip->error), {{"flip_mean", summary.mean}, {"flip_p99", summary.p99}});
-    }
-
-    // Saves a picture, a reference, or the error map of two pictures: as colours in .png, as FLIP in .exr.
-    Status save(const Json& json, const HttpRequest& asked, HttpResponse& response)
-    {
-        if (setting_.output_folder.empty())
-            return usage_error("save", "needs `burnish serve -o FOLDER`");
-        std::string extension = ".png";
-        if (const auto given = json.find("extension"); given != json.end())
-            extension = *given == ".exr" ? ".exr" : *given == ".png" ? ".png" : "";
-        if (extension.empty())
-            return usage_error("extension", "is neither .png nor .exr");
-        if (json.contains("test")) {
-            const Result<FlipResult> flip = flip_of(json, asked);
-            BN_TRY(flip);
-            return save_as(extension, response, [&](const std::string& path) {
-                return write_image(path, extension == ".png" ? magma_map(flip->error) : flip->error);
-            });
-        }
-        const Result<DrawRequest> request = draw_request_of(json, *lists());
-        BN_TRY(request);
-        const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {false, asked.gone});
-        BN_TRY(drawn);
-        return save_as(extension, response,
-                       [&](const std::string& path) { return write_rendered(path, (*drawn)->rendered, (*drawn)->options); });
-    }
-
-    // Calls write(path) with the folder's next free name.
-    template <class Write> Status save_as(const std::string& extension, HttpResponse& response, const Write& write)
-    {
-        const std::lock_guard lock(saving_);
-        std::error_code ignored;
-        for (int number = 1; number <= 9999; ++number) {
-            const std::string path = (fs::path(setting_.output_folder) / fmt::format("picture-{:04d}{}", number, extension)).string();
-            if (fs::exists(fs::symlink_status(path, ignored)))
-                continue;
-            BN_TRY(write(path));
-            answer(response, {{"path", path}});
-            return {};
-        }
-        return Error{ExitCode::output_failed, setting_.output_folder, "", "holds 9999 pictures"};
-    }
-
-    const ServeSetting& setting_;
-    mutable std::mutex listing_;
-    std::shared_ptr<const ServedLists> lists_; // under listing_
-    std::uint64_t list_changes_ = 0;           // under listing_
     std::string token_;
     std::vector<std::string> hosts_;
-    Drawings drawings_;
-    std::mutex saving_;
+    Pages pages_;
 };
 
 } // namespace
@@ -305,7 +65,7 @@ Status serve(const ServeSetting& setting, const std::atomic<bool>& stop, const s
     BN_TRY(lists);
     if (!setting.output_folder.empty())
         BN_TRY(make_output_folder(setting.output_folder));
-    Pages pages(setting, std::move(*lists));
+    Server pages(setting, std::move(*lists));
     Result<HttpServer> server = HttpServer::open(setting.port);
     BN_TRY(server);
     pages.listens_on(server->port());

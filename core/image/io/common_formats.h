@@ -11,5 +11,7 @@ namespace burnish {
 // unchanged.
 std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place); // grey and colour, 8 bits
+// Returns a warning where another decoder than libjpeg reads this JPEG file; "" elsewhere.
+std::string jpeg_warning(const ImageBytes& file);
 
 } // namespace burnish

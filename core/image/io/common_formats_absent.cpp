@@ -13,4 +13,9 @@ std::optional<Status> read_jpeg(const ImageBytes&, const PlacePixels&)
     return std::nullopt;
 }
 
+std::string jpeg_warning(const ImageBytes&)
+{
+    return "";
+}
+
 } // namespace burnish

@@ -257,6 +257,8 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
     notes.warnings.insert(notes.warnings.end(), colour.warnings.begin(), colour.warnings.end());
     if (const std::string warning = warning_of_profile(colour); !warning.empty())
         notes.warnings.push_back(warning);
+    if (const std::string warning = std::strcmp(probe->format, "jpeg") == 0 ? jpeg_warning(file) : ""; !warning.empty())
+        notes.warnings.push_back(warning);
     if (!colour.primaries || image->type != PixelType::f32 || image->channels < 3)
         return image;
     if (const auto to_rec709 = matrix_to_rec709(*colour.primaries)) {

@@ -64,6 +64,11 @@ bool read_rows(Jpeg& jpeg, std::size_t row_bytes, std::byte* to)
 
 } // namespace
 
+std::string jpeg_warning(const ImageBytes&)
+{
+    return "";
+}
+
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place)
 {
     Jpeg jpeg;

@@ -1,0 +1,129 @@
+#include "apps/export/page_files.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint64_t kMostBytes = 1ull << 30; // of one file
+
+bool is_builtin(const std::string& name)
+{
+    return name.rfind("builtin:", 0) == 0;
+}
+
+std::uint32_t word_at(Bytes bytes, std::size_t at)
+{
+    std::uint32_t word = 0;
+    if (at + 4 <= bytes.size())
+        std::memcpy(&word, bytes.data() + at, 4);
+    return word;
+}
+
+// Returns the images of a .glb file that lie in its own binary chunk. The file has been read once without a fault.
+std::vector<Bytes> images_within(Bytes glb)
+{
+    constexpr std::uint32_t kMagic = 0x46546c67; // "glTF"
+    std::vector<Bytes> images;
+    const std::size_t json_size = word_at(glb, 12), binary_at = 20 + json_size + 8;
+    if (word_at(glb, 0) != kMagic || binary_at > glb.size())
+        return images;
+    const auto json = nlohmann::json::parse(glb.data() + 20, glb.data() + 20 + json_size, nullptr, false);
+    const Bytes binary = glb.subspan(binary_at);
+    if (!json.is_object() || !json.contains("images") || !json.contains("bufferViews"))
+        return images;
+    for (const auto& image : json["images"]) {
+        const auto view = image.value("bufferView", std::size_t{1} << 31);
+        if (view >= json["bufferViews"].size())
+            continue;
+        const auto& place = json["bufferViews"][view];
+        const auto offset = place.value("byteOffset", std::size_t{0}), length = place.value("byteLength", std::size_t{0});
+        if (place.value("buffer", 1) == 0 && offset <= binary.size() && length <= binary.size() - offset)
+            images.push_back(binary.subspan(offset, length));
+    }
+    return images;
+}
+
+// Appends the picture of a JPEG file as PNG, unless it is there.
+Status add_decoded(Bytes file, const std::string& label, const Limits& limits, std::vector<PageFile>& to)
+{
+    if (file.size() < 3 || file[0] != 0xff || file[1] != 0xd8 || file[2] != 0xff)
+        return {};
+    const std::string name = fmt::format("decoded/{:016x}.png", hash_bytes(file.data(), file.size(), 0));
+    if (std::any_of(to.begin(), to.end(), [&](const PageFile& other) { return other.name == name; }))
+        return {};
+    const Result<Image> image = decode_image(file.data(), file.size(), label, limits, nullptr);
+    BN_TRY(image);
+    const Result<std::string> png = encode_png(*image);
+    BN_TRY(png);
+    to.push_back({name, {png->begin(), png->end()}});
+    return {};
+}
+
+// Returns the folder that holds all files, each an absolute path.
+fs::path common_folder(const std::set<fs::path>& files)
+{
+    fs::path folder = files.begin()->parent_path();
+    for (const fs::path& file : files)
+        while (!folder.empty() && folder != folder.root_path() && *file.lexically_relative(folder).begin() == "..")
+            folder = folder.parent_path();
+    return folder;
+}
+
+} // namespace
+
+Result<PageFiles> page_files(const std::string& scene, const std::string& environment, const std::vector<std::string>& read,
+                             const Limits& limits)
+{
+    PageFiles out;
+    out.scene = scene, out.environment = environment;
+    std::set<fs::path> paths;
+    for (const std::string& path : read)
+        if (!is_builtin(path))
+            paths.insert(fs::absolute(path).lexically_normal());
+    const bool apart = !environment.empty() && !is_builtin(environment); // a file of its own
+    const fs::path own = fs::absolute(scene).lexically_normal();
+    const fs::path light = apart ? fs::absolute(environment).lexically_normal() : fs::path();
+    if (apart)
+        paths.erase(light);
+    if (!is_builtin(scene)) {
+        paths.insert(own);
+        const fs::path folder = common_folder(paths);
+        out.scene = own.lexically_relative(folder).string();
+        for (const fs::path& path : paths) {
+            Result<std::vector<std::uint8_t>> bytes = read_file(path.string(), kMostBytes);
+            BN_TRY(bytes);
+            out.files.push_back({path.lexically_relative(folder).string(), std::move(*bytes)});
+        }
+    }
+    if (apart) { // beside the scene, where the page looks for it
+        Result<std::vector<std::uint8_t>> bytes = read_file(light.string(), kMostBytes);
+        BN_TRY(bytes);
+        out.environment = light.filename().string();
+        out.files.push_back({(fs::path(is_builtin(scene) ? "" : out.scene).parent_path() / light.filename()).string(), std::move(*bytes)});
+    }
+    std::vector<PageFile> decoded;
+    for (const PageFile& file : out.files) {
+        BN_TRY(add_decoded(file.bytes, file.name, limits, decoded));
+        for (const Bytes image : images_within(file.bytes))
+            BN_TRY(add_decoded(image, file.name, limits, decoded));
+    }
+    for (PageFile& file : decoded)
+        out.files.push_back(std::move(file));
+    return out;
+}
+
+} // namespace burnish

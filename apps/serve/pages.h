@@ -1,0 +1,41 @@
+// Answers what the page of `burnish serve` asks, whichever way the questions come.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/serve/http.h"
+#include "apps/serve/request.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+
+inline constexpr const char* kPictureHeader = "X-Burnish"; // JSON about the picture in the body
+
+struct ServeSetting {
+    std::string target;        // file, folder or builtin:NAME
+    std::string output_folder; // where pages may save pictures; empty: nowhere
+    int port = 0;              // 0: any that is free
+    bool watch = false;        // draw again where a file changes
+    Limits limits;
+    std::vector<std::string> limit_words; // options of the limits that were given, for the commands that pages show
+    int threads = 0;
+    Result<std::string> (*encode)(const Image&) = encode_png; // of 8-bit pictures for the page
+    const char* picture_type = "image/png";
+};
+
+// GET /lists, /changes. POST /draw, /difference, /save with JSON. Any thread may ask.
+class Pages {
+  public:
+    Pages(const ServeSetting& setting, ServedLists lists); // keeps a reference to the setting
+    ~Pages();
+    // Status 400: the body says the error; 404; 409: another picture was asked for meanwhile.
+    void answer(const HttpRequest& request, HttpResponse& response);
+    void stop(); // ends all pictures; later ones stop at once
+
+  private:
+    class Answers;
+    std::unique_ptr<Answers> answers_;
+};
+
+} // namespace burnish

@@ -1,0 +1,41 @@
+// The worker of a page with the renderer inside. burnish_core.mjs stands above this text, without its export.
+(() => {
+  'use strict';
+  let core = null;
+  const text = string => {
+    const size = core.lengthBytesUTF8(string) + 1, at = core._malloc(size);
+    core.stringToUTF8(string, at, size);
+    return at;
+  };
+  const with_text = (strings, work) => {
+    const at = strings.map(string => (string === undefined ? 0 : text(string)));
+    try { return work(...at); } finally { at.forEach(core._free); }
+  };
+
+  async function begin({ wasm, files, target }) {
+    core = await Module({ wasmBinary: wasm, printErr: line => console.warn(line) });
+    for (const [name, bytes] of Object.entries(files)) {
+      const path = '/' + name;
+      core.FS.mkdirTree(path.slice(0, path.lastIndexOf('/')) || '/');
+      core.FS.writeFile(path, new Uint8Array(bytes));
+    }
+    const error = core.UTF8ToString(with_text([target], core._burnish_page_open));
+    if (error) throw new Error(error);
+    return {};
+  }
+
+  function answer({ path, body }) {
+    const status = with_text([path, body], core._burnish_page_ask), at = core._burnish_page_body(), size = core._burnish_page_size();
+    return { status, info: core.UTF8ToString(core._burnish_page_info()), body: core.HEAPU8.slice(at, at + size).buffer, type: 'image/bmp' };
+  }
+
+  onmessage = async ({ data }) => {
+    try {
+      const out = data.wasm ? await begin(data) : answer(data);
+      postMessage({ id: data.id, ...out }, out.body ? [out.body] : []);
+    } catch (fault) {
+      const large = fault instanceof RangeError || /memory|OOM/.test(fault.message);
+      postMessage({ id: data.id, error: large ? 'The scene is too large for the memory of a page.' : fault.message });
+    }
+  };
+})();
