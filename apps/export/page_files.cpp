@@ -73,16 +73,6 @@ Status add_decoded(Bytes file, const std::string& label, const Limits& limits, s
     return {};
 }
 
-// Returns the folder that holds all files, each an absolute path.
-fs::path common_folder(const std::set<fs::path>& files)
-{
-    fs::path folder = files.begin()->parent_path();
-    for (const fs::path& file : files)
-        while (!folder.empty() && folder != folder.root_path() && *file.lexically_relative(folder).begin() == "..")
-            folder = folder.parent_path();
-    return folder;
-}
-
 } // namespace
 
 Result<PageFiles> page_files(const std::string& scene, const std::string& environment, const std::vector<std::string>& read,
@@ -101,8 +91,8 @@ Result<PageFiles> page_files(const std::string& scene, const std::string& enviro
         paths.erase(light);
     if (!is_builtin(scene)) {
         paths.insert(own);
-        const fs::path folder = common_folder(paths);
-        out.scene = own.lexically_relative(folder).string();
+        const fs::path folder = own.parent_path(); // above all its files, unless --allow-outside-uris was given
+        out.scene = own.filename().string();
         for (const fs::path& path : paths) {
             Result<std::vector<std::uint8_t>> bytes = read_file(path.string(), kMostBytes);
             BN_TRY(bytes);
@@ -113,7 +103,7 @@ Result<PageFiles> page_files(const std::string& scene, const std::string& enviro
         Result<std::vector<std::uint8_t>> bytes = read_file(light.string(), kMostBytes);
         BN_TRY(bytes);
         out.environment = light.filename().string();
-        out.files.push_back({(fs::path(is_builtin(scene) ? "" : out.scene).parent_path() / light.filename()).string(), std::move(*bytes)});
+        out.files.push_back({out.environment, std::move(*bytes)});
     }
     std::vector<PageFile> decoded;
     for (const PageFile& file : out.files) {

@@ -57,7 +57,7 @@
   // Draws once more what was drawn when the page was made, and compares the bits.
   const prove = async element => {
     if (!page.made) return;
-    await new Promise(resolve => setTimeout(resolve, 1500));
+    while (!document.body.dataset.done) await new Promise(resolve => setTimeout(resolve, 100)); // the reader's picture first
     try {
       const { hash } = JSON.parse((await ask('/draw', page.made.request)).headers.get('X-Burnish'));
       const same = hash === page.made.hash;

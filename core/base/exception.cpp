@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/base/text.h"
@@ -14,6 +15,9 @@ Error error_of_exception(Error error)
     try {
         throw;
     } catch (const std::bad_alloc&) {
+        error.code = ExitCode::bad_input, error.reason = "out of memory";
+        return error;
+    } catch (const std::length_error&) { // a size beyond what 32 bits address
         error.code = ExitCode::bad_input, error.reason = "out of memory";
         return error;
     } catch (const Stopped&) {

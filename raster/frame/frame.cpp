@@ -244,7 +244,7 @@ Status check_desc(const FrameDesc& d)
     if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
         return usage("msaa", "msaa must be 1, 2, 4, 8 or 16");
     if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)
-        return usage("width", "width x height x msaa must not exceed 2^28 samples");
+        return usage("width", fmt::format("width x height x msaa must not exceed 2^{} samples", kMaxSampleBits));
     if (d.tile_size != 32 && d.tile_size != 64)
         return usage("tile_size", "the tile size must be 32 or 64");
     if (d.texture_anisotropy < 1 || d.texture_anisotropy > 16)

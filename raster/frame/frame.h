@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/column.h"
+#include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
 #include "core/image/image.h"
@@ -48,7 +49,8 @@ View auto_frame(const DrawTables& tables, int width, int height); // fixed view 
 glm::mat4 clip_from_world(const View& view);
 
 inline constexpr int kMaxPictureSide = 16384;                 // pixels
-inline constexpr std::int64_t kMaxPictureSamples = 1ll << 28; // width * height * msaa: 2 GiB of depth and triangle ids
+inline constexpr int kMaxSampleBits = 28 - kLessBits;
+inline constexpr std::int64_t kMaxPictureSamples = 1ll << kMaxSampleBits; // width * height * msaa: 2 GiB of depth and triangle ids
 
 struct MaterialTechnique { // of one material
     std::string technique = "auto";

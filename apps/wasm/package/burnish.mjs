@@ -5,7 +5,7 @@
 //   const scene = burnish.open(bytesOfLampGlb, { environment: "builtin:studio" });
 //   const picture = scene.render({ width: 640, height: 360, technique: "lobe_line" });
 //   picture.pixels;    // Float32Array, 3 a pixel, linear Rec.709 radiance
-//   picture.hash;      // what `burnish render --print-hash` prints
+//   picture.hash;      // the pixel hash of `burnish render --stats`
 //
 // Lengths are metres, angles degrees. Names and values of options are the library's: burnish.options() lists them. Calls work in the calling
 // thread: worker.mjs does the same in a worker.

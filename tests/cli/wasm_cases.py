@@ -1,0 +1,312 @@
+"""burnish in WebAssembly: the library in node, and pages with the renderer inside in Chromium, with the bits of the program."""
+
+import base64
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import zlib
+
+from browser import Browser
+from harness import Skipped, case, check
+from serve_cases import hash_of_command
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_PACKAGE = 3_000_000  # bytes of the npm package
+MOST_PAGE = 5_000_000     # bytes of a page without a model
+
+
+def package(bench):
+    """The folder of the npm package: made by cross.wasm.draws_the_same_pixels, or by the preset wasm."""
+    for build in (pathlib.Path(bench.program).parent / "tests/cross/wasm", ROOT / "build/wasm"):
+        if (build / "package/burnish_core.wasm").exists():
+            return build / "package"
+    raise Skipped("no build for WebAssembly: cmake --preset wasm && cmake --build --preset wasm, with the group wasm of apps/packages.txt")
+
+
+def node(bench, script, *words, code=0):
+    if not shutil.which("node"):
+        raise Skipped("no node: package nodejs, group wasm of apps/packages.txt")
+    (bench.folder / "script.mjs").write_text(f'import * as burnish from "{package(bench)}/burnish.mjs";\n{script}')
+    done = subprocess.run(["node", "script.mjs", *map(str, words)], cwd=bench.folder, capture_output=True, text=True, timeout=600)
+    check(done.returncode == code, f"node ended with {done.returncode}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return done.stdout
+
+
+def program_hash(bench, *words):
+    return json.loads(bench.run("render", *words, "-o", "picture.png", "--stats", "-", "-q").expect(0).out)["pixel_hash"]
+
+
+DRAW = """
+import { readFile, readdir } from "node:fs/promises";
+import path from "node:path";
+const library = await burnish.load();
+for (const [scene, open, draw] of JSON.parse(process.argv[2])) {
+    const source = scene.startsWith("builtin:") ? scene : { name: path.basename(scene), bytes: await readFile(scene) };
+    const files = {};
+    if (scene.endsWith(".gltf"))
+        for (const name of await readdir(path.dirname(scene)))
+            files[name] = await readFile(path.join(path.dirname(scene), name));
+    if (open.environment && !open.environment.startsWith("builtin:"))
+        open.environment = { name: "light.hdr", bytes: await readFile(open.environment) };
+    const opened = library.open(source, { files, ...open });
+    const picture = opened.render(draw);
+    console.log(JSON.stringify({ hash: picture.hash, warnings: opened.warnings, length: picture.pixels.length, rgba: [...picture.rgba8().slice(0, 4)] }));
+    picture.close();
+    opened.close();
+}
+"""
+
+
+@case("wasm.node_draws_the_bits_of_the_program", tier="nightly", budget=120)
+def draws_the_bits(bench):
+    models = bench.data_file("models")
+    scenes = [("builtin:plate", {}, {}), ("builtin:teapot", {"floor": "stage"}, {"technique": "bent_normal", "msaa": 4}), ("builtin:lights", {"key_lights": 2}, {}),
+              ("builtin:bumps", {"mip_filter": "kappa"}, {}), ("builtin:glass", {}, {"glass": "body"}), ("builtin:shaderballs", {}, {"technique": "mc", "samples": 4}),
+              (models / "AnisotropyStrengthTest.glb", {}, {"layers": "depth"}), (models / "ClearCoatTest.glb", {}, {"area_lights": "off"}),
+              (models / "AnisotropyBarnLampSmall.glb", {"environment": str(bench.data_file("env/workshop_1k.hdr"))}, {"orbit": "40,20"})]
+    small = {"env_size": 32, "env_samples": 32}
+    size = {"width": 160, "height": 90}
+    lines = node(bench, DRAW, json.dumps([(str(scene), {**small, **opening}, {**size, **draw}) for scene, opening, draw in scenes])).splitlines()
+    check(len(lines) == len(scenes), str(lines))
+    for (scene, opening, draw), line in zip(scenes, lines):
+        found = json.loads(line)
+        words = [scene, "--size", "160x90"]
+        for name, value in {"floor": "off", **small, **opening, **{name: value for name, value in draw.items() if name != "layers"}}.items():
+            words += ["--env" if name == "environment" else "--" + name.replace("_", "-"), value]
+        if "msaa" not in draw:
+            words += ["--msaa", "8"]
+        jpeg = any("JPEG" in warning for warning in found["warnings"])
+        check(jpeg == (str(scene).endswith(("ClearCoatTest.glb", "BarnLampSmall.glb"))), f"{scene}: {found['warnings']}")
+        check(jpeg or found["hash"] == program_hash(bench, *words), f"{scene}: node draws {found['hash']}")
+        check(found["length"] == 160 * 90 * 3 and found["rgba"][3] == 255, f"{scene}: {found}")
+
+
+@case("wasm.failures_are_exceptions_with_the_program_s_codes", tier="nightly", budget=60)
+def failures(bench):
+    script = """
+const library = await burnish.load(), scene = library.open("builtin:sphere", { env_size: 16, env_samples: 16 });
+const picture = scene.render({ width: 8, height: 8 });
+const calls = {
+    size: () => scene.render({ width: 0 }), name: () => scene.render({ nonsense: 1 }), model: () => library.open(new Uint8Array([1, 2, 3, 4])),
+    builtin: () => library.open("builtin:none"), path: () => library.open("gone.glb"), outside: () => library.open("builtin:sphere", { files: { "../x": new Uint8Array(1) } }),
+    light: () => library.open("builtin:sphere", { environment: new Uint8Array(9) }), material: () => scene.setMaterial("gone", {}), sizes: () => library.compare(picture, scene.render({ width: 9, height: 8 })),
+    stopped: () => library.open("builtin:teapot", { env_size: 512, progress: () => true }), kind: () => library.open(7), large: () => scene.render({ width: 16384, height: 16384, msaa: 16 }),
+};
+for (const [name, call] of Object.entries(calls))
+    try { call(); console.log(name, 0); } catch (error) { console.log(name, error instanceof burnish.BurnishError ? error.code : error); }
+console.log("after", scene.render({ width: 8, height: 8 }).hash === picture.hash ? 0 : 1);
+"""
+    found = dict(line.split(" ", 1) for line in node(bench, script).splitlines())
+    wanted = {"size": "2", "name": "2", "model": "4", "builtin": "4", "path": "4", "outside": "4", "light": "4", "material": "2", "sizes": "3", "stopped": "130",
+              "kind": "2", "large": "2", "after": "0"}
+    check(found == wanted, str({name: (found.get(name), code) for name, code in wanted.items() if found.get(name) != code}))
+
+
+@case("wasm.a_worker_draws_tells_and_ends", tier="nightly", budget=60)
+def remote(bench):
+    script = f"""
+const {{ connect }} = await import("{package(bench)}/remote.mjs");
+const library = await connect();
+let told = 0;
+const scene = await library.open("builtin:teapot", {{ env_size: 256, floor: "stage", progress: (work, done) => {{ told += typeof work === "string" && done <= 1; }} }});
+const picture = await scene.render({{ width: 32, height: 18, display: {{ exposure: 1 }}, layers: "depth,normal" }});
+await scene.setMaterial(0, {{ roughness: 0.9 }}).then(() => console.log("changed"), (error) => console.log(error.code));
+console.log(told > 0, picture.hash, picture.rgba.length, picture.layers.normal.channels, scene.materials.length, library.techniques().length > 5);
+const late = scene.render({{ width: 2048, height: 2048, msaa: 16 }}).catch((error) => error.code);
+await library.end();
+console.log(await late, await scene.render().catch((error) => error.code));
+"""
+    lines = node(bench, script).splitlines()
+    same = program_hash(bench, "builtin:teapot", "--env-size", "256", "--floor", "stage", "--size", "32x18", "--msaa", "8")
+    check(lines[1].split() == ["true", same, str(32 * 18 * 4), "3", lines[1].split()[4], "true"] and lines[2] == "130 130", str(lines))
+
+
+@case("wasm.the_package_is_small_and_whole", tier="nightly", budget=30)
+def small_package(bench):
+    if not shutil.which("npm"):
+        raise Skipped("no npm: package npm, group wasm of apps/packages.txt")
+    folder = package(bench)
+    done = subprocess.run(["npm", "pack", "--json", "--offline", "--pack-destination", bench.folder, folder], capture_output=True, text=True, cwd=bench.folder)
+    check(done.returncode == 0, done.stderr)
+    packed = json.loads(done.stdout)[0]
+    check(packed["size"] <= MOST_PACKAGE, f"the package has {packed['size']} bytes")
+    names = {file["path"] for file in packed["files"]}
+    wanted = {"LICENSE", "README.md", "package.json", "burnish.mjs", "burnish.d.ts", "burnish_core.mjs", "burnish_core.wasm", "remote.mjs", "remote.d.ts", "worker.mjs"}
+    check(names == wanted, str(names ^ wanted))
+    (bench.folder / "user").mkdir()
+    installed = bench.folder / "user/node_modules/burnish"
+    installed.mkdir(parents=True)
+    subprocess.run(["tar", "xzf", bench.folder / packed["filename"], "-C", installed, "--strip-components=1"], check=True)
+    (bench.folder / "user/use.mjs").write_text('import { load } from "burnish";\nimport { connect } from "burnish/remote";\n'
+                                               'console.log((await load()).version, typeof connect);\n')
+    used = subprocess.run(["node", "use.mjs"], cwd=bench.folder / "user", capture_output=True, text=True)
+    version = bench.run("--version").expect(0).out.split()[1]
+    check(used.stdout.split() == [version, "function"], used.stdout + used.stderr)
+
+
+def export_page(bench, name, *words, code=0):
+    return bench.run("export", "page", *words, "--renderer", package(bench).parent / "apps/wasm", "-o", name).expect(code)
+
+
+def parts_of(text):
+    """Returns the page's description, and {name: bytes} of its files."""
+    page = json.loads(text.split('id="burnish-page">', 1)[1].split("</script>", 1)[0])
+    files = {}
+    for part in text.split('class="burnish-file" data-name="')[1:]:
+        name, rest = part.split('">', 1)
+        files[name] = zlib.decompress(base64.b64decode(rest.split("</script>", 1)[0]))
+    return page, files
+
+
+PROOF = "document.body.dataset.proof"
+SHOWN = "JSON.stringify([document.body.dataset.hash, document.getElementById('command').textContent])"
+
+
+def shown(bench, browser, mode="A"):
+    """Waits for the page's picture. Checks that the command beside it draws the same bits."""
+    browser.until(f"document.body.dataset.done === '{mode}'", 120)
+    hash_, command = json.loads(browser.value(SHOWN))
+    check(hash_ == hash_of_command(bench, command), f"the page draws {hash_} for {command}")
+    return hash_
+
+
+@case("wasm.a_page_draws_from_disk_with_the_program_s_bits", tier="nightly", budget=150)
+def page_from_disk(bench):
+    export_page(bench, "page.html", "builtin:teapot", "--technique", "bent_normal", "--env-size", "64")
+    check((bench.folder / "page.html").stat().st_size <= MOST_PAGE, "the page is large")
+    with Browser(bench.folder) as browser:
+        browser.size(700, 500)
+        browser.open(bench.folder / "page.html")
+        browser.until(PROOF, 120)
+        check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
+        first = shown(bench, browser)
+        # By keyboard alone
+        browser.value("document.getElementById('view').focus()")
+        for key in ("ArrowLeft", "ArrowUp", "+"):
+            browser.value("document.body.dataset.done = ''")
+            browser.press(key, text=key if key == "+" else None)
+            browser.until("document.body.dataset.done === 'A'", 120)
+        check(shown(bench, browser) != first, "the view did not turn")
+        # Two settings, and their difference
+        browser.value("document.querySelector('[data-edit=B]').click()")
+        browser.value("(() => { const list = document.querySelector('[data-name=\"--technique\"] select'); list.value = 'split_isotropic'; list.dispatchEvent(new Event('change')); })()")
+        browser.value("document.querySelector('[data-show=error]').click()")
+        browser.until("document.body.dataset.done === 'error'", 120)
+        flip = float(browser.value("document.getElementById('figures').textContent").split("mean ")[1].split(",")[0])
+        check(0.001 < flip < 0.9, f"FLIP of two techniques: {flip}")
+        check(browser.value("document.querySelector('[data-show=reference]').hidden"), "a page has no reference")
+        browser.screenshot(bench.folder / "error.png")
+        # A narrow and a dark page
+        browser.scheme("dark")
+        browser.size(400, 800)
+        browser.value("document.querySelector('[data-show=A]').click()")
+        browser.until("document.body.dataset.done === 'A'", 120)
+        check(browser.value("document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window")
+        browser.screenshot(bench.folder / "narrow.png")
+        check(not browser.faults, str(browser.faults))
+        outside = [address for address in browser.requests if not address.startswith(("file:", "blob:", "data:"))]
+        check(not outside, f"the page asks for {outside}")
+
+
+@case("wasm.a_page_brings_a_model_with_its_files", tier="nightly", budget=150)
+def page_of_a_model(bench):
+    light = bench.data_file("env/workshop_1k.hdr")
+    for model in ("models/AnisotropyBarnLampSmall.glb", "models/FlightHelmetParts/FlightHelmetParts.gltf"):
+        path = bench.data_file(model)
+        export_page(bench, "model.html", path, "--env", light, "--env-size", "64")
+        page, files = parts_of((bench.folder / "model.html").read_text())
+        check(files[page["target"]] == path.read_bytes() and files["workshop_1k.hdr"] == light.read_bytes(), str(list(files)))
+        shutil.copy(light, bench.folder)
+        (bench.folder / path.name).unlink(missing_ok=True)
+        for name, content in files.items():
+            (bench.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (bench.folder / name).write_bytes(content)
+        with Browser(bench.folder) as browser:
+            browser.size(600, 400)
+            browser.open(bench.folder / "model.html")
+            browser.until(PROOF, 120)
+            check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
+            shown(bench, browser)
+            check("JPEG" not in browser.value("document.getElementById('message').textContent"), "a JPEG image was decoded anew")
+            check(not browser.faults, str(browser.faults))
+
+
+@case("wasm.a_page_says_what_fails", tier="nightly", budget=150)
+def page_says(bench):
+    export_page(bench, "page.html", bench.data_file("models/AnisotropyStrengthTest.glb"), "--env-size", "16")
+    text = (bench.folder / "page.html").read_text()
+    model = text.split('data-name="AnisotropyStrengthTest.glb">', 1)[1].split("</script>", 1)[0]
+    broken = base64.b64encode(zlib.compress(zlib.decompress(base64.b64decode(model))[:1000])).decode()
+    (bench.folder / "broken.html").write_text(text.replace(model, broken))
+    (bench.folder / "other.html").write_text(text.replace('"hash":"', '"hash":"f', 1))
+    worker = text.split('id="burnish-worker">', 1)[1].split("</script>", 1)[0]
+    (bench.folder / "ends.html").write_text(text.replace(worker, "throw new Error('no worker');"))
+    (bench.folder / "large.html").write_text(text.replace(worker, worker.replace("core = await Module", "throw new RangeError('out of memory'); core = await Module")))
+    message = "document.getElementById('message').textContent"
+    with Browser(bench.folder) as browser:
+        for name, words in (("broken", "AnisotropyStrengthTest.glb"), ("ends", "The renderer ended"), ("large", "too large for the memory of a page")):
+            browser.open(bench.folder / f"{name}.html")
+            browser.until(message, 60)
+            check(words in browser.value(message), f"{name}: {browser.value(message)}")
+            check(browser.value("document.getElementById('a').naturalWidth") == 640, f"{name}: the picture that the page was made with is gone")
+        browser.open(bench.folder / "other.html")
+        browser.until(PROOF, 120)
+        check(browser.value(PROOF) == "other", "other bits are not seen")
+        browser.send("Page.addScriptToEvaluateOnNewDocument", source="delete window.WebAssembly")
+        browser.open(bench.folder / "page.html")
+        browser.until(message, 60)
+        check("too old" in browser.value(message), browser.value(message))
+        browser.screenshot(bench.folder / "old.png")
+
+
+@case("wasm.pages_hold_what_the_program_draws")
+def pages_hold(bench):
+    """With a renderer that cannot run: what is in the file."""
+    (bench.folder / "renderer").mkdir()
+    (bench.folder / "renderer/burnish_core.wasm").write_bytes(b"\0asm module")
+    (bench.folder / "renderer/burnish_core.mjs").write_text("var Module = 1;\nexport default Module;")
+    words = ("--roughness", "0.3", "--no-background", "--env", "builtin:sky", "--env-size", "16", "--size", "32x24")
+    bench.run("export", "page", "builtin:sphere", *words, "--renderer", "renderer", "-o", "page.html").expect(0)
+    page, files = parts_of((bench.folder / "page.html").read_text())
+    check(not files and page["target"] == "builtin:sphere" and page["environment"] == "builtin:sky", str(page))
+    check(page["options"] == {"--roughness": "0.3", "--no-background": "", "--env-size": "16"}, str(page["options"]))
+    check(page["made"]["hash"] == program_hash(bench, "builtin:sphere", *words), str(page["made"]))
+    check(page["made"]["hash"] == hash_of_command(bench, page["made"]["command"]), str(page["made"]))
+    # A model with files of odd names and in folders, whose images are JPEG files
+    (bench.folder / "scene/textures").mkdir(parents=True)
+    model = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
+             "buffers": [{"uri": "shape <1>.bin", "byteLength": 60}], "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                           {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+             "images": [{"uri": "textures/colour.jpg"}], "textures": [{"source": 0}],
+             "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}]}
+    (bench.folder / "scene/shape <1>.bin").write_bytes(struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1))
+    (bench.folder / "scene/model.gltf").write_text(json.dumps(model))
+    bench.run("render", "builtin:sphere", "--size", "16x16", "--env-size", "16", "-o", "scene/textures/colour.jpg").expect(0)
+    bench.run("export", "page", "scene/model.gltf", "--env-size", "16", "--size", "16x16", "--renderer", "renderer", "-o", "model.html", "-q").expect(0)
+    page, files = parts_of((bench.folder / "model.html").read_text())
+    check(page["target"] == "model.gltf", page["target"])
+    decoded = [name for name in files if name.startswith("decoded/")]
+    check(set(files) == {"shape &lt;1&gt;.bin", "model.gltf", "textures/colour.jpg", *decoded} and len(decoded) == 1, str(list(files)))
+    check(files[decoded[0]].startswith(b"\x89PNG"), "no PNG")
+    for name in ("model.gltf", "textures/colour.jpg"):
+        check(files[name] == (bench.folder / "scene" / name).read_bytes(), name)
+
+
+@case("wasm.wrong_requests_for_pages_say_one_line")
+def wrong_pages(bench):
+    bench.run("export", "page", "-o", "x.html").expect(2).expect_one_line("SCENE")
+    bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(77).expect_one_line("cmake --preset wasm")
+    (bench.folder / "burnish_core.wasm").write_bytes(b"x")
+    (bench.folder / "burnish_core.mjs").write_text("nothing")
+    bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("another version")
+    (bench.folder / "burnish_core.mjs").write_text("var Module = 1;\nexport default Module;")
+    bench.run("export", "page", "gone.glb", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("gone.glb")
+    bench.run("export", "page", "builtin:none", "-o", "x.html", "--renderer", ".").expect(2).expect_one_line("none")
+    bench.run("export", "glsl", "builtin:sphere", "--technique", "mc", "-o", "x.glsl").expect(2).expect_one_line("SCENE")
+    bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
+    bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
+    check(not (bench.folder / "x.html").exists() and not (bench.folder / "x.glsl").exists(), "a failure leaves a file")
