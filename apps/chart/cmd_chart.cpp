@@ -9,6 +9,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/live/live.h"
 #include "core/image/io/image_io.h"
 
 namespace burnish {
@@ -38,12 +39,40 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
     return count;
 }
 
-Status write_report(const ChartReport& chart, const ChartCheckpoint& checkpoint, Report& report)
+// Returns the scripts that draw the rows anew in the page.
+Result<std::string> live_html(const ChartReport& chart, const ChartOptions& options, const OptionTable& given)
+{
+    LiveWish wish;
+    wish.renderer_folder = options.renderer, wish.limits = options.base.limits, wish.threads = options.base.threads;
+    for (const ChartRow& row : chart.rows) {
+        DrawRequest request;
+        request.scene = row.scene, request.environment = row.env, request.width = chart.error_width, request.height = chart.error_height;
+        add_served(given, request);
+        request.options.emplace_back("--technique", row.setting.technique);
+        if (row.setting.sampled)
+            request.options.emplace_back("--samples", std::to_string(row.setting.samples));
+        if (row.cell.roughness)
+            request.options.emplace_back("--roughness", fmt::format("{}", *row.cell.roughness));
+        if (row.cell.anisotropy)
+            request.options.emplace_back("--anisotropy", fmt::format("{}", *row.cell.anisotropy));
+        for (const auto& [name, value] : row.cell.others)
+            request.options.emplace_back("--" + name, value);
+        for (const auto& [name, value] : {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}}) // as the chart has them
+            if (!given.given(name))
+                request.options.emplace_back(name, value);
+        wish.rows.push_back({row.key, std::move(request)});
+    }
+    Result<LiveParts> parts = live_parts(wish);
+    BN_TRY(parts);
+    return std::move(parts->html);
+}
+
+Status write_report(const ChartReport& chart, const std::string& live, const ChartCheckpoint& checkpoint, Report& report)
 {
     std::vector<ReportFile> files = chart_files(chart);
     files.push_back({"report.json", report_json(chart)});
     files.push_back({"report.csv", report_csv(chart)});
-    Result<std::string> page = chart_page(chart);
+    Result<std::string> page = chart_page(chart, live);
     BN_TRY(page);
     files.push_back({"report.html", std::move(*page)});
     std::set<std::string> used;
@@ -91,7 +120,10 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     if (const std::optional<double> others = chart.machine.others; others.value_or(0.0) > kBusy)
         report.warning(
             fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));
-    if (const Status written = write_report(chart, *checkpoint, report); !written)
+    const Result<std::string> live = options.live ? live_html(chart, options, given) : std::string();
+    if (!live)
+        return fail(live.error());
+    if (const Status written = write_report(chart, *live, *checkpoint, report); !written)
         return fail(written.error());
     if (const std::uint64_t bad = pictures_with_nan(chart))
         return fail(

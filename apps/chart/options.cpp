@@ -159,8 +159,13 @@ OptionTable chart_option_table(ChartArguments& to)
                {"--two-lobes", "",
                 "With --mip: measure only metals with two crossed brushing directions, and also two lobes a texel, found by search",
                 flag(o.two_lobes)}});
-    table.add("Output", {Option("-o,--output", "REPORT_DIR", "Folder for the report, created if missing", folder(o.folder)).must_be_given(),
-                         quiet_option(to.render.plain.quiet), verbose_option(to.render.plain.verbosity)});
+    table.add("Output",
+              {Option("-o,--output", "REPORT_DIR", "Folder for the report, created if missing", folder(o.folder)).must_be_given(),
+               {"--live", "", "Put the renderer into the page, which then draws each row anew: see burnish export page", flag(o.live)},
+               {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(o.renderer),
+                "beside the program"},
+               quiet_option(to.render.plain.quiet),
+               verbose_option(to.render.plain.verbosity)});
     table.take(of_render, "Picture",
                {{"--size", "Width and height of timed frames in pixels"},
                 {"--msaa", "Samples a pixel for techniques: {}"},

@@ -275,7 +275,7 @@ std::vector<ReportFile> chart_files(const ChartReport& report)
     return files;
 }
 
-Result<std::string> chart_page(const ChartReport& report)
+Result<std::string> chart_page(const ChartReport& report, const std::string& live)
 {
     const std::vector<PairRows> pairs = group(report);
     const Result<std::string> data = data_json(report, pairs);
@@ -291,8 +291,8 @@ Result<std::string> chart_page(const ChartReport& report)
         page += pair_html(pair, place_number);
     page +=
         fmt::format("</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
-                    "<script>\n{}</script>\n</body>\n</html>\n",
-                    *data, kChartPageScript.bytes);
+                    "{}<script>\n{}</script>\n</body>\n</html>\n",
+                    *data, live, kChartPageScript.bytes);
     return page;
 }
 

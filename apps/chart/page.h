@@ -12,6 +12,7 @@ struct ReportFile {
 };
 
 std::vector<ReportFile> chart_files(const ChartReport& report); // each chart as SVG
-Result<std::string> chart_page(const ChartReport& report);
+// live: scripts of a page with the renderer inside, by the rows' keys; or "".
+Result<std::string> chart_page(const ChartReport& report, const std::string& live = "");
 
 } // namespace burnish

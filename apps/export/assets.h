@@ -1,10 +1,9 @@
-// Embedded at build time: techniques.glsl after the C preprocessor; the scripts of a page with the renderer inside.
+// techniques.glsl after the C preprocessor, embedded at build time.
 #pragma once
 #include "core/base/embedded.h"
 
 namespace burnish {
 
 extern const EmbeddedFile kFlatTechniques;
-extern const EmbeddedFile kPageLive, kPageWorker;
 
 } // namespace burnish

@@ -11,7 +11,7 @@
 #include "apps/cli/values.h"
 #include "apps/export/assets.h"
 #include "apps/export/glsl_text.h"
-#include "apps/export/page.h"
+#include "apps/live/live.h"
 #include "apps/options/options.h"
 #include "core/base/version.h"
 #include "raster/frame/frame.h"
@@ -66,13 +66,14 @@ OptionTable export_option_table(ExportArguments& to)
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"glsl", "page"})},
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
-    table.add("The technique",
-              {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()), "a page: auto"},
-               {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
-                "the technique's default"}});
-    table.add_needing("WHAT", "page",
-                      {{"--size", "WxH", "Size of the picture whose bits the page compares", picture_size(to.size)},
-                       {"--renderer", "FOLDER", "Folder of burnish_core.wasm and burnish_core.mjs", folder(to.renderer), "beside the program"}});
+    table.add("The technique", {{"--technique", "NAME", "Technique to export, or that draws the page: {}",
+                                 choice(to.technique, technique_names()), "a page: auto"},
+                                {"--samples", "N", "Samples in the file's default settings, or of the page, {}",
+                                 integer(to.samples, 1, 65536), "the technique's default"}});
+    table.add_needing(
+        "WHAT", "page",
+        {{"--size", "WxH", "Size of the picture whose bits the page compares", picture_size(to.size)},
+         {"--renderer", "FOLDER", "Folder of the npm package, with burnish_core.wasm", folder(to.renderer), "beside the program"}});
     const OptionTable picture = render_option_table(to.render);
     std::vector<Option> rows;
     for (const Option& option : picture.options())
@@ -118,15 +119,10 @@ DrawRequest request_of(const ExportArguments& arguments, const OptionTable& give
     request.scene = arguments.scene, request.width = arguments.size.width, request.height = arguments.size.height;
     if (!given.given("--env-size"))
         request.options.emplace_back("--env-size", kUsualCube);
-    for (const Option& option : given.options()) {
-        if (!option.given || option.positional() || option.group == "Output" || option.name == "--size" || option.name == "--renderer")
-            continue;
-        const std::string value = option.takes_value() ? option.value.get() : "";
-        if (option.name == "--env")
-            request.environment = value;
-        else
-            request.options.emplace_back(option.name, value);
-    }
+    for (const Option& option : given.options())
+        if (option.given && option.name == "--env")
+            request.environment = option.value.get();
+    add_served(given, request);
     return request;
 }
 
@@ -134,9 +130,9 @@ Result<std::string> exported_page(const ExportArguments& arguments, const Option
 {
     if (arguments.scene.empty())
         return usage_error("SCENE", "is missing: a .gltf, .glb or .obj file, or builtin:NAME");
-    PageWish wish;
-    wish.request = request_of(arguments, given), wish.renderer_folder = arguments.renderer;
-    return page_text(wish);
+    LiveWish wish;
+    wish.rows = {{"page", request_of(arguments, given)}}, wish.renderer_folder = arguments.renderer;
+    return live_page(wish);
 }
 
 int run_export(const ExportArguments& arguments, const OptionTable& given)

@@ -10,10 +10,12 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <system_error>
 
 #include "apps/cli/command.h"
+#include "apps/cli/command_line.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
@@ -21,6 +23,8 @@
 #include "apps/cli/values.h"
 #include "apps/golden/golden_report.h"
 #include "apps/golden/result_folder.h"
+#include "apps/live/live.h"
+#include "apps/options/options.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
@@ -71,6 +75,8 @@ struct GoldenArguments {
     std::string results = "golden-results", from, shard, mask;
     GoldenLimits limits; // of folders and patterns, as is the mask
     int jobs = 0;
+    bool live = false;    // the page draws rows that differ anew
+    std::string renderer; // for the page; empty: beside the program
     Limits input;
     bool quiet = false;
     int verbosity = 0;
@@ -103,11 +109,44 @@ void sort_by_name(std::vector<GoldenResult>& results)
     std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
 }
 
-// Writes the reports, also for GitHub, and puts all files into place. Returns the exit code.
-int conclude(std::vector<GoldenResult> results, NewResults& fresh, const GoldenArguments& arguments, Report& report)
+// Returns the request of a scene's row, with its paths seen from here. Returns nothing where no page could draw the row.
+std::optional<DrawRequest> request_of(const GoldenRow& row, const std::string& folder)
+{
+    RenderArguments arguments;
+    Command render{"render", "", render_option_table(arguments), "", {}};
+    if (row.kind != GoldenKind::scene || !row.environment.empty() ||
+        !read_command_line(render, {row.command.begin() + 1, row.command.end()}))
+        return std::nullopt;
+    std::optional<DrawRequest> request = live_request(render.options);
+    for (std::string* path : {request ? &request->scene : nullptr, request ? &request->environment : nullptr})
+        if (path && !path->empty() && path->rfind("builtin:", 0) != 0)
+            *path = (fs::path(folder) / *path).string();
+    return request;
+}
+
+// Returns the scripts that draw anew the rows that differ.
+Result<std::string> live_html(const std::vector<GoldenResult>& results, const GoldenManifest& manifest, const GoldenArguments& arguments)
+{
+    LiveWish wish;
+    wish.renderer_folder = arguments.renderer, wish.limits = arguments.input;
+    for (const GoldenRow& row : manifest.rows)
+        for (const GoldenResult& result : results)
+            if (result.name == row.name && result.verdict == GoldenVerdict::differs)
+                if (std::optional<DrawRequest> request = request_of(row, manifest.folder))
+                    wish.rows.push_back({row.name, std::move(*request)});
+    if (wish.rows.empty())
+        return std::string();
+    Result<LiveParts> parts = live_parts(wish);
+    BN_TRY(parts);
+    return std::move(parts->html);
+}
+
+// Writes the reports, also for GitHub, and puts all files into place. Returns the exit code. live: as golden_page() takes it.
+int conclude(std::vector<GoldenResult> results, const std::string& live, NewResults& fresh, const GoldenArguments& arguments,
+             Report& report)
 {
     sort_by_name(results);
-    if (const Status written = write_reports(results, fresh.folder()); !written)
+    if (const Status written = write_reports(results, fresh.folder(), live); !written)
         return fail(written.error());
     if (const Status moved = fresh.take_over(); !moved)
         return fail(moved.error());
@@ -162,7 +201,10 @@ int check(const GoldenArguments& arguments, Report& report)
     });
     if (*setting.stop)
         return 128 + stop_signal();
-    return conclude(std::move(results), fresh, arguments, report);
+    const Result<std::string> live = arguments.live ? live_html(results, *manifest, arguments) : std::string();
+    if (!live)
+        return fail(live.error());
+    return conclude(std::move(results), *live, fresh, arguments, report);
 }
 
 // Reads names, one a line, as they are or as JSON texts.
@@ -335,7 +377,7 @@ int merge(const GoldenArguments& arguments, Report& report)
                 return fail(Error{ExitCode::output_failed, folder + name, "", failed.message()});
         }
     report.release();
-    return conclude(std::move(all), fresh, arguments, report);
+    return conclude(std::move(all), "", fresh, arguments, report);
 }
 
 int run_golden(const GoldenArguments& arguments, const OptionTable& given)
@@ -366,6 +408,10 @@ OptionTable golden_option_table(GoldenArguments& to)
               {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
                {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
                {"--shard", "I/N", "Makes every N-th row alone, from the I-th; merge joins the shards' results", text(to.shard), ""},
+               {"--live", "", "check: put the renderer into the page, which then draws scenes that differ anew: see burnish export page",
+                flag(to.live)},
+               {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),
+                "beside the program"},
                {"--from", "LIST", "File with names of rows to bless, one a line, as the page saves it", file(to.from), ""},
                {"--flip", "MEAN", "Of folders and patterns: mean FLIP that pictures may differ by, {}", number(to.limits.flip, 0.0, 1.0),
                 "not a single value"},

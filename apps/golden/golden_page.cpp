@@ -135,7 +135,7 @@ void add_exposures(const std::string& folder, const std::string& shown, Json& pl
 
 } // namespace
 
-Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder)
+Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live)
 {
     std::vector<const GoldenResult*> ordered;
     for (const GoldenResult& r : results)
@@ -166,6 +166,7 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
                     {"text", r->name + ", " + figures},
                     {"figures", figures},
                     {"picture", address(shown + ".png")},
+                    {"live", r->name},
                     {"error", address(shown + "%error.png")}};
         Json place = {{"reference", address(shown + "%golden.png")},
                       {"width", r->width},
@@ -204,8 +205,8 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
     return page + walls +
            fmt::format(
                "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
-               "<script>\n{}</script>\n<script>{}</script>\n</body>\n</html>\n",
-               script_json(data), kChartPageScript.bytes, kScript);
+               "{}<script>\n{}</script>\n<script>{}</script>\n</body>\n</html>\n",
+               script_json(data), live, kChartPageScript.bytes, kScript);
 }
 
 } // namespace burnish

@@ -222,9 +222,9 @@ std::string golden_annotations(const std::vector<GoldenResult>& results)
     return text;
 }
 
-Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder)
+Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live)
 {
-    const Result<std::string> page = golden_page(results, folder);
+    const Result<std::string> page = golden_page(results, folder, live);
     BN_TRY(page);
     for (const auto& [name, text] : {std::pair<const char*, std::string>{"results.jsonl", results_text(results)},
                                      {"junit.xml", golden_junit(results)},

@@ -27,9 +27,10 @@ std::string golden_summary(const std::vector<GoldenResult>& results);     // Mar
 std::string golden_annotations(const std::vector<GoldenResult>& results); // "::error ...", a line a row that did not pass
 
 // Returns the page. Pictures are in the results' folder; small ones are within the page.
-Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder);
+// live: scripts of a page with the renderer inside, by the rows' names; or "".
+Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live = "");
 
 // Writes all files into the folder: results.jsonl, junit.xml, summary.md, index.html.
-Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder);
+Status write_reports(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live = "");
 
 } // namespace burnish

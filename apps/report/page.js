@@ -99,8 +99,9 @@
                          reference, element('div', {className: 'clip technique'}, technique), error);
     const list = element('select', {}, ...keys.map(key => element('option', {value: key}, data.rows[key].setting)));
     list.setAttribute('aria-label', 'setting of ' + first.technique);
-    const figures = element('span', {className: 'figures'});
+    const figures = element('span', {className: 'figures'}), live = element('span');
     const draw = () => {
+      if (window.burnish_live) live.replaceChildren(window.burnish_live.button(data.rows[list.value].live || list.value));
       const row = data.rows[list.value], exposed = wall.exposure >= 0 && row.exposures;
       technique.src = picture(exposed ? row.exposures[wall.exposure] : row.picture);
       reference.src = picture(exposed ? place.exposures[wall.exposure].reference : place.reference);
@@ -114,7 +115,7 @@
     list.dispatchEvent(new Event('change'));
     wall.panWith(view);
     const tile = element('figure', {className: 'tile'}, view,
-                         element('figcaption', {}, element('strong', {}, first.technique), keys.length > 1 ? list : '', figures));
+                         element('figcaption', {}, element('strong', {}, first.technique), keys.length > 1 ? list : '', figures, live));
     keys.forEach(key => pickers.set(key, {list, tile}));
     return tile;
   }

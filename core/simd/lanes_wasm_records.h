@@ -1,5 +1,5 @@
-// Arrays of structs, pairs of table values and texels, for lanes_portable.h by WebAssembly's own instructions: a record is read four words at
-// a time, and turned into lanes.
+// Arrays of structs, pairs of table values and texels, for lanes_portable.h by WebAssembly's own instructions: a record is read four words
+// at a time, and turned into lanes.
 #pragma once
 
 namespace burnish {
@@ -105,8 +105,8 @@ BN_INLINE void load_pairs(pair_table table, const integer& index, real out[4])
     }
 }
 
-// Converts four halves, sign-extended to words: a product with 2^112 changes the exponent's bias. Exact for zeros and normal halves. Processors
-// take long for products of subnormal floats, and Inf has no product.
+// Converts four halves, sign-extended to words: a product with 2^112 changes the exponent's bias. Exact for zeros and normal halves.
+// Processors take long for products of subnormal floats, and Inf has no product.
 BN_INLINE v128_t rebiased(v128_t word)
 {
     const v128_t shifted = wasm_i32x4_shl(word, 13) & wasm_i32x4_splat(static_cast<int>(0x8fffe000u));
@@ -178,8 +178,8 @@ BN_CALL void add_texels(texel_acc& acc, texel_buffer texels, const integer& row0
             acc.right[lane] = wasm_f32x4_add(acc.right[lane], sum(w10, x.high, w11, y.high));
         }
 }
-BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const integer& row0, const integer& row1, const real& w00, const real& w10,
-                              const real& w01, const real& w11)
+BN_INLINE texel_acc texel_add(texel_acc acc, texel_buffer texels, const integer& row0, const integer& row1, const real& w00,
+                              const real& w10, const real& w01, const real& w11)
 {
     add_texels(acc, texels, row0, row1, w00, w10, w01, w11);
     return acc;

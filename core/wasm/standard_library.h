@@ -18,13 +18,13 @@ template <class To, class From> constexpr To bit_cast(const From& from) noexcept
 }
 
 template <class T> class atomic_ref {
-public:
+  public:
     explicit atomic_ref(T& value) : value_(&value) {}
     void store(T next, memory_order) const { __atomic_store_n(value_, next, __ATOMIC_SEQ_CST); }
     T fetch_add(T more, memory_order) const { return __atomic_fetch_add(value_, more, __ATOMIC_SEQ_CST); }
     T operator+=(T more) const { return __atomic_add_fetch(value_, more, __ATOMIC_SEQ_CST); }
 
-private:
+  private:
     T* value_;
 };
 

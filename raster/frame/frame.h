@@ -48,7 +48,7 @@ View auto_frame(const DrawTables& tables, int width, int height); // fixed view 
 // Returns the view's matrix from world to Vulkan clip space, for printing.
 glm::mat4 clip_from_world(const View& view);
 
-inline constexpr int kMaxPictureSide = 16384;                 // pixels
+inline constexpr int kMaxPictureSide = 16384; // pixels
 inline constexpr int kMaxSampleBits = 28 - kLessBits;
 inline constexpr std::int64_t kMaxPictureSamples = 1ll << kMaxSampleBits; // width * height * msaa: 2 GiB of depth and triangle ids
 

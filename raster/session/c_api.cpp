@@ -450,7 +450,8 @@ int burnish_frame_rgba8(burnish_frame* frame, float exposure_ev, const unsigned 
         const std::size_t count = static_cast<std::size_t>(shown.width) * static_cast<std::size_t>(shown.height);
         frame->rgba8.resize(4 * count);
         for (std::size_t p = 0; p < count; ++p) {
-            std::memcpy(&frame->rgba8[4 * p], reinterpret_cast<const unsigned char*>(shown.bytes.data()) + p * static_cast<std::size_t>(shown.channels), 3);
+            std::memcpy(&frame->rgba8[4 * p],
+                        reinterpret_cast<const unsigned char*>(shown.bytes.data()) + p * static_cast<std::size_t>(shown.channels), 3);
             frame->rgba8[4 * p + 3] = 255;
         }
         *pixels = frame->rgba8.data();

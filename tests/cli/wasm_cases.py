@@ -27,7 +27,7 @@ def package(bench):
 
 def node(bench, script, *words, code=0):
     if not shutil.which("node"):
-        raise Skipped("no node: package nodejs, group wasm of apps/packages.txt")
+        raise Skipped("no node: package nodejs, which emscripten brings")
     (bench.folder / "script.mjs").write_text(f'import * as burnish from "{package(bench)}/burnish.mjs";\n{script}')
     done = subprocess.run(["node", "script.mjs", *map(str, words)], cwd=bench.folder, capture_output=True, text=True, timeout=600)
     check(done.returncode == code, f"node ended with {done.returncode}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
@@ -59,7 +59,7 @@ for (const [scene, open, draw] of JSON.parse(process.argv[2])) {
 """
 
 
-@case("wasm.node_draws_the_bits_of_the_program", tier="nightly", budget=120)
+@case("wasm.node_draws_the_bits_of_the_program", "of_wasm", tier="nightly", budget=120)
 def draws_the_bits(bench):
     models = bench.data_file("models")
     scenes = [("builtin:plate", {}, {}), ("builtin:teapot", {"floor": "stage"}, {"technique": "bent_normal", "msaa": 4}), ("builtin:lights", {"key_lights": 2}, {}),
@@ -83,7 +83,7 @@ def draws_the_bits(bench):
         check(found["length"] == 160 * 90 * 3 and found["rgba"][3] == 255, f"{scene}: {found}")
 
 
-@case("wasm.failures_are_exceptions_with_the_program_s_codes", tier="nightly", budget=60)
+@case("wasm.failures_are_exceptions_with_the_program_s_codes", "of_wasm", tier="nightly", budget=60)
 def failures(bench):
     script = """
 const library = await burnish.load(), scene = library.open("builtin:sphere", { env_size: 16, env_samples: 16 });
@@ -104,7 +104,7 @@ console.log("after", scene.render({ width: 8, height: 8 }).hash === picture.hash
     check(found == wanted, str({name: (found.get(name), code) for name, code in wanted.items() if found.get(name) != code}))
 
 
-@case("wasm.a_worker_draws_tells_and_ends", tier="nightly", budget=60)
+@case("wasm.a_worker_draws_tells_and_ends", "of_wasm", tier="nightly", budget=60)
 def remote(bench):
     script = f"""
 const {{ connect }} = await import("{package(bench)}/remote.mjs");
@@ -123,10 +123,10 @@ console.log(await late, await scene.render().catch((error) => error.code));
     check(lines[1].split() == ["true", same, str(32 * 18 * 4), "3", lines[1].split()[4], "true"] and lines[2] == "130 130", str(lines))
 
 
-@case("wasm.the_package_is_small_and_whole", tier="nightly", budget=30)
+@case("wasm.the_package_is_small_and_whole", "of_wasm", tier="nightly", budget=30)
 def small_package(bench):
     if not shutil.which("npm"):
-        raise Skipped("no npm: package npm, group wasm of apps/packages.txt")
+        raise Skipped("no npm: package npm")
     folder = package(bench)
     done = subprocess.run(["npm", "pack", "--json", "--offline", "--pack-destination", bench.folder, folder], capture_output=True, text=True, cwd=bench.folder)
     check(done.returncode == 0, done.stderr)
@@ -147,7 +147,7 @@ def small_package(bench):
 
 
 def export_page(bench, name, *words, code=0):
-    return bench.run("export", "page", *words, "--renderer", package(bench).parent / "apps/wasm", "-o", name).expect(code)
+    return bench.run("export", "page", *words, "--renderer", package(bench), "-o", name).expect(code)
 
 
 def parts_of(text):
@@ -172,7 +172,7 @@ def shown(bench, browser, mode="A"):
     return hash_
 
 
-@case("wasm.a_page_draws_from_disk_with_the_program_s_bits", tier="nightly", budget=150)
+@case("wasm.a_page_draws_from_disk_with_the_program_s_bits", "of_wasm", tier="nightly", budget=150)
 def page_from_disk(bench):
     export_page(bench, "page.html", "builtin:teapot", "--technique", "bent_normal", "--env-size", "64")
     check((bench.folder / "page.html").stat().st_size <= MOST_PAGE, "the page is large")
@@ -210,7 +210,7 @@ def page_from_disk(bench):
         check(not outside, f"the page asks for {outside}")
 
 
-@case("wasm.a_page_brings_a_model_with_its_files", tier="nightly", budget=150)
+@case("wasm.a_page_brings_a_model_with_its_files", "of_wasm", tier="nightly", budget=150)
 def page_of_a_model(bench):
     light = bench.data_file("env/workshop_1k.hdr")
     for model in ("models/AnisotropyBarnLampSmall.glb", "models/FlightHelmetParts/FlightHelmetParts.gltf"):
@@ -233,7 +233,7 @@ def page_of_a_model(bench):
             check(not browser.faults, str(browser.faults))
 
 
-@case("wasm.a_page_says_what_fails", tier="nightly", budget=150)
+@case("wasm.a_page_says_what_fails", "of_wasm", tier="nightly", budget=150)
 def page_says(bench):
     export_page(bench, "page.html", bench.data_file("models/AnisotropyStrengthTest.glb"), "--env-size", "16")
     text = (bench.folder / "page.html").read_text()
@@ -261,19 +261,26 @@ def page_says(bench):
         browser.screenshot(bench.folder / "old.png")
 
 
+def no_renderer(bench, name, script="var Module = 1;\nexport default Module;", version=None):
+    """Writes a folder that looks like the package."""
+    folder = bench.folder / name
+    folder.mkdir(exist_ok=True)
+    (folder / "burnish_core.wasm").write_bytes(b"\0asm module")
+    (folder / "burnish_core.mjs").write_text(script)
+    (folder / "package.json").write_text(json.dumps({"version": version or bench.run("--version").expect(0).out.split()[1]}))
+
+
 @case("wasm.pages_hold_what_the_program_draws")
 def pages_hold(bench):
     """With a renderer that cannot run: what is in the file."""
-    (bench.folder / "renderer").mkdir()
-    (bench.folder / "renderer/burnish_core.wasm").write_bytes(b"\0asm module")
-    (bench.folder / "renderer/burnish_core.mjs").write_text("var Module = 1;\nexport default Module;")
+    no_renderer(bench, "renderer")
     words = ("--roughness", "0.3", "--no-background", "--env", "builtin:sky", "--env-size", "16", "--size", "32x24")
     bench.run("export", "page", "builtin:sphere", *words, "--renderer", "renderer", "-o", "page.html").expect(0)
     page, files = parts_of((bench.folder / "page.html").read_text())
-    check(not files and page["target"] == "builtin:sphere" and page["environment"] == "builtin:sky", str(page))
-    check(page["options"] == {"--roughness": "0.3", "--no-background": "", "--env-size": "16"}, str(page["options"]))
-    check(page["made"]["hash"] == program_hash(bench, "builtin:sphere", *words), str(page["made"]))
-    check(page["made"]["hash"] == hash_of_command(bench, page["made"]["command"]), str(page["made"]))
+    check(not files and page["target"] == "builtin:sphere" and page["rows"]["page"]["environment"] == "builtin:sky", str(page))
+    row = page["rows"]["page"]
+    check(row["options"] == {"--roughness": "0.3", "--no-background": "", "--env-size": "16"}, str(row["options"]))
+    check(row["hash"] == program_hash(bench, "builtin:sphere", *words) == hash_of_command(bench, row["command"]), str(row))
     # A model with files of odd names and in folders, whose images are JPEG files
     (bench.folder / "scene/textures").mkdir(parents=True)
     model = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
@@ -300,13 +307,92 @@ def pages_hold(bench):
 def wrong_pages(bench):
     bench.run("export", "page", "-o", "x.html").expect(2).expect_one_line("SCENE")
     bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(77).expect_one_line("cmake --preset wasm")
-    (bench.folder / "burnish_core.wasm").write_bytes(b"x")
-    (bench.folder / "burnish_core.mjs").write_text("nothing")
-    bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("another version")
-    (bench.folder / "burnish_core.mjs").write_text("var Module = 1;\nexport default Module;")
+    no_renderer(bench, ".", "nothing")
+    bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("exports no Module")
+    no_renderer(bench, ".", version="9.9")
+    bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("version")
+    no_renderer(bench, ".")
     bench.run("export", "page", "gone.glb", "-o", "x.html", "--renderer", ".").expect(4).expect_one_line("gone.glb")
     bench.run("export", "page", "builtin:none", "-o", "x.html", "--renderer", ".").expect(2).expect_one_line("none")
     bench.run("export", "glsl", "builtin:sphere", "--technique", "mc", "-o", "x.glsl").expect(2).expect_one_line("SCENE")
     bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
     bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
     check(not (bench.folder / "x.html").exists() and not (bench.folder / "x.glsl").exists(), "a failure leaves a file")
+
+
+CHART = ("chart", "builtin:plate", "--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "16", "--runs", "1",
+         "--techniques", "bent_normal,major_axis", "--sweep", "samples=4", "--sweep", "roughness=0.3", "--orbit", "20,40")
+
+
+def page_rows(path):
+    return parts_of(path.read_text())[0]["rows"]
+
+
+@case("wasm.charts_draw_their_rows_anew", budget=6)
+def live_chart(bench):
+    no_renderer(bench, "renderer")
+    bench.run(*CHART, "--live", "--renderer", "renderer", "-o", "r").expect(0)
+    rows = page_rows(bench.folder / "r/report.html")
+    chart = json.loads((bench.folder / "r/report.html").read_text().split('id="data">', 1)[1].split("</script>", 1)[0].replace("\\u003c", "<"))
+    check(len(rows) == 2 and set(rows) == set(chart["rows"]), f"{list(rows)} and {list(chart['rows'])}")
+    for key, row in rows.items():
+        check(row["hash"] == hash_of_command(bench, row["command"]), str(row))
+        # The same picture as the chart's own, which is a JPEG file: another technique differs ten times as much
+        (bench.folder / "own.jpg").write_bytes(base64.b64decode(chart["rows"][key]["picture"].split(",", 1)[1]))
+        bench.run("compare", "own.jpg", "picture.png", "--fail-flip", "0.06", "-q").expect(0)
+    bench.run(*CHART, "-o", "plain").expect(0)
+    check("burnish-wasm" not in (bench.folder / "plain/report.html").read_text(), "a renderer that nobody asked for")
+
+
+@case("wasm.goldens_that_differ_are_drawn_anew", budget=6)
+def live_golden(bench):
+    no_renderer(bench, "renderer")
+    small = ["--size", "32x24", "--env-size", "16", "--env-samples", "16", "--floor", "off"]
+    model = bench.data_file("models/AnisotropyStrengthTest.glb")
+    (bench.folder / "set").mkdir()
+    shutil.copy(model, bench.folder / "set/model.glb")
+    (bench.folder / "set/light.hdr").write_bytes(bench.data_file("env/workshop_1k.hdr").read_bytes())
+
+    def write(roughness):
+        rows = [{"name": "ball <1>", "scene": "builtin:sphere", "options": ["--roughness", roughness]}, {"name": "same", "scene": "builtin:sphere"},
+                {"name": "model", "scene": "model.glb", "options": ["--env", "light.hdr", "--exposure", roughness]},
+                {"name": "threads", "scene": "builtin:plate", "options": ["--roughness", roughness, "--threads", "1"]},
+                {"name": "table", "scene": "builtin:lights", "options": ["--roughness", roughness, "--ltc-table", "table.ltc"]}]
+        (bench.folder / "set/m.json").write_text(json.dumps({"defaults": {"options": small}, "rows": rows}))
+
+    shutil.copy(ROOT / "shading/bake/ltc/ggx.ltc", bench.folder / "set/table.ltc")
+    write("0.2")
+    bench.run("golden", "check", "set/m.json").expect(5)
+    bench.run("golden", "bless", "set/m.json").expect(0)
+    write("0.4")
+    bench.run("golden", "check", "set/m.json", "--live", "--renderer", "renderer").expect(1)
+    text = (bench.folder / "golden-results/index.html").read_text()
+    page, files = parts_of(text)
+    check(set(page["rows"]) == {"ball <1>", "model", "threads"}, str(page["rows"]))
+    for row in page["rows"].values():
+        check(row["hash"] == hash_of_command(bench, row["command"]), str(row))
+    check(sum(name.endswith("/model.glb") for name in files) == 1 and page["target"] == "scenes", str(list(files)))
+    check(files["scenes/" + page["rows"]["model"]["scene"]] == model.read_bytes() and "scenes/" + page["rows"]["model"]["environment"] in files, str(list(files)))
+
+
+@case("wasm.rows_of_reports_open_in_the_page", "of_wasm", tier="nightly", budget=150)
+def opens(bench):
+    bench.run(*CHART, "--live", "--renderer", package(bench), "-o", "r").expect(0)
+    rows = page_rows(bench.folder / "r/report.html")
+    with Browser(bench.folder) as browser:
+        browser.size(1200, 800)
+        browser.open(bench.folder / "r/report.html")
+        buttons = browser.value("document.querySelectorAll('.burnish-open').length")
+        check(buttons == 2, f"{buttons} buttons")
+        inside = "document.querySelector('dialog.burnish-live iframe')?.contentDocument"
+        hashes = set()
+        for number in range(buttons):
+            browser.value(f"document.querySelectorAll('.burnish-open')[{number}].click()")
+            browser.until(f"{inside}?.body?.dataset.proof", 120)
+            check(browser.value(f"{inside}.body.dataset.proof") == "same", browser.value(f"{inside}.getElementById('proof').textContent"))
+            hashes.add(browser.value(f"{inside}.getElementById('proof').textContent").split()[-1])
+            browser.screenshot(bench.folder / f"open-{number}.png", whole=False)
+            browser.value("document.querySelector('dialog.burnish-live button').click()")
+            browser.until("!document.querySelector('dialog')")
+        check(hashes == {row["hash"] for row in rows.values()}, f"{hashes} and {rows}")
+        check(not browser.faults, str(browser.faults))

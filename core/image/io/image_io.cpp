@@ -216,7 +216,10 @@ Result<ImageProbe> probe_bytes(const ImageBytes& file, const Limits& limits)
 Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes)
 {
     try {
-        return decode(file, probe, limits, notes);
+        Result<Image> image = decode(file, probe, limits, notes);
+        if (const std::string warning = std::strcmp(probe.format, "jpeg") == 0 ? jpeg_warning(file) : ""; !warning.empty())
+            notes.warnings.push_back(warning);
+        return image;
     } catch (...) {
         return error_of_exception(file.error("", "the image is damaged"));
     }
@@ -256,8 +259,6 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
     const StoredColour& colour = probe->colour;
     notes.warnings.insert(notes.warnings.end(), colour.warnings.begin(), colour.warnings.end());
     if (const std::string warning = warning_of_profile(colour); !warning.empty())
-        notes.warnings.push_back(warning);
-    if (const std::string warning = std::strcmp(probe->format, "jpeg") == 0 ? jpeg_warning(file) : ""; !warning.empty())
         notes.warnings.push_back(warning);
     if (!colour.primaries || image->type != PixelType::f32 || image->channels < 3)
         return image;

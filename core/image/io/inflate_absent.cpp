@@ -8,4 +8,9 @@ std::vector<std::uint8_t> inflated(const std::uint8_t*, std::size_t, std::size_t
     return {};
 }
 
+std::vector<std::uint8_t> deflated(const std::uint8_t*, std::size_t)
+{
+    return {};
+}
+
 } // namespace burnish

@@ -1,4 +1,4 @@
-#include "apps/export/page_files.h"
+#include "apps/live/page_files.h"
 
 #include <algorithm>
 #include <cstring>

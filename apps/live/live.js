@@ -1,0 +1,103 @@
+// The renderer inside a page: a worker that answers what the page of `burnish serve` asks of its server. A page of that kind finds it as
+// window.burnish_live; other pages open one in a dialog.
+(() => {
+  'use strict';
+  const data = JSON.parse(document.getElementById('burnish-page').textContent);
+  const names = { page: Object.keys(data.rows)[0] };  // of the row that is shown
+
+  async function bytes_of(element) {
+    const packed = Uint8Array.from(atob(element.textContent.trim()), c => c.charCodeAt(0));
+    element.remove();
+    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
+  }
+
+  const waiting = new Map();
+  let next = 0, worker = null, lost = null, begun = null, studio = null;
+  const post = (message, transfer) => new Promise((resolve, reject) => { waiting.set(++next, { resolve, reject }); worker.postMessage({ id: next, ...message }, transfer); });
+  const lose = text => { lost = new Error(text); for (const { reject } of waiting.values()) reject(lost); waiting.clear(); };
+
+  async function begin() {
+    if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function')
+      throw new Error('This browser is too old to draw: the picture is the one that the page was made with.');
+    const files = {}, transfer = [];
+    for (const element of document.querySelectorAll('script.burnish-file')) {
+      files[element.dataset.name] = await bytes_of(element);
+      transfer.push(files[element.dataset.name]);
+    }
+    const wasm = await bytes_of(document.getElementById('burnish-wasm'));
+    transfer.push(wasm);
+    worker = new Worker(URL.createObjectURL(new Blob([document.getElementById('burnish-worker').textContent], { type: 'text/javascript' })));
+    worker.onmessage = ({ data: answer }) => {
+      const wait = waiting.get(answer.id);
+      waiting.delete(answer.id);
+      if (!wait) return;
+      if (answer.error) wait.reject(new Error(answer.error)); else wait.resolve(answer);
+    };
+    worker.onerror = event => { event.preventDefault(); lose('The renderer ended: ' + (event.message || 'no memory') + '. Load the page again.'); };
+    await post({ wasm, files, target: data.target }, transfer);
+  }
+
+  // One question is with the worker; of the others, those that are still wanted wait.
+  let last = Promise.resolve();
+  function ask(path, body, signal) {
+    begun ||= begin();
+    const mine = last.catch(() => {}).then(async () => {
+      await begun;
+      if (lost) throw lost;
+      if (signal && signal.aborted) throw new DOMException('', 'AbortError');
+      return post({ path, body: body && JSON.stringify(body) });
+    });
+    last = mine;
+    const escaped = text => text.replace(/[^\x20-\x7e]/g, c => '\\u' + c.charCodeAt(0).toString(16).padStart(4, '0'));
+    return mine.then(({ status, info, body: content, type }) => ({
+      ok: status === 200, status, statusText: '', headers: new Headers(info ? { 'X-Burnish': escaped(info) } : {}),
+      json: async () => JSON.parse(new TextDecoder().decode(content)), blob: async () => new Blob([content], { type }),
+    }));
+  }
+
+  // Draws once more what was drawn when the page was made, and compares the bits. element: of the page that shows the picture.
+  async function prove(element) {
+    const { scene, environment, options, width, height, hash, command } = data.rows[names.page], body = element.ownerDocument.body;
+    while (!body.dataset.done) await new Promise(resolve => setTimeout(resolve, 100)); // the reader's picture first
+    try {
+      const info = JSON.parse((await ask('/draw', { scene, environment, options, width, height, reduction: 1 })).headers.get('X-Burnish'));
+      const same = info.hash === hash;
+      element.className = same ? 'good' : 'bad';
+      element.textContent = same ? `\u2713 the bits of the machine that made this page: ${hash}` : `\u2717 this browser draws ${info.hash}, the machine that made this page ${hash}`;
+      element.title = command;
+      body.dataset.proof = same ? 'same' : 'other';
+    } catch (fault) {
+      element.className = 'bad', element.textContent = fault.message;
+    }
+  }
+
+  // Opens the page of `burnish serve` over this one, with a row's scene and options.
+  async function open(key) {
+    names.page = key;
+    studio ||= new TextDecoder().decode(await bytes_of(document.getElementById('burnish-studio')));
+    const dialog = document.createElement('dialog'), close = document.createElement('button'), frame = document.createElement('iframe');
+    dialog.className = 'burnish-live';
+    dialog.setAttribute('aria-label', 'The picture, drawn here');
+    dialog.style.cssText = 'width: 98vw; height: 98vh; max-width: none; max-height: none; padding: 0; border: 0; display: grid; grid-template-rows: auto 1fr';
+    close.textContent = 'Close', close.style.cssText = 'justify-self: end; margin: 2px';
+    close.addEventListener('click', () => dialog.close());
+    dialog.addEventListener('close', () => dialog.remove());
+    frame.style.cssText = 'width: 100%; height: 100%; border: 0';
+    frame.title = 'The picture, drawn here';
+    frame.srcdoc = studio;
+    dialog.append(close, frame);
+    document.body.append(dialog);
+    dialog.showModal();
+  }
+
+  // A button that opens a row; none for a row that the page cannot draw.
+  function button(key) {
+    if (!(key in data.rows)) return '';
+    const made = document.createElement('button');
+    made.type = 'button', made.className = 'burnish-open', made.textContent = 'Live', made.title = data.rows[key].command;
+    made.addEventListener('click', () => open(key));
+    return made;
+  }
+
+  window.burnish_live = { ask, prove, button, get page() { return data.rows[names.page]; } };
+})();
