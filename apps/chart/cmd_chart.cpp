@@ -57,7 +57,8 @@ Result<std::string> live_html(const ChartReport& chart, const ChartOptions& opti
             request.options.emplace_back("--anisotropy", fmt::format("{}", *row.cell.anisotropy));
         for (const auto& [name, value] : row.cell.others)
             request.options.emplace_back("--" + name, value);
-        for (const auto& [name, value] : {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}}) // as the chart has them
+        for (const auto& [name, value] :
+             {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}}) // as the chart has them
             if (!given.given(name))
                 request.options.emplace_back(name, value);
         wish.rows.push_back({row.key, std::move(request)});

@@ -1,4 +1,4 @@
-// Pages with the renderer inside: what they hold beside their own text.
+// Pages with the renderer inside: their scripts, scenes and files.
 #pragma once
 #include <optional>
 #include <string>

@@ -80,13 +80,17 @@ Result<PageFiles> page_files(const std::string& scene, const std::string& enviro
 {
     PageFiles out;
     out.scene = scene, out.environment = environment;
+    const auto place_of = [](const std::string& path) { // absolute where the system tells its folder
+        std::error_code failed;
+        const fs::path absolute = fs::absolute(path, failed);
+        return (failed ? fs::path(path) : absolute).lexically_normal();
+    };
     std::set<fs::path> paths;
     for (const std::string& path : read)
         if (!is_builtin(path))
-            paths.insert(fs::absolute(path).lexically_normal());
+            paths.insert(place_of(path));
     const bool apart = !environment.empty() && !is_builtin(environment); // a file of its own
-    const fs::path own = fs::absolute(scene).lexically_normal();
-    const fs::path light = apart ? fs::absolute(environment).lexically_normal() : fs::path();
+    const fs::path own = place_of(scene), light = apart ? place_of(environment) : fs::path();
     if (apart)
         paths.erase(light);
     if (!is_builtin(scene)) {

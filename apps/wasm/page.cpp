@@ -1,4 +1,4 @@
-// What a page with the renderer inside asks of it: as the page of `burnish serve` asks its server.
+// Answers a page with the renderer inside, as the server answers the page of `burnish serve`.
 #include <cstring>
 #include <memory>
 

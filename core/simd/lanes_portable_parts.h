@@ -1,4 +1,4 @@
-// What lanes_portable.h does lane by lane, for compilers that make no better code of it.
+// Operations as loops over lanes, for lanes_portable.h.
 #pragma once
 
 namespace burnish {

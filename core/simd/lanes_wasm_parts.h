@@ -1,4 +1,4 @@
-// What lanes_portable.h does lane by lane elsewhere, by WebAssembly's own instructions.
+// Operations by WebAssembly's own instructions, for lanes_portable.h.
 #pragma once
 #include <wasm_simd128.h>
 

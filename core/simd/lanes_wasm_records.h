@@ -1,5 +1,5 @@
-// Arrays of structs, pairs of table values and texels, for lanes_portable.h by WebAssembly's own instructions: a record is read four words
-// at a time, and turned into lanes.
+// Arrays of structs, pairs of table values and texels by WebAssembly's own instructions, for lanes_portable.h. Four words of a record are
+// read at once, then transposed into lanes.
 #pragma once
 
 namespace burnish {

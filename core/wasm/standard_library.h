@@ -1,4 +1,4 @@
-// What emscripten 3.1's C++ library lacks of C++20. Included before each source.
+// Parts of C++20 that the C++ library of emscripten 3.1 lacks. Included before each source.
 #pragma once
 #ifdef __cplusplus
 #include <algorithm>

@@ -53,6 +53,18 @@ int main(void)
         return fail("compare", code);
     if ((code = burnish_frame_png(frame, 0.0f, &png, &size)) || size < 8 || png[1] != 'P')
         return fail("png", code);
+    /* Pixels for screens: black 64 stops below, full above wherever there is light */
+    if (burnish_frame_tonemap(frame, "none") || burnish_frame_rgba8(frame, -65.0f, &png) != 2 || burnish_frame_rgba8(frame, 0.0f, NULL) != 2 ||
+        burnish_frame_rgba8(NULL, 0.0f, &png) != 2)
+        return fail("rgba8 of nothing", 0);
+    for (int stops = -64; stops <= 64; stops += 128) {
+        if ((code = burnish_frame_rgba8(frame, (float)stops, &png)))
+            return fail("rgba8", code);
+        for (int i = 0; i < 4 * 96 * 64; ++i)
+            if (png[i] != (i % 4 == 3 || (stops > 0 && burnish_frame_pixels(frame)[i / 4 * 3 + i % 4] > 0.0f) ? 255 : 0))
+                return fail("a value of rgba8", i);
+    }
+    burnish_frame_tonemap(frame, "pbr-neutral");
     if ((code = burnish_write(frame, "plate.png", 0.0f)))
         return fail("write", code);
     /* Failures say why, and end nothing */
