@@ -10,6 +10,12 @@
 
 // Loops over lanes stay calls: inlined everywhere, their code would fill megabytes.
 #define BN_CALL static __attribute__((noinline, unused))
+// Short loops too, unless the machine's own code for them is short.
+#ifdef __wasm_simd128__
+#define BN_SHORT BN_INLINE
+#else
+#define BN_SHORT BN_CALL
+#endif
 #ifdef BN_PORTABLE_CALLS // every operation is a call
 #define BN_OP BN_CALL
 #else
@@ -299,37 +305,45 @@ BN_OP void store_int(std::uint32_t* to, const integer& i)
 {
     __builtin_memcpy(to, &i, sizeof i);
 }
-BN_CALL integer load_first(const std::int32_t* from, int n)
+BN_SHORT integer load_first(const std::int32_t* from, int n)
 {
+    if (n >= kLanes)
+        return load_int(from);
     int_lanes r = {};
     for (int k = 0; k < kLanes && k < n; ++k)
         r.at[k] = from[k];
     return integer_of(r);
 }
-BN_CALL real load_first(const float* from, int n)
+BN_SHORT real load_first(const float* from, int n)
 {
+    if (n >= kLanes)
+        return load(from);
     float_lanes r = {};
     for (int k = 0; k < kLanes && k < n; ++k)
         r.at[k] = from[k];
     return real_of(r);
 }
-BN_CALL void store_first(std::int32_t* to, const integer& i, int n)
+BN_SHORT void store_first(std::int32_t* to, const integer& i, int n)
 {
+    if (n >= kLanes)
+        return store_int(to, i);
     for (int k = 0; k < kLanes && k < n; ++k)
         to[k] = lanes_of(i).at[k];
 }
-BN_CALL void store_first(float* to, const real& x, int n)
+BN_SHORT void store_first(float* to, const real& x, int n)
 {
+    if (n >= kLanes)
+        return store(to, x);
     for (int k = 0; k < kLanes && k < n; ++k)
         to[k] = lanes_of(x).at[k];
 }
-BN_CALL real gather(const float* base, const integer& index)
+BN_SHORT real gather(const float* base, const integer& index)
 {
     float_lanes r;
     BN_EACH_LANE r.at[k] = base[lanes_of(index).at[k]];
     return real_of(r);
 }
-BN_CALL integer gather_int(const std::int32_t* base, const integer& index)
+BN_SHORT integer gather_int(const std::int32_t* base, const integer& index)
 {
     int_lanes r;
     BN_EACH_LANE r.at[k] = base[lanes_of(index).at[k]];
@@ -361,13 +375,13 @@ BN_CALL real expand_load(const float* from, const mask& m)
     BN_EACH_LANE r.at[k] = lanes_of(m).at[k] != 0 ? *from++ : 0.0f;
     return real_of(r);
 }
-BN_CALL real load_rows(const float* first, const float* second)
+BN_SHORT real load_rows(const float* first, const float* second)
 {
     float_lanes r;
     BN_EACH_LANE r.at[k] = k < 8 ? first[k] : second[k - 8];
     return real_of(r);
 }
-BN_CALL void store_rows(float* first, float* second, const real& x)
+BN_SHORT void store_rows(float* first, float* second, const real& x)
 {
     BN_EACH_LANE(k < 8 ? first : second - 8)[k] = lanes_of(x).at[k];
 }
@@ -412,6 +426,7 @@ BN_FOLD(reduce_add, a + b)
 #include "core/simd/lanes_portable_records.h"
 #endif
 #undef BN_CALL
+#undef BN_SHORT
 #undef BN_OP
 #undef BN_EACH_PART
 #undef BN_EACH_LANE

@@ -124,7 +124,7 @@ BN_INLINE bool any_unusual(v128_t a, v128_t b)
 struct half_pair {
     v128_t low, high; // four floats each
 };
-BN_CALL half_pair unusual_floats(v128_t halves)
+BN_INLINE half_pair unusual_floats(v128_t halves)
 {
     const auto converted = [](v128_t word) {
         const v128_t magnitude = word & wasm_i32x4_splat(0x7fff), shifted = wasm_i32x4_shl(magnitude, 13);

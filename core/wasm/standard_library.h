@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-#if _LIBCPP_VERSION < 14000
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000
 namespace std {
 
 template <class To, class From> constexpr To bit_cast(const From& from) noexcept
