@@ -103,6 +103,9 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     if (!checked)
         return fail(checked.error());
     const ChartOptions& options = *checked;
+    if (options.live)
+        if (const Status found = check_renderer(options.renderer); !found)
+            return fail(found.error());
     Report report(options.base.quiet, options.base.verbosity);
     Result<ChartCheckpoint> checkpoint = ChartCheckpoint::open(options.folder, report);
     if (!checkpoint)

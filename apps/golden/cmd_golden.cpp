@@ -168,6 +168,9 @@ int check(const GoldenArguments& arguments, Report& report)
     const Result<Shard> shard = read_shard(arguments.shard);
     if (!shard)
         return fail(shard.error());
+    if (arguments.live)
+        if (const Status found = check_renderer(arguments.renderer); !found)
+            return fail(found.error());
     Result<GoldenManifest> manifest = manifest_at(arguments);
     if (!manifest)
         return fail(manifest.error());
@@ -383,7 +386,11 @@ int merge(const GoldenArguments& arguments, Report& report)
 int run_golden(const GoldenArguments& arguments, const OptionTable& given)
 {
     Report report(arguments.quiet, arguments.verbosity);
-    for (const auto& [option, what] : {std::pair{"--from", What::bless}, {"--shard", What::check}, {"--jobs", What::check}})
+    for (const auto& [option, what] : {std::pair{"--from", What::bless},
+                                       {"--shard", What::check},
+                                       {"--jobs", What::check},
+                                       {"--live", What::check},
+                                       {"--renderer", What::check}})
         if (given.given(option) && arguments.what != what)
             return fail(usage_error(option, fmt::format("belongs to `golden {}`", what == What::bless ? "bless" : "check")));
     switch (arguments.what) {

@@ -100,39 +100,43 @@ class Names {
     Names(const LiveWish& wish) : limits_(wish.limits)
     {
         for (const LiveRow& row : wish.rows)
-            folders_.emplace(std::pair(row.request.scene, row.request.environment), PageFiles{});
+            folders_.emplace(row.request.scene, folders_.size());
     }
 
-    // Returns the pair's names. read: files of its scene and environment.
+    // Returns the names of the request's scene and environment. read: their files.
     Result<std::pair<std::string, std::string>> of(const DrawRequest& request, const std::vector<std::string>& read)
     {
-        const auto at = folders_.find({request.scene, request.environment});
-        PageFiles& found = at->second;
-        const std::string folder = folders_.size() == 1 ? "" : fmt::format("{}/", std::distance(folders_.begin(), at));
-        if (found.scene.empty()) {
-            Result<PageFiles> files = page_files(request.scene, request.environment, read, limits_);
-            BN_TRY(files);
-            found = std::move(*files);
-            for (PageFile& file : found.files) {
-                const bool decoded = file.name.rfind("decoded/", 0) == 0;
-                files_.insert_or_assign(decoded || folder.empty() ? file.name : "scenes/" + folder + file.name, std::move(file.bytes));
+        const auto found = named_.find({request.scene, request.environment});
+        if (found != named_.end())
+            return found->second;
+        Result<PageFiles> files = page_files(request.scene, request.environment, read, limits_);
+        BN_TRY(files);
+        const bool alone = folders_.size() == 1;
+        const std::string folder = alone ? "" : fmt::format("{}/", folders_[request.scene]), root = alone ? "" : "scenes/";
+        std::string environment = files->environment;
+        for (PageFile& file : files->files) {
+            const bool light = file.name == files->environment, decoded = file.name.rfind("decoded/", 0) == 0;
+            std::string name = decoded ? file.name : root + folder + file.name;
+            for (int number = 1; light && files_.contains(name) && files_[name] != file.bytes; ++number) { // another light of this name
+                environment = fmt::format("{}-{}", number, files->environment);
+                name = root + folder + environment;
             }
-            if (folders_.size() == 1)
-                target_ = found.scene;
-            else if (!found.files.empty())
-                target_ = "scenes";
+            files_.insert_or_assign(std::move(name), std::move(file.bytes));
         }
-        const auto named = [&](const std::string& name) { return name.empty() || name.rfind("builtin:", 0) == 0 ? name : folder + name; };
-        return std::pair(named(found.scene), named(found.environment));
+        target_ = alone ? files->scene : files_.empty() ? "" : "scenes";
+        const auto within = [&](const std::string& name) { return name.empty() || name.rfind("builtin:", 0) == 0 ? name : folder + name; };
+        return named_[{request.scene, request.environment}] = {within(files->scene), within(environment)};
     }
 
     const std::map<std::string, std::vector<std::uint8_t>>& files() const { return files_; }
     const std::string& target() const { return target_; } // what the page's renderer serves
 
   private:
+    using Pair = std::pair<std::string, std::string>; // scene and environment
     const Limits& limits_;
-    std::map<std::pair<std::string, std::string>, PageFiles> folders_; // by scene and environment
-    std::map<std::string, std::vector<std::uint8_t>> files_;           // by name in the page
+    std::map<std::string, std::size_t> folders_; // by scene
+    std::map<Pair, Pair> named_;
+    std::map<std::string, std::vector<std::uint8_t>> files_; // by name in the page
     std::string target_;
 };
 
@@ -171,6 +175,12 @@ std::optional<DrawRequest> live_request(const OptionTable& given)
     }
     add_served(given, request);
     return request;
+}
+
+Status check_renderer(const std::string& folder)
+{
+    const Result<PageRenderer> renderer = find_renderer(folder);
+    return renderer ? Status() : Status(renderer.error());
 }
 
 Result<LiveParts> live_parts(const LiveWish& wish)

@@ -32,6 +32,9 @@ struct LiveParts {
     std::string picture; // the first row's, as PNG
 };
 
+// Returns an error without a renderer for pages, before minutes of other work.
+Status check_renderer(const std::string& folder);
+
 // Draws each row once, for its hash. Errors: those of drawing; ExitCode::unavailable without a renderer for pages.
 Result<LiveParts> live_parts(const LiveWish& wish);
 

@@ -58,7 +58,10 @@
   // Draws once more what was drawn when the page was made, and compares the bits. element: of the page that shows the picture.
   async function prove(element) {
     const { scene, environment, options, width, height, hash, command } = data.rows[names.page], body = element.ownerDocument.body;
-    while (!body.dataset.done) await new Promise(resolve => setTimeout(resolve, 100)); // the reader's picture first
+    while (!body.dataset.done) { // the reader's picture first
+      await new Promise(resolve => setTimeout(resolve, 100));
+      if (!element.isConnected || !element.ownerDocument.defaultView) return;
+    }
     try {
       const info = JSON.parse((await ask('/draw', { scene, environment, options, width, height, reduction: 1 })).headers.get('X-Burnish'));
       const same = info.hash === hash;

@@ -43,15 +43,18 @@ std::vector<Bytes> images_within(Bytes glb)
         return images;
     const auto json = nlohmann::json::parse(glb.data() + 20, glb.data() + 20 + json_size, nullptr, false);
     const Bytes binary = glb.subspan(binary_at);
-    if (!json.is_object() || !json.contains("images") || !json.contains("bufferViews"))
-        return images;
-    for (const auto& image : json["images"]) {
-        const auto view = image.value("bufferView", std::size_t{1} << 31);
-        if (view >= json["bufferViews"].size())
+    const auto number = [](const nlohmann::json& of, const char* name, std::size_t otherwise) {
+        const auto at = of.is_object() ? of.find(name) : of.end();
+        return at != of.end() && at->is_number_unsigned() ? at->get<std::size_t>() : otherwise;
+    };
+    const auto list = [&](const char* name) { return json.is_object() && json.contains(name) ? json[name] : nlohmann::json::array(); };
+    const nlohmann::json views = list("bufferViews");
+    for (const auto& image : list("images")) {
+        const std::size_t view = number(image, "bufferView", views.size());
+        if (view >= views.size() || number(views[view], "buffer", 1) != 0)
             continue;
-        const auto& place = json["bufferViews"][view];
-        const auto offset = place.value("byteOffset", std::size_t{0}), length = place.value("byteLength", std::size_t{0});
-        if (place.value("buffer", 1) == 0 && offset <= binary.size() && length <= binary.size() - offset)
+        const std::size_t offset = number(views[view], "byteOffset", 0), length = number(views[view], "byteLength", 0);
+        if (offset <= binary.size() && length <= binary.size() - offset)
             images.push_back(binary.subspan(offset, length));
     }
     return images;

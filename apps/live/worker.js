@@ -4,6 +4,7 @@
   let core = null;
   const text = string => {
     const size = core.lengthBytesUTF8(string) + 1, at = core._malloc(size);
+    if (!at) throw new RangeError('out of memory');
     core.stringToUTF8(string, at, size);
     return at;
   };
@@ -25,7 +26,7 @@
   }
 
   function answer({ path, body }) {
-    const status = with_text([path, body], core._burnish_page_ask), at = core._burnish_page_body(), size = core._burnish_page_size();
+    const status = with_text([path, body], core._burnish_page_ask), at = core._burnish_page_body() >>> 0, size = core._burnish_page_size() >>> 0;
     return { status, info: core.UTF8ToString(core._burnish_page_info()), body: core.HEAPU8.slice(at, at + size).buffer, type: 'image/bmp' };
   }
 

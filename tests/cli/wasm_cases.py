@@ -317,7 +317,12 @@ def wrong_pages(bench):
     bench.run("export", "glsl", "builtin:sphere", "--technique", "mc", "-o", "x.glsl").expect(2).expect_one_line("SCENE")
     bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
     bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
-    check(not (bench.folder / "x.html").exists() and not (bench.folder / "x.glsl").exists(), "a failure leaves a file")
+    # Before the work, not after it
+    (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": "a", "scene": "builtin:sphere"}]}))
+    bench.run("golden", "check", "m.json", "--live", "--renderer", "none").expect(77).expect_one_line("cmake --preset wasm")
+    bench.run("golden", "merge", "m.json", "--live").expect(2).expect_one_line("--live")
+    bench.run(*CHART, "--live", "--renderer", "none", "-o", "r").expect(77).expect_one_line("cmake --preset wasm")
+    check(not (bench.folder / "golden-results").exists() and not (bench.folder / "x.html").exists() and not (bench.folder / "x.glsl").exists(), "a failure leaves a file")
 
 
 CHART = ("chart", "builtin:plate", "--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "16", "--runs", "1",
@@ -352,10 +357,13 @@ def live_golden(bench):
     (bench.folder / "set").mkdir()
     shutil.copy(model, bench.folder / "set/model.glb")
     (bench.folder / "set/light.hdr").write_bytes(bench.data_file("env/workshop_1k.hdr").read_bytes())
+    (bench.folder / "set/night").mkdir()
+    bench.run("render", "builtin:plate", "--env", "builtin:night", "--size", "64x32", "--env-size", "16", "--env-samples", "16", "-o", "set/night/light.hdr").expect(0)
 
     def write(roughness):
         rows = [{"name": "ball <1>", "scene": "builtin:sphere", "options": ["--roughness", roughness]}, {"name": "same", "scene": "builtin:sphere"},
                 {"name": "model", "scene": "model.glb", "options": ["--env", "light.hdr", "--exposure", roughness]},
+                {"name": "night", "scene": "model.glb", "options": ["--env", "night/light.hdr", "--exposure", roughness]},
                 {"name": "threads", "scene": "builtin:plate", "options": ["--roughness", roughness, "--threads", "1"]},
                 {"name": "table", "scene": "builtin:lights", "options": ["--roughness", roughness, "--ltc-table", "table.ltc"]}]
         (bench.folder / "set/m.json").write_text(json.dumps({"defaults": {"options": small}, "rows": rows}))
@@ -368,11 +376,13 @@ def live_golden(bench):
     bench.run("golden", "check", "set/m.json", "--live", "--renderer", "renderer").expect(1)
     text = (bench.folder / "golden-results/index.html").read_text()
     page, files = parts_of(text)
-    check(set(page["rows"]) == {"ball <1>", "model", "threads"}, str(page["rows"]))
+    check(set(page["rows"]) == {"ball <1>", "model", "night", "threads"}, str(page["rows"]))
     for row in page["rows"].values():
         check(row["hash"] == hash_of_command(bench, row["command"]), str(row))
     check(sum(name.endswith("/model.glb") for name in files) == 1 and page["target"] == "scenes", str(list(files)))
-    check(files["scenes/" + page["rows"]["model"]["scene"]] == model.read_bytes() and "scenes/" + page["rows"]["model"]["environment"] in files, str(list(files)))
+    check(files["scenes/" + page["rows"]["model"]["scene"]] == model.read_bytes(), str(list(files)))
+    for name, path in (("model", "set/light.hdr"), ("night", "set/night/light.hdr")):  # two lights of one name
+        check(files["scenes/" + page["rows"][name]["environment"]] == (bench.folder / path).read_bytes(), f"{name}: {list(files)}")
 
 
 @case("wasm.rows_of_reports_open_in_the_page", "of_wasm", tier="nightly", budget=150)

@@ -102,6 +102,8 @@ class Burnish {
         if (text === null || text === undefined)
             return work(0);
         const size = this.#core.lengthBytesUTF8(text) + 1, at = this.#core._malloc(size);
+        if (!at)
+            throw new BurnishError("out of memory", 4);
         try {
             this.#core.stringToUTF8(text, at, size);
             return work(at);
@@ -112,9 +114,9 @@ class Burnish {
 
     /** Calls with the address of `bytes` bytes, zero at first. */
     withMemory(bytes, work) {
-        const at = this.#core._malloc(bytes);
+        const at = this.#core._malloc(bytes) >>> 0;
         if (!at)
-            throw new BurnishError("no memory", 4);
+            throw new BurnishError("out of memory", 4);
         try {
             this.#core.HEAPU8.fill(0, at, at + bytes);
             return work(at);
@@ -125,7 +127,7 @@ class Burnish {
 
     /** The pointer at an address. */
     word(at) {
-        return this.#core.HEAPU32[at >> 2];
+        return this.#core.HEAPU32[at >>> 2];
     }
 
     get core() {
@@ -208,13 +210,13 @@ class Burnish {
             throw new BurnishError(`sizes differ: ${reference.width}x${reference.height} and ${test.width}x${test.height}`, 3);
         const names = ["flip_mean", "flip_p99", "flip_max", "mse", "rel_mse", "max_abs", "differing_fraction"];
         const copied = (picture, work) => this.withMemory(picture.pixels.byteLength, (at) => {
-            this.#core.HEAPF32.set(picture.pixels, at >> 2);
+            this.#core.HEAPF32.set(picture.pixels, at >>> 2);
             return work(at);
         });
         return copied(reference, (a) => copied(test, (b) => this.withMemory(8 + 8 * names.length, (out) => {
-            this.#core.HEAPU32[out >> 2] = 8 + 8 * names.length;
+            this.#core.HEAPU32[out >>> 2] = 8 + 8 * names.length;
             this.call("compare", a, b, reference.width, reference.height, out);
-            return Object.fromEntries(names.map((name, i) => [name, this.#core.HEAPF64[(out >> 3) + 1 + i]]));
+            return Object.fromEntries(names.map((name, i) => [name, this.#core.HEAPF64[(out >>> 3) + 1 + i]]));
         })));
     }
 }
@@ -274,7 +276,7 @@ class Scene {
     setNode(which, matrix) {
         const index = this.#index("node", which);
         this.#burnish.withMemory(64, (at) => {
-            this.#burnish.core.HEAPF32.set(matrix, at >> 2);
+            this.#burnish.core.HEAPF32.set(matrix, at >>> 2);
             this.#burnish.call("set_node", this.#open, index, at);
         });
     }
@@ -312,7 +314,7 @@ class Picture {
         try {
             this.width = core._burnish_frame_width(frame);
             this.height = core._burnish_frame_height(frame);
-            const floats = (at, channels) => core.HEAPF32.slice(at >> 2, (at >> 2) + channels * this.width * this.height);
+            const floats = (at, channels) => core.HEAPF32.slice(at >>> 2, (at >>> 2) + channels * this.width * this.height);
             /** 3 floats a pixel by rows from the top: linear Rec.709 radiance. */
             this.pixels = floats(core._burnish_frame_pixels(frame), 3);
             /** 16 hexadecimal digits, equal on every machine. */
