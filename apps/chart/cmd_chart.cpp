@@ -1,4 +1,5 @@
 // `burnish chart`: speed and errors of every technique, as figures, charts and a page.
+#include <algorithm>
 #include <fmt/core.h>
 #include <memory>
 #include <set>
@@ -39,14 +40,40 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
     return count;
 }
 
+// True if the page can draw the rows: no option reads a further file.
+bool pages_can_draw(const OptionTable& given)
+{
+    RenderArguments arguments;
+    OptionTable render = render_option_table(arguments);
+    for (const Option& option : given.options()) {
+        const Option* const of_render = render.find(option.name);
+        if (option.given && !option.positional() && of_render && !is_served(*of_render) && option.group != "Machine" &&
+            option.group != "Output" && option.group != "Measurements" && option.name != "--size")
+            return false;
+    }
+    return true;
+}
+
+// Returns the options without those that a later one replaces. Lights add up.
+std::vector<std::pair<std::string, std::string>> last_of_each(const std::vector<std::pair<std::string, std::string>>& options)
+{
+    std::vector<std::pair<std::string, std::string>> kept;
+    for (auto at = options.begin(); at != options.end(); ++at)
+        if (at->first == "--light" || std::none_of(at + 1, options.end(), [&](const auto& later) { return later.first == at->first; }))
+            kept.push_back(*at);
+    return kept;
+}
+
 // Returns the scripts that draw the rows anew in the page.
-Result<std::string> live_html(const ChartReport& chart, const ChartOptions& options, const OptionTable& given)
+std::string live_html(const ChartReport& chart, const ChartOptions& options, const OptionTable& given, Report& report)
 {
     LiveWish wish;
     wish.renderer_folder = options.renderer, wish.limits = options.base.limits, wish.threads = options.base.threads;
     for (const ChartRow& row : chart.rows) {
         DrawRequest request;
         request.scene = row.scene, request.environment = row.env, request.width = chart.error_width, request.height = chart.error_height;
+        for (const auto& [name, value] : {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}})
+            request.options.emplace_back(name, value); // as charts have them; the last value of a name counts
         add_served(given, request);
         request.options.emplace_back("--technique", row.setting.technique);
         if (row.setting.sampled)
@@ -57,15 +84,16 @@ Result<std::string> live_html(const ChartReport& chart, const ChartOptions& opti
             request.options.emplace_back("--anisotropy", fmt::format("{}", *row.cell.anisotropy));
         for (const auto& [name, value] : row.cell.others)
             request.options.emplace_back("--" + name, value);
-        for (const auto& [name, value] :
-             {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}}) // as the chart has them
-            if (!given.given(name))
-                request.options.emplace_back(name, value);
+        request.options = last_of_each(request.options);
         wish.rows.push_back({row.key, std::move(request)});
     }
-    Result<LiveParts> parts = live_parts(wish);
-    BN_TRY(parts);
-    return std::move(parts->html);
+    const Result<LiveParts> parts = pages_can_draw(given) ? live_parts(wish) : Result<LiveParts>(LiveParts{});
+    if (!parts || parts->html.empty() || !parts->left_out.empty())
+        report.warning("--live: the page cannot draw " + std::string(parts && !parts->html.empty() ? "some rows" : "the rows") +
+                       (!parts                    ? ": " + parts.error().line()
+                        : parts->left_out.empty() ? ": an option reads a file"
+                                                  : ": " + parts->left_out.front().second.line()));
+    return parts ? parts->html : "";
 }
 
 Status write_report(const ChartReport& chart, const std::string& live, const ChartCheckpoint& checkpoint, Report& report)
@@ -124,10 +152,8 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     if (const std::optional<double> others = chart.machine.others; others.value_or(0.0) > kBusy)
         report.warning(
             fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));
-    const Result<std::string> live = options.live ? live_html(chart, options, given) : std::string();
-    if (!live)
-        return fail(live.error());
-    if (const Status written = write_report(chart, *live, *checkpoint, report); !written)
+    const std::string live = options.live ? live_html(chart, options, given, report) : "";
+    if (const Status written = write_report(chart, live, *checkpoint, report); !written)
         return fail(written.error());
     if (const std::uint64_t bad = pictures_with_nan(chart))
         return fail(

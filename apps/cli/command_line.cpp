@@ -195,6 +195,7 @@ Status read_command_line(Command& command, const std::vector<std::string>& words
         options[i].given = !given.texts[i].empty();
         if (!options[i].given)
             continue;
+        options[i].texts = given.texts[i];
         if (const Status set = options[i].value.set(options[i].name, given.texts[i]); !set)
             return set;
     }

@@ -124,7 +124,7 @@ Status OptionTable::set_all(const std::string& name, const std::vector<std::stri
     Option* option = find(name);
     if (!option)
         return usage_error(name, "is no option");
-    option->given = true;
+    option->given = true, option->texts = texts;
     return option->value.set(option->name, texts);
 }
 

@@ -34,6 +34,7 @@ struct Option {
     std::string name, value_name, help, group; // name: "--output"
     char letter = '\0';                        // 'o'
     Value value;
+    std::vector<std::string> texts{}; // as given, one for each occurrence
     std::optional<std::string> initial;
     std::string needed_option, needed_value; // giving this option is an error unless needed_option has needed_value
     bool required = false, given = false, output = false;

@@ -43,6 +43,8 @@ constexpr const char* kHeading = R"(// {0}: {1}
 // to those of burnish; #define precise leaves it out for speed. --samples was {3}.
 )";
 
+constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
+
 struct ExportArguments {
     std::string what = "glsl", technique = "major_axis", output;
     int samples = 0; // 0: the technique's default
@@ -79,6 +81,9 @@ OptionTable export_option_table(ExportArguments& to)
     for (const Option& option : picture.options())
         if (option.needed_option.empty() && (option.name == "--env" || (is_served(option) && !table.find(option.name))))
             rows.push_back(option);
+    for (Option& row : rows)
+        if (row.name == "--env-size")
+            row.initial = kUsualCube;
     table.add_needing("WHAT", "page", rows);
     table.add("Output", {Option("-o,--output", "FILE", "File to write; - for standard output", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
@@ -114,37 +119,40 @@ Result<std::string> glsl_text(const ExportArguments& arguments, const OptionTabl
 // Returns what a page shows first: the options that were given.
 DrawRequest request_of(const ExportArguments& arguments, const OptionTable& given)
 {
-    constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
     DrawRequest request;
     request.scene = arguments.scene, request.width = arguments.size.width, request.height = arguments.size.height;
     if (!given.given("--env-size"))
         request.options.emplace_back("--env-size", kUsualCube);
     for (const Option& option : given.options())
         if (option.given && option.name == "--env")
-            request.environment = option.value.get();
+            request.environment = option.texts.back();
     add_served(given, request);
     return request;
 }
 
-Result<std::string> exported_page(const ExportArguments& arguments, const OptionTable& given)
+Result<std::string> exported_page(const ExportArguments& arguments, const OptionTable& given, Report& report)
 {
     if (arguments.scene.empty())
         return usage_error("SCENE", "is missing: a .gltf, .glb or .obj file, or builtin:NAME");
     LiveWish wish;
     wish.rows = {{"page", request_of(arguments, given)}}, wish.renderer_folder = arguments.renderer;
-    return live_page(wish);
+    Result<LiveParts> page = live_page(wish);
+    BN_TRY(page);
+    for (const std::string& warning : page->warnings)
+        report.warning(warning);
+    return std::move(page->html);
 }
 
 int run_export(const ExportArguments& arguments, const OptionTable& given)
 {
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
-    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given) : glsl_text(arguments, given);
+    Report report(arguments.quiet, arguments.verbosity);
+    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given, report) : glsl_text(arguments, given);
     if (!text)
         return fail(text.error());
     if (Status written = write_text(arguments.output, *text); !written)
         return fail(written.error());
-    Report report(arguments.quiet, arguments.verbosity);
     report.release();
     report.wrote(arguments.output);
     return 0;

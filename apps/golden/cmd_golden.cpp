@@ -125,20 +125,23 @@ std::optional<DrawRequest> request_of(const GoldenRow& row, const std::string& f
 }
 
 // Returns the scripts that draw anew the rows that differ.
-Result<std::string> live_html(const std::vector<GoldenResult>& results, const GoldenManifest& manifest, const GoldenArguments& arguments)
+std::string live_html(const std::vector<GoldenResult>& results, const GoldenManifest& manifest, const GoldenArguments& arguments,
+                      Report& report)
 {
+    constexpr std::size_t kMostRows = 100; // as many as have sliders
     LiveWish wish;
     wish.renderer_folder = arguments.renderer, wish.limits = arguments.input;
     for (const GoldenRow& row : manifest.rows)
         for (const GoldenResult& result : results)
-            if (result.name == row.name && result.verdict == GoldenVerdict::differs)
+            if (result.name == row.name && result.verdict == GoldenVerdict::differs && wish.rows.size() < kMostRows)
                 if (std::optional<DrawRequest> request = request_of(row, manifest.folder))
                     wish.rows.push_back({row.name, std::move(*request)});
-    if (wish.rows.empty())
-        return std::string();
-    Result<LiveParts> parts = live_parts(wish);
-    BN_TRY(parts);
-    return std::move(parts->html);
+    const Result<LiveParts> parts = live_parts(wish);
+    if (!parts)
+        report.warning("--live: " + parts.error().line());
+    for (const auto& [name, error] : parts ? parts->left_out : decltype(parts->left_out)())
+        report.warning(fmt::format("--live: the page cannot draw '{}': {}", printable(name), error.line()));
+    return parts ? parts->html : "";
 }
 
 // Writes the reports, also for GitHub, and puts all files into place. Returns the exit code. live: as golden_page() takes it.
@@ -204,10 +207,8 @@ int check(const GoldenArguments& arguments, Report& report)
     });
     if (*setting.stop)
         return 128 + stop_signal();
-    const Result<std::string> live = arguments.live ? live_html(results, *manifest, arguments) : std::string();
-    if (!live)
-        return fail(live.error());
-    return conclude(std::move(results), *live, fresh, arguments, report);
+    const std::string live = arguments.live ? live_html(results, *manifest, arguments, report) : "";
+    return conclude(std::move(results), live, fresh, arguments, report);
 }
 
 // Reads names, one a line, as they are or as JSON texts.

@@ -1,11 +1,13 @@
 #include "apps/live/live.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/report.h"
 #include "apps/live/assets.h"
 #include "apps/live/page_files.h"
 #include "apps/render/stats.h"
@@ -18,6 +20,7 @@
 #include "core/base/version.h"
 #include "core/image/io/image_io.h"
 #include "core/image/io/inflate.h"
+#include "core/image/io/jpeg_watch.h"
 
 namespace burnish {
 namespace {
@@ -85,12 +88,21 @@ void replace(std::string& text, const std::string& what, const std::string& with
     text.replace(at, what.size(), with);
 }
 
+// Returns a name for a quoted attribute, byte by byte.
+std::string attribute(const std::string& name)
+{
+    std::string out;
+    for (const char c : name)
+        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    return out;
+}
+
 // Returns the options as a page's state holds them.
 Json options_json(const DrawRequest& request)
 {
     Json options = Json::object();
     for (const auto& [name, value] : request.options)
-        options[name] = options.contains(name) ? options[name].get<std::string>() + ";" + value : value; // several lights
+        options[name] = name == "--light" && options.contains(name) ? options[name].get<std::string>() + ";" + value : value;
     return options;
 }
 
@@ -101,6 +113,11 @@ class Names {
     {
         for (const LiveRow& row : wish.rows)
             folders_.emplace(row.request.scene, folders_.size());
+        const auto file = [](const std::string& name) { return !name.empty() && name.rfind("builtin:", 0) != 0; };
+        const DrawRequest& first = wish.rows.front().request;
+        alone_ = folders_.size() == 1 && (file(first.scene) || std::none_of(wish.rows.begin(), wish.rows.end(), [&](const LiveRow& row) {
+                                              return file(row.request.environment);
+                                          }));
     }
 
     // Returns the names of the request's scene and environment. read: their files.
@@ -111,24 +128,23 @@ class Names {
             return found->second;
         Result<PageFiles> files = page_files(request.scene, request.environment, read, limits_);
         BN_TRY(files);
-        const bool alone = folders_.size() == 1;
-        const std::string folder = alone ? "" : fmt::format("{}/", folders_[request.scene]), root = alone ? "" : "scenes/";
+        const std::string folder = alone_ ? "" : fmt::format("{}/", folders_[request.scene]), root = alone_ ? "" : "scenes/";
         std::string environment = files->environment;
         for (PageFile& file : files->files) {
-            const bool light = file.name == files->environment, decoded = file.name.rfind("decoded/", 0) == 0;
-            std::string name = decoded ? file.name : root + folder + file.name;
+            const bool light = file.name == files->environment;
+            std::string name = root + folder + file.name;
             for (int number = 1; light && files_.contains(name) && files_[name] != file.bytes; ++number) { // another light of this name
                 environment = fmt::format("{}-{}", number, files->environment);
                 name = root + folder + environment;
             }
             files_.insert_or_assign(std::move(name), std::move(file.bytes));
         }
-        target_ = alone ? files->scene : files_.empty() ? "" : "scenes";
+        target_ = alone_ ? files->scene : files_.empty() ? "" : "scenes";
         const auto within = [&](const std::string& name) { return name.empty() || name.rfind("builtin:", 0) == 0 ? name : folder + name; };
         return named_[{request.scene, request.environment}] = {within(files->scene), within(environment)};
     }
 
-    const std::map<std::string, std::vector<std::uint8_t>>& files() const { return files_; }
+    std::map<std::string, std::vector<std::uint8_t>>& files() { return files_; }
     const std::string& target() const { return target_; } // what the page's renderer serves
 
   private:
@@ -138,6 +154,7 @@ class Names {
     std::map<Pair, Pair> named_;
     std::map<std::string, std::vector<std::uint8_t>> files_; // by name in the page
     std::string target_;
+    bool alone_ = false; // one scene: the page serves its file, else a folder of scenes
 };
 
 } // namespace
@@ -152,7 +169,8 @@ void add_served(const OptionTable& given, DrawRequest& to)
     };
     for (const Option& option : given.options())
         if (option.given && served(option.name))
-            to.options.emplace_back(option.name, option.takes_value() ? option.value.get() : "");
+            for (const std::string& text : option.value.repeated ? option.texts : std::vector{option.texts.back()})
+                to.options.emplace_back(option.name, text);
 }
 
 std::optional<DrawRequest> live_request(const OptionTable& given)
@@ -160,9 +178,9 @@ std::optional<DrawRequest> live_request(const OptionTable& given)
     DrawRequest request;
     request.width = 1280, request.height = 720; // as `burnish render` has them
     for (const Option& option : given.options()) {
-        const std::string value = option.given && option.takes_value() ? option.value.get() : "";
         if (!option.given || is_served(option) || option.group == "Machine")
             continue;
+        const std::string value = option.texts.back();
         if (option.name == "SCENE")
             request.scene = value;
         else if (option.name == "--env")
@@ -177,6 +195,49 @@ std::optional<DrawRequest> live_request(const OptionTable& given)
     return request;
 }
 
+namespace {
+
+// Returns an error for a picture that pages do not draw.
+Status check_picture(const DrawRequest& request)
+{
+    constexpr int kMostSide = 4096;
+    constexpr std::int64_t kMostSamples = 1 << 25; // of memory with 32 bits
+    std::int64_t msaa = 8;
+    for (const auto& [name, value] : request.options)
+        if (name == "--msaa")
+            msaa = std::atoi(value.c_str());
+        else if (name == "--light" && value.find("texture=") != std::string::npos)
+            return usage_error(name, "texture= names a file, which a page cannot read");
+    if (request.width > kMostSide || request.height > kMostSide)
+        return usage_error("--size", fmt::format("pages draw at most {} pixels along a side", kMostSide));
+    if (msaa * request.width * request.height > kMostSamples)
+        return usage_error("--size", fmt::format("pages draw at most {} samples: width x height x --msaa", kMostSamples));
+    return {};
+}
+
+// Draws a row, and adds it to the page.
+Status add_row(const std::string& key, const DrawRequest& request, Drawings& drawings, Names& names, Json& rows, LiveParts& out)
+{
+    BN_TRY(check_picture(request));
+    const Result<std::shared_ptr<const Drawn>> drawn = drawings.draw(request, {});
+    BN_TRY(drawn);
+    const auto named = names.of(request, (*drawn)->files);
+    BN_TRY(named);
+    Result<std::string> picture = out.picture.empty() ? encode_png(shown_picture(**drawn)) : Result<std::string>(std::string());
+    BN_TRY(picture);
+    if (out.picture.empty())
+        out.picture = std::move(*picture);
+    for (const std::string& warning : (*drawn)->warnings)
+        if (std::find(out.warnings.begin(), out.warnings.end(), warning) == out.warnings.end())
+            out.warnings.push_back(warning);
+    rows[key] = {{"scene", named->first},         {"environment", named->second}, {"options", options_json(request)},
+                 {"width", request.width},        {"height", request.height},     {"hash", hash_text((*drawn)->rendered.figures.hash)},
+                 {"command", command_of(request)}};
+    return {};
+}
+
+} // namespace
+
 Status check_renderer(const std::string& folder)
 {
     const Result<PageRenderer> renderer = find_renderer(folder);
@@ -190,32 +251,26 @@ Result<LiveParts> live_parts(const LiveWish& wish)
     const Result<std::string> worker = worker_text(*renderer);
     BN_TRY(worker);
     LiveParts out;
+    if (wish.rows.empty())
+        return out;
+    const JpegWatch watch;
     Drawings drawings(wish.limits, wish.threads);
     Names names(wish);
     Json rows = Json::object();
-    for (const auto& [key, request] : wish.rows) {
-        const Result<std::shared_ptr<const Drawn>> drawn = drawings.draw(request, {});
-        BN_TRY(drawn);
-        const auto named = names.of(request, (*drawn)->files);
-        BN_TRY(named);
-        const auto& [scene, environment] = *named;
-        rows[key] = {{"scene", scene},
-                     {"environment", environment},
-                     {"options", options_json(request)},
-                     {"width", request.width},
-                     {"height", request.height},
-                     {"hash", hash_text((*drawn)->rendered.figures.hash)},
-                     {"command", command_of(request)}};
-        if (!out.picture.empty())
-            continue;
-        Result<std::string> picture = encode_png(shown_picture(**drawn));
-        BN_TRY(picture);
-        out.picture = std::move(*picture);
+    for (const auto& [key, request] : wish.rows)
+        if (const Status added = add_row(key, request, drawings, names, rows, out); !added)
+            out.left_out.emplace_back(key, added.error());
+    if (rows.empty())
+        return out;
+    for (const auto& [hash, image] : watch.images()) {
+        const Result<std::string> png = encode_png(image);
+        BN_TRY(png);
+        names.files()[fmt::format("decoded/{:016x}.png", hash)] = {png->begin(), png->end()};
     }
     const Json page = {{"version", version()}, {"target", names.target()}, {"rows", rows}};
     out.html = fmt::format("<script type=\"application/json\" id=\"burnish-page\">{}</script>\n", script_json(page));
     for (const auto& [name, bytes] : names.files())
-        out.html += fmt::format("<script type=\"text/plain\" class=\"burnish-file\" data-name=\"{}\">{}</script>\n", escaped(name),
+        out.html += fmt::format("<script type=\"text/plain\" class=\"burnish-file\" data-name=\"{}\">{}</script>\n", attribute(name),
                                 packed(bytes.data(), bytes.size()));
     out.html += fmt::format("<script type=\"text/plain\" id=\"burnish-wasm\">{}</script>\n",
                             packed(renderer->module.data(), renderer->module.size()));
@@ -227,14 +282,17 @@ Result<LiveParts> live_parts(const LiveWish& wish)
     return out;
 }
 
-Result<std::string> live_page(const LiveWish& wish)
+Result<LiveParts> live_page(const LiveWish& wish)
 {
     Result<LiveParts> parts = live_parts(wish);
     BN_TRY(parts);
+    if (!parts->left_out.empty())
+        return parts->left_out.front().second;
     std::string text(kServePage.bytes, kServePage.size);
     replace(text, "<script>\n'use strict';\n", parts->html + "<script>\n'use strict';\n");
     replace(text, "<img id=\"a\"", fmt::format("<img id=\"a\" src=\"data:image/png;base64,{}\"", base64(parts->picture)));
-    return text;
+    parts->html = std::move(text);
+    return parts;
 }
 
 } // namespace burnish

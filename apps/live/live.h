@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/serve/request.h"
@@ -30,15 +31,18 @@ struct LiveWish {
 struct LiveParts {
     std::string html;    // scripts, for the end of the page: renderer, scenes, window.burnish_live
     std::string picture; // the first row's, as PNG
+    std::vector<std::string> warnings{};
+    std::vector<std::pair<std::string, Error>> left_out{}; // keys of rows that a page cannot draw, and why
 };
 
 // Returns an error without a renderer for pages, before minutes of other work.
 Status check_renderer(const std::string& folder);
 
-// Draws each row once, for its hash. Errors: those of drawing; ExitCode::unavailable without a renderer for pages.
+// Draws each row once, for its hash. Without any row that a page can draw, `html` is empty. Errors: ExitCode::unavailable without a
+// renderer for pages.
 Result<LiveParts> live_parts(const LiveWish& wish);
 
-// Returns the page of `burnish serve` with one row inside: a file that anybody can open or host.
-Result<std::string> live_page(const LiveWish& wish);
+// Returns the page of `burnish serve` with one row inside, as `html`: a file that anybody can open or host. Errors: those of the row too.
+Result<LiveParts> live_page(const LiveWish& wish);
 
 } // namespace burnish

@@ -1,79 +1,69 @@
 #include "apps/live/page_files.h"
 
-#include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <span>
+#include <string_view>
 
+#include "apps/cli/outputs.h"
 #include "core/base/file.h"
-#include "core/base/hash.h"
+#include "core/base/text.h"
 #include "core/image/io/image_io.h"
 
 namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::span<const std::uint8_t>;
-
-constexpr std::uint64_t kMostBytes = 1ull << 30; // of one file
+constexpr std::uint64_t kMostBytes = 256ull << 20; // of a page's files
 
 bool is_builtin(const std::string& name)
 {
     return name.rfind("builtin:", 0) == 0;
 }
 
-std::uint32_t word_at(Bytes bytes, std::size_t at)
+// Returns an error for a model in a form that pages do not read.
+Status check_model(const PageFile& file)
 {
-    std::uint32_t word = 0;
-    if (at + 4 <= bytes.size())
-        std::memcpy(&word, bytes.data() + at, 4);
-    return word;
-}
-
-// Returns the images of a .glb file that lie in its own binary chunk. The file has been read once without a fault.
-std::vector<Bytes> images_within(Bytes glb)
-{
-    constexpr std::uint32_t kMagic = 0x46546c67; // "glTF"
-    std::vector<Bytes> images;
-    const std::size_t json_size = word_at(glb, 12), binary_at = 20 + json_size + 8;
-    if (word_at(glb, 0) != kMagic || binary_at > glb.size())
-        return images;
-    const auto json = nlohmann::json::parse(glb.data() + 20, glb.data() + 20 + json_size, nullptr, false);
-    const Bytes binary = glb.subspan(binary_at);
-    const auto number = [](const nlohmann::json& of, const char* name, std::size_t otherwise) {
-        const auto at = of.is_object() ? of.find(name) : of.end();
-        return at != of.end() && at->is_number_unsigned() ? at->get<std::size_t>() : otherwise;
-    };
-    const auto list = [&](const char* name) { return json.is_object() && json.contains(name) ? json[name] : nlohmann::json::array(); };
-    const nlohmann::json views = list("bufferViews");
-    for (const auto& image : list("images")) {
-        const std::size_t view = number(image, "bufferView", views.size());
-        if (view >= views.size() || number(views[view], "buffer", 1) != 0)
-            continue;
-        const std::size_t offset = number(views[view], "byteOffset", 0), length = number(views[view], "byteLength", 0);
-        if (offset <= binary.size() && length <= binary.size() - offset)
-            images.push_back(binary.subspan(offset, length));
-    }
-    return images;
-}
-
-// Appends the picture of a JPEG file as PNG, unless it is there.
-Status add_decoded(Bytes file, const std::string& label, const Limits& limits, std::vector<PageFile>& to)
-{
-    if (file.size() < 3 || file[0] != 0xff || file[1] != 0xd8 || file[2] != 0xff)
+    const std::string_view text(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+    const std::size_t from = text.find("\"extensionsUsed\"");
+    if (from == text.npos || file.name.ends_with(".bin"))
         return {};
-    const std::string name = fmt::format("decoded/{:016x}.png", hash_bytes(file.data(), file.size(), 0));
-    if (std::any_of(to.begin(), to.end(), [&](const PageFile& other) { return other.name == name; }))
-        return {};
-    const Result<Image> image = decode_image(file.data(), file.size(), label, limits, nullptr);
-    BN_TRY(image);
-    const Result<std::string> png = encode_png(*image);
-    BN_TRY(png);
-    to.push_back({name, {png->begin(), png->end()}});
+    const std::string_view list = text.substr(from, text.find(']', from) - from);
+    for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp"})
+        if (list.find(extension) != list.npos)
+            return Error{ExitCode::bad_input, file.name, "extensionsUsed", fmt::format("pages do not read {}", extension)};
     return {};
+}
+
+// Returns an environment as pages read it: Radiance files as they are, others as the floats of a .pfm file.
+Result<PageFile> light_file(const fs::path& path, const Limits& limits)
+{
+    PageFile file{path.filename().string(), {}};
+    const std::string ending = extension_of(path.string());
+    if (ending == "hdr" || ending == "pfm") {
+        Result<std::vector<std::uint8_t>> bytes = read_file(path.string(), kMostBytes);
+        BN_TRY(bytes);
+        file.bytes = std::move(*bytes);
+        return file;
+    }
+    if (ending != "exr")
+        return Error{ExitCode::bad_input, path.string(), "", "pages take .hdr, .exr and .pfm files as environments"};
+    PictureNotes notes;
+    const Result<Image> image = read_colours(path.string(), limits, notes);
+    BN_TRY(image);
+    if (notes.cube_faces || image->channels < 3 || image->type != PixelType::f32)
+        return Error{ExitCode::bad_input, path.string(), "", "pages take equirectangular pictures of three channels as environments"};
+    const std::string head = fmt::format("PF\n{} {}\n-1.0\n", image->width, image->height);
+    file.name = path.stem().string() + ".pfm";
+    file.bytes.assign(head.begin(), head.end());
+    for (int y = image->height - 1; y >= 0; --y)
+        for (int x = 0; x < image->width; ++x) {
+            const float* const pixel =
+                image->f32() + (std::size_t(y) * std::size_t(image->width) + std::size_t(x)) * std::size_t(image->channels);
+            const auto* const bytes = reinterpret_cast<const std::uint8_t*>(pixel);
+            file.bytes.insert(file.bytes.end(), bytes, bytes + 3 * sizeof(float));
+        }
+    return file;
 }
 
 } // namespace
@@ -107,19 +97,18 @@ Result<PageFiles> page_files(const std::string& scene, const std::string& enviro
         }
     }
     if (apart) { // beside the scene, where the page looks for it
-        Result<std::vector<std::uint8_t>> bytes = read_file(light.string(), kMostBytes);
-        BN_TRY(bytes);
-        out.environment = light.filename().string();
-        out.files.push_back({out.environment, std::move(*bytes)});
+        Result<PageFile> file = light_file(light, limits);
+        BN_TRY(file);
+        out.environment = file->name;
+        out.files.push_back(std::move(*file));
     }
-    std::vector<PageFile> decoded;
+    std::uint64_t all = 0;
     for (const PageFile& file : out.files) {
-        BN_TRY(add_decoded(file.bytes, file.name, limits, decoded));
-        for (const Bytes image : images_within(file.bytes))
-            BN_TRY(add_decoded(image, file.name, limits, decoded));
+        BN_TRY(check_model(file));
+        all += file.bytes.size();
     }
-    for (PageFile& file : decoded)
-        out.files.push_back(std::move(file));
+    if (all > kMostBytes)
+        return Error{ExitCode::bad_input, scene, "", "the scene's files are too large for the memory of a page"};
     return out;
 }
 

@@ -19,8 +19,7 @@ struct PageFiles {
     std::string scene, environment; // names of files, or builtin:NAME; environment "": the scene's own light
 };
 
-// Reads what a scene was read from. `read`: those files, the scene's included. JPEG images come decoded by libjpeg too, as PNG files in the
-// folder "decoded": other decoders may differ by a step. Errors: ExitCode::bad_input.
+// Reads the files of a scene and its environment. `read`: their paths. Errors: ExitCode::bad_input, also for a form that pages do not read.
 Result<PageFiles> page_files(const std::string& scene, const std::string& environment, const std::vector<std::string>& read,
                              const Limits& limits);
 

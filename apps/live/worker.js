@@ -30,13 +30,16 @@
     return { status, info: core.UTF8ToString(core._burnish_page_info()), body: core.HEAPU8.slice(at, at + size).buffer, type: 'image/bmp' };
   }
 
+  let lost = false;  // after a trap, what the module holds can no longer be trusted
   onmessage = async ({ data }) => {
     try {
+      if (lost) throw new Error('The renderer ended. Load the page again.');
       const out = data.wasm ? await begin(data) : answer(data);
       postMessage({ id: data.id, ...out }, out.body ? [out.body] : []);
     } catch (fault) {
-      const large = fault instanceof RangeError || /memory|OOM/.test(fault.message);
-      postMessage({ id: data.id, error: large ? 'The scene is too large for the memory of a page.' : fault.message });
+      const text = String((fault && fault.message) || fault), large = fault instanceof RangeError || /memory access|OOM|out of memory/.test(text);
+      lost ||= !data.wasm;
+      postMessage({ id: data.id, error: large ? 'The scene is too large for the memory of a page. Load the page again.' : text });
     }
   };
 })();

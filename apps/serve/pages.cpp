@@ -151,7 +151,8 @@ class Pages::Answers {
                 {"options", served_options(render_option_table(arguments))},
                 {"watch", setting_.watch},
                 {"save", !setting_.output_folder.empty()},
-                {"reference", reference_available()}};
+                {"reference", reference_available()},
+                {"most_samples", kMaxPictureSamples}};
     }
 
     Status picture(HttpResponse& response, const Image& image, const Json& info) const

@@ -5,6 +5,7 @@
 #include <emscripten/emscripten.h>
 
 #include "apps/serve/pages.h"
+#include "core/base/exception.h"
 
 namespace burnish {
 namespace {
@@ -29,8 +30,11 @@ Result<std::string> encode_bmp(const Image& image)
         for (std::size_t x = 0; x < width; ++x) {
             const char* const from = pixels + ((height - 1 - y) * width + x) * channels;
             char* const to = &file[kHead + y * row + 3 * x];
-            for (std::size_t c = 0; c < 3; ++c)
-                to[c] = from[channels < 3 ? 0 : 2 - c];
+            for (std::size_t c = 0; c < 3; ++c) {
+                const unsigned value = static_cast<unsigned char>(from[channels < 3 ? 0 : 2 - c]);
+                const unsigned alpha = channels == 4 ? static_cast<unsigned char>(from[3]) : 255; // over black, as the page's ground is
+                to[c] = static_cast<char>((value * alpha + 127) / 255);
+            }
         }
     return file;
 }
@@ -57,13 +61,18 @@ extern "C" EMSCRIPTEN_KEEPALIVE const char* burnish_page_open(const char* target
     using namespace burnish;
     Page& p = page();
     p.pages.reset();
-    p.setting.target = target, p.setting.threads = 1;
-    p.setting.encode = encode_bmp, p.setting.picture_type = "image/bmp";
-    Result<ServedLists> lists = served_lists(p.setting.target);
-    if (!lists)
-        return (p.info = lists.error().line()).c_str();
-    p.pages = std::make_unique<Pages>(p.setting, std::move(*lists));
-    return "";
+    try {
+        p.setting.target = target, p.setting.threads = 1;
+        p.setting.encode = encode_bmp, p.setting.picture_type = "image/bmp";
+        Result<ServedLists> lists = served_lists(p.setting.target);
+        if (!lists)
+            return (p.info = lists.error().line()).c_str();
+        p.pages = std::make_unique<Pages>(p.setting, std::move(*lists));
+        return "";
+    } catch (...) {
+        p.info = error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}).line();
+        return p.info.c_str();
+    }
 }
 
 // Answers a question. Returns the answer's status. burnish_page_body, _size and _info then hold the answer until the next question.

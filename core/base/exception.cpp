@@ -17,9 +17,11 @@ Error error_of_exception(Error error)
     } catch (const std::bad_alloc&) {
         error.code = ExitCode::bad_input, error.reason = "out of memory";
         return error;
-    } catch (const std::length_error&) { // a size beyond what 32 bits address
+#ifdef __EMSCRIPTEN__
+    } catch (const std::length_error&) { // a size beyond 32 bits
         error.code = ExitCode::bad_input, error.reason = "out of memory";
         return error;
+#endif
     } catch (const Stopped&) {
         return Error{ExitCode::stopped, error.file, "", "stopped"};
     } catch (const std::system_error& thrown) {

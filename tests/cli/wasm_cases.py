@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import struct
 import subprocess
+import time
 import zlib
 
 from browser import Browser
@@ -83,6 +84,51 @@ def draws_the_bits(bench):
         check(found["length"] == 160 * 90 * 3 and found["rgba"][3] == 255, f"{scene}: {found}")
 
 
+def png(width, height, depth, colour, rows, *chunks):
+    """A PNG file of rows of bytes."""
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    head = struct.pack(">IIBBBBB", width, height, depth, colour, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + b"".join(chunk(*one) for one in chunks) + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows))) + chunk(b"IEND", b"")
+
+
+def masked(image):
+    """A glTF text: a square whose base colour is an image, cut out by its alpha."""
+    square = struct.pack("<30f", *(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0), *(0, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0))
+    return json.dumps({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}], "images": [image], "textures": [{"source": 0}],
+                       "buffers": [{"uri": "data:application/octet-stream;base64," + base64.b64encode(square).decode(), "byteLength": 120}],
+                       "bufferViews": [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 48}],
+                       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+                                     {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"}],
+                       "materials": [{"alphaMode": "MASK", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+                       "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}]})
+
+
+@case("wasm.png_files_of_all_kinds_give_the_program_s_texels", "of_wasm", tier="nightly", budget=60)
+def all_png(bench):
+    steps = [[(40 * x + 10 * y) % 256 for x in range(6)] for y in range(5)]
+    wide = [[(9000 * x + 3000 * y) % 65536 for x in range(6)] for y in range(5)]
+    images = {
+        "grey": png(6, 5, 8, 0, [bytes(row) for row in steps]),
+        "grey_cut": png(6, 5, 8, 0, [bytes(row) for row in steps], (b"tRNS", struct.pack(">H", 40))),
+        "grey_wide_cut": png(6, 5, 16, 0, [struct.pack(">6H", *row) for row in wide], (b"tRNS", struct.pack(">H", 9000))),
+        "grey_2_bits": png(8, 2, 2, 0, [b"\x1b\x1b", b"\xe4\xe4"], (b"tRNS", struct.pack(">H", 2))),
+        "grey_alpha": png(3, 5, 8, 4, [bytes(row) for row in steps]),
+        "colour_cut": png(2, 5, 8, 2, [bytes(row) for row in steps], (b"tRNS", struct.pack(">3H", 0, 40, 80))),
+        "colour_wide_cut": png(2, 5, 16, 2, [struct.pack(">6H", *row) for row in wide], (b"tRNS", struct.pack(">3H", 0, 9000, 18000))),
+        "palette": png(6, 5, 8, 3, [bytes(x % 3 for x in row) for row in steps], (b"PLTE", bytes((255, 0, 0, 0, 200, 0, 9, 9, 250))), (b"tRNS", bytes((255, 0, 90)))),
+        "palette_4_bits": png(4, 2, 4, 3, [b"\x01\x21", b"\x12\x10"], (b"PLTE", bytes((255, 0, 0, 0, 200, 0, 9, 9, 250))))}
+    scenes = []
+    for name, content in images.items():
+        (bench.folder / f"{name}.png").write_bytes(content)
+        (bench.folder / f"{name}.gltf").write_text(masked({"uri": f"{name}.png"}))
+        scenes.append((str(bench.folder / f"{name}.gltf"), {"env_size": 16, "env_samples": 16}, {"width": 48, "height": 48}))
+    hashes = [json.loads(line)["hash"] for line in node(bench, DRAW, json.dumps(scenes)).splitlines()]
+    for name, found in zip(images, hashes):
+        check(found == program_hash(bench, f"{name}.gltf", "--env-size", "16", "--env-samples", "16", "--size", "48x48", "--msaa", "8"), f"{name}: node draws {found}")
+    check(len(set(hashes)) == len(images), "two images look alike")
+
+
 @case("wasm.failures_are_exceptions_with_the_program_s_codes", "of_wasm", tier="nightly", budget=60)
 def failures(bench):
     script = """
@@ -92,7 +138,8 @@ const calls = {
     size: () => scene.render({ width: 0 }), name: () => scene.render({ nonsense: 1 }), model: () => library.open(new Uint8Array([1, 2, 3, 4])),
     builtin: () => library.open("builtin:none"), path: () => library.open("gone.glb"), outside: () => library.open("builtin:sphere", { files: { "../x": new Uint8Array(1) } }),
     light: () => library.open("builtin:sphere", { environment: new Uint8Array(9) }), material: () => scene.setMaterial("gone", {}), sizes: () => library.compare(picture, scene.render({ width: 9, height: 8 })),
-    stopped: () => library.open("builtin:teapot", { env_size: 512, progress: () => true }), kind: () => library.open(7), large: () => scene.render({ width: 16384, height: 16384, msaa: 16 }),
+    stopped: () => library.open("builtin:teapot", { env_size: 512, progress: () => true }), kind: () => library.open(7), matrix: () => scene.setNode(0, new Float32Array(100000)), pixels: () => library.compare(picture, { ...picture, pixels: new Float32Array(3) }),
+    empty: () => scene.setEnvironment({}), thrown: () => library.open("builtin:teapot", { env_size: 256, progress: () => { throw new burnish.BurnishError("mine", 99); } }), large: () => scene.render({ width: 16384, height: 16384, msaa: 16 }),
 };
 for (const [name, call] of Object.entries(calls))
     try { call(); console.log(name, 0); } catch (error) { console.log(name, error instanceof burnish.BurnishError ? error.code : error); }
@@ -100,7 +147,7 @@ console.log("after", scene.render({ width: 8, height: 8 }).hash === picture.hash
 """
     found = dict(line.split(" ", 1) for line in node(bench, script).splitlines())
     wanted = {"size": "2", "name": "2", "model": "4", "builtin": "4", "path": "4", "outside": "4", "light": "4", "material": "2", "sizes": "3", "stopped": "130",
-              "kind": "2", "large": "2", "after": "0"}
+              "kind": "2", "matrix": "2", "pixels": "3", "empty": "2", "thrown": "99", "large": "2", "after": "0"}
     check(found == wanted, str({name: (found.get(name), code) for name, code in wanted.items() if found.get(name) != code}))
 
 
@@ -114,13 +161,16 @@ const scene = await library.open("builtin:teapot", {{ env_size: 256, floor: "sta
 const picture = await scene.render({{ width: 32, height: 18, display: {{ exposure: 1 }}, layers: "depth,normal" }});
 await scene.setMaterial(0, {{ roughness: 0.9 }}).then(() => console.log("changed"), (error) => console.log(error.code));
 console.log(told > 0, picture.hash, picture.rgba.length, picture.layers.normal.channels, scene.materials.length, library.techniques().length > 5);
-const late = scene.render({{ width: 2048, height: 2048, msaa: 16 }}).catch((error) => error.code);
+await scene.close();
+console.log(await scene.render().catch((error) => error.code));
+const other = await library.open("builtin:sphere", {{ env_size: 16, env_samples: 16 }});
+const late = other.render({{ width: 2048, height: 1024, msaa: 16 }}).catch((error) => error.code);
 await library.end();
 console.log(await late, await scene.render().catch((error) => error.code));
 """
     lines = node(bench, script).splitlines()
     same = program_hash(bench, "builtin:teapot", "--env-size", "256", "--floor", "stage", "--size", "32x18", "--msaa", "8")
-    check(lines[1].split() == ["true", same, str(32 * 18 * 4), "3", lines[1].split()[4], "true"] and lines[2] == "130 130", str(lines))
+    check(lines[1].split() == ["true", same, str(32 * 18 * 4), "3", lines[1].split()[4], "true"] and int(lines[1].split()[4]) > 1 and lines[2:] == ["2", "130 130"], str(lines))
 
 
 @case("wasm.the_package_is_small_and_whole", "of_wasm", tier="nightly", budget=30)
@@ -133,7 +183,7 @@ def small_package(bench):
     packed = json.loads(done.stdout)[0]
     check(packed["size"] <= MOST_PACKAGE, f"the package has {packed['size']} bytes")
     names = {file["path"] for file in packed["files"]}
-    wanted = {"LICENSE", "README.md", "package.json", "burnish.mjs", "burnish.d.ts", "burnish_core.mjs", "burnish_core.wasm", "remote.mjs", "remote.d.ts", "worker.mjs"}
+    wanted = {"LICENSE", "README.md", "package.json", "burnish.mjs", "burnish.d.mts", "burnish_core.mjs", "burnish_core.wasm", "remote.mjs", "remote.d.mts", "worker.mjs"}
     check(names == wanted, str(names ^ wanted))
     (bench.folder / "user").mkdir()
     installed = bench.folder / "user/node_modules/burnish"
@@ -168,6 +218,7 @@ def shown(bench, browser, mode="A"):
     """Waits for the page's picture. Checks that the command beside it draws the same bits."""
     browser.until(f"document.body.dataset.done === '{mode}'", 120)
     hash_, command = json.loads(browser.value(SHOWN))
+    check("--msaa 1" not in command, f"a coarse picture remains: {command}")
     check(hash_ == hash_of_command(bench, command), f"the page draws {hash_} for {command}")
     return hash_
 
@@ -198,6 +249,18 @@ def page_from_disk(bench):
         check(0.001 < flip < 0.9, f"FLIP of two techniques: {flip}")
         check(browser.value("document.querySelector('[data-show=reference]').hidden"), "a page has no reference")
         browser.screenshot(bench.folder / "error.png")
+        # Dragging shows pictures on the way, and the whole one at rest
+        browser.value("document.querySelector('[data-show=A]').click()")
+        browser.until("document.body.dataset.done === 'A'", 120)
+        browser.value("(() => { window.shown_pictures = 0; new MutationObserver(() => ++window.shown_pictures).observe(document.getElementById('a'), { attributes: true, attributeFilter: ['src'] }); })()")
+        browser.mouse("mousePressed", 200, 200, button="left", clickCount=1)
+        for step in range(90):
+            browser.mouse("mouseMoved", 200 + step, 200, button="left", buttons=1)
+            time.sleep(1 / 60)
+        pictures = browser.value("window.shown_pictures")
+        browser.mouse("mouseReleased", 290, 200, button="left", clickCount=1)
+        check(pictures >= 10, f"{pictures} pictures while turning")
+        browser.until("document.body.dataset.done === 'A' && !document.getElementById('busy').textContent && !document.getElementById('command').textContent.includes('--msaa 1')", 120)
         # A narrow and a dark page
         browser.scheme("dark")
         browser.size(400, 800)
@@ -213,6 +276,14 @@ def page_from_disk(bench):
 @case("wasm.a_page_brings_a_model_with_its_files", "of_wasm", tier="nightly", budget=150)
 def page_of_a_model(bench):
     light = bench.data_file("env/workshop_1k.hdr")
+    # An environment beside a built-in scene, as floats where it is an OpenEXR file
+    for light_file in (light, bench.data_file("env/blender_studio_1k.exr")):
+        export_page(bench, "ball.html", "builtin:sphere", "--env", light_file, "--env-size", "32", "--light", "sphere:points=0,1,1:radius=0.2:radiance=9,9,9",
+                    "--light", "sphere:points=1,1,0:radius=0.2:radiance=9,2,2", "--roughness", "0.123456789")
+        with Browser(bench.folder) as browser:
+            browser.open(bench.folder / "ball.html")
+            browser.until(PROOF, 120)
+            check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
     for model in ("models/AnisotropyBarnLampSmall.glb", "models/FlightHelmetParts/FlightHelmetParts.gltf"):
         path = bench.data_file(model)
         export_page(bench, "model.html", path, "--env", light, "--env-size", "64")
@@ -281,6 +352,22 @@ def pages_hold(bench):
     row = page["rows"]["page"]
     check(row["options"] == {"--roughness": "0.3", "--no-background": "", "--env-size": "16"}, str(row["options"]))
     check(row["hash"] == program_hash(bench, "builtin:sphere", *words) == hash_of_command(bench, row["command"]), str(row))
+    # Several lights, and numbers as they are given
+    words = ("--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "--light", "sphere:points=1,1,0:radius=0.1:radiance=9,2,2", "--roughness", "0.123456789",
+             "--env-size", "16", "--size", "32x24")
+    bench.run("export", "page", "builtin:sphere", *words, "--renderer", "renderer", "-o", "lights.html", "-q").expect(0)
+    row = parts_of((bench.folder / "lights.html").read_text())[0]["rows"]["page"]
+    check(row["options"]["--light"] == ";".join(words[1:4:2]) and row["hash"] == program_hash(bench, "builtin:sphere", *words), str(row))
+    # An environment beside a built-in scene: the page serves a folder
+    bench.run("export", "page", "builtin:sphere", "--env", bench.data_file("env/workshop_1k.hdr"), "--env-size", "16", "--size", "16x16", "--renderer", "renderer", "-o",
+              "light.html", "-q").expect(0)
+    page, files = parts_of((bench.folder / "light.html").read_text())
+    check(page["target"] == "scenes" and list(files) == ["scenes/" + page["rows"]["page"]["environment"]], f"{page['target']} {list(files)}")
+    # JPEG images within a file
+    bench.run("render", "builtin:sphere", "--size", "16x16", "--env-size", "16", "-o", "within.jpg").expect(0)
+    (bench.folder / "within.gltf").write_text(masked({"uri": "data:image/jpeg;base64," + base64.b64encode((bench.folder / "within.jpg").read_bytes()).decode()}))
+    bench.run("export", "page", "within.gltf", "--env-size", "16", "--size", "16x16", "--renderer", "renderer", "-o", "within.html", "-q").expect(0)
+    check(sum(name.startswith("decoded/") for name in parts_of((bench.folder / "within.html").read_text())[1]) == 1, "the image is not decoded")
     # A model with files of odd names and in folders, whose images are JPEG files
     (bench.folder / "scene/textures").mkdir(parents=True)
     model = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
@@ -317,6 +404,12 @@ def wrong_pages(bench):
     bench.run("export", "glsl", "builtin:sphere", "--technique", "mc", "-o", "x.glsl").expect(2).expect_one_line("SCENE")
     bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
     bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
+    # What a page cannot hold
+    for words, code, needle in ((("builtin:sphere", "--size", "5000x20"), 2, "--size"), (("builtin:sphere", "--size", "1920x1200", "--msaa", "16"), 2, "--size"),
+                                (("builtin:sphere", "--env", bench.data_file("flip/ldr_ref.png")), 4, ".hdr"),
+                                ((bench.data_file("models/AnisotropyStrengthTest_meshopt.glb"),), 4, "EXT_meshopt_compression"),
+                                (("builtin:sphere", "--light", "quad:points=-1,2,-1;1,2,-1;1,2,1;-1,2,1:texture=t.png"), 2, "texture=")):
+        bench.run("export", "page", *words, "--env-size", "16", "-o", "x.html", "--renderer", ".").expect(code).expect_one_line(needle)
     # Before the work, not after it
     (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": "a", "scene": "builtin:sphere"}]}))
     bench.run("golden", "check", "m.json", "--live", "--renderer", "none").expect(77).expect_one_line("cmake --preset wasm")
@@ -345,6 +438,12 @@ def live_chart(bench):
         # The same picture as the chart's own, which is a JPEG file: another technique differs ten times as much
         (bench.folder / "own.jpg").write_bytes(base64.b64decode(chart["rows"][key]["picture"].split(",", 1)[1]))
         bench.run("compare", "own.jpg", "picture.png", "--fail-flip", "0.06", "-q").expect(0)
+    swept = [*CHART[:-4], "--sweep", "roughness=0.3", "--sweep", "glass=body,interface"]
+    bench.run(*swept, "--live", "--renderer", "renderer", "-o", "swept").expect(0)
+    values = sorted(row["options"]["--glass"] for row in page_rows(bench.folder / "swept/report.html").values())
+    check(values == ["body", "body", "interface", "interface"], str(values))
+    done = bench.run(*CHART, "--normal-map", bench.data_file("flip/ldr_ref.png"), "--live", "--renderer", "renderer", "-o", "mapped").expect(0)
+    check("an option reads a file" in done.err and "burnish-wasm" not in (bench.folder / "mapped/report.html").read_text(), done.describe())
     bench.run(*CHART, "-o", "plain").expect(0)
     check("burnish-wasm" not in (bench.folder / "plain/report.html").read_text(), "a renderer that nobody asked for")
 

@@ -40,7 +40,13 @@ export async function load({ wasm = new URL("burnish_core.wasm", import.meta.url
 }
 
 const isBytes = (value) => value instanceof Uint8Array || value instanceof ArrayBuffer;
-const asBytes = (value) => (value instanceof ArrayBuffer ? new Uint8Array(value) : value);
+
+function asBytes(value, name) {
+    if (!isBytes(value))
+        throw new BurnishError(`${name}: is no Uint8Array and no ArrayBuffer`, 2);
+    return value instanceof ArrayBuffer ? new Uint8Array(value) : value;
+}
+
 const asText = (value) => (Array.isArray(value) || ArrayBuffer.isView(value) ? [...value].join(",") : String(value));
 
 /** The name of a model that has none: by its first bytes. */
@@ -82,10 +88,15 @@ class Burnish {
         return this.#list("technique_name", "technique_help").map(([name, help]) => ({ name, help }));
     }
 
-    /** Calls a function of the C interface. Throws what it says. */
-    call(name, ...values) {
+    /** Throws if the module has ended. */
+    alive() {
         if (this.#lost)
             throw new BurnishError(`burnish ended: ${this.#lost.message}`, 70);
+    }
+
+    /** Calls a function of the C interface. Throws what it says. */
+    call(name, ...values) {
+        this.alive();
         let code;
         try {
             code = this.#core["_burnish_" + name](...values);
@@ -101,6 +112,7 @@ class Burnish {
     withText(text, work) {
         if (text === null || text === undefined)
             return work(0);
+        this.alive();
         const size = this.#core.lengthBytesUTF8(text) + 1, at = this.#core._malloc(size);
         if (!at)
             throw new BurnishError("out of memory", 4);
@@ -108,12 +120,14 @@ class Burnish {
             this.#core.stringToUTF8(text, at, size);
             return work(at);
         } finally {
-            this.#core._free(at);
+            if (!this.#lost)
+                this.#core._free(at);
         }
     }
 
     /** Calls with the address of `bytes` bytes, zero at first. */
     withMemory(bytes, work) {
+        this.alive();
         const at = this.#core._malloc(bytes) >>> 0;
         if (!at)
             throw new BurnishError("out of memory", 4);
@@ -121,13 +135,18 @@ class Burnish {
             this.#core.HEAPU8.fill(0, at, at + bytes);
             return work(at);
         } finally {
-            this.#core._free(at);
+            if (!this.#lost)
+                this.#core._free(at);
         }
     }
 
     /** The pointer at an address. */
     word(at) {
         return this.#core.HEAPU32[at >>> 2];
+    }
+
+    get lost() {
+        return this.#lost !== null;
     }
 
     get core() {
@@ -139,18 +158,28 @@ class Burnish {
         return this.withMemory(4, (slot) => {
             this.call("options_make", slot);
             const options = this.word(slot);
-            let told = 0;
+            let told = 0, thrown = null;
             try {
                 for (const [name, value] of Object.entries(values))
                     if (value !== undefined && value !== null)
                         this.withText(name, (n) => this.withText(asText(value), (v) => this.call("options_set", options, n, v)));
                 if (progress) {
-                    told = this.#core.addFunction((user, name, done) => (progress(this.#core.UTF8ToString(name), done) === true ? 1 : 0), "iiid");
+                    told = this.#core.addFunction((user, name, done) => {
+                        try {
+                            return progress(this.#core.UTF8ToString(name), done) === true ? 1 : 0;
+                        } catch (error) {
+                            thrown = { error };
+                            return 1; // stops the work
+                        }
+                    }, "iiid");
                     this.call("options_progress", options, told, 0);
                 }
                 return work(options);
+            } catch (error) {
+                throw thrown ? thrown.error : error;
             } finally {
-                this.#core._burnish_options_free(options);
+                if (!this.#lost)
+                    this.#core._burnish_options_free(options);
                 if (told)
                     this.#core.removeFunction(told);
             }
@@ -165,8 +194,9 @@ class Burnish {
                 const path = `${folder}/${name}`;
                 if (path.split("/").includes(".."))
                     throw new BurnishError(`${name}: a file's name may not lead out of its folder`, 4);
+                this.alive();
                 FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
-                FS.writeFile(path, asBytes(bytes));
+                FS.writeFile(path, asBytes(bytes, name));
                 made.push(path);
             }
             return work(folder);
@@ -180,9 +210,7 @@ class Burnish {
     #placed(source, nameOf, files, kind) {
         if (source === undefined || source === null || typeof source === "string")
             return source ?? null;
-        const bytes = asBytes(isBytes(source) ? source : source.bytes);
-        if (!(bytes instanceof Uint8Array))
-            throw new BurnishError(`${kind}: neither a name nor bytes`, 2);
+        const bytes = asBytes(isBytes(source) ? source : source.bytes, kind);
         const name = source.name ?? nameOf(bytes);
         files[name] = bytes;
         return { file: name };
@@ -208,6 +236,9 @@ class Burnish {
     compare(reference, test) {
         if (reference.width !== test.width || reference.height !== test.height)
             throw new BurnishError(`sizes differ: ${reference.width}x${reference.height} and ${test.width}x${test.height}`, 3);
+        for (const { width, height, pixels } of [reference, test])
+            if (!Number.isInteger(width) || !Number.isInteger(height) || pixels.length !== 3 * width * height)
+                throw new BurnishError(`pixels: has ${pixels.length} numbers in place of 3 x ${width} x ${height}`, 3);
         const names = ["flip_mean", "flip_p99", "flip_max", "mse", "rel_mse", "max_abs", "differing_fraction"];
         const copied = (picture, work) => this.withMemory(picture.pixels.byteLength, (at) => {
             this.#core.HEAPF32.set(picture.pixels, at >>> 2);
@@ -239,6 +270,7 @@ class Scene {
     }
 
     get #open() {
+        this.#burnish.alive();
         if (!this.#session)
             throw new BurnishError("the scene is closed", 2);
         return this.#session;
@@ -274,6 +306,8 @@ class Scene {
 
     /** Moves a node, by index or name. matrix: 16 numbers, column by column, to the parent's space. */
     setNode(which, matrix) {
+        if (matrix.length !== 16)
+            throw new BurnishError(`matrix: has ${matrix.length} numbers in place of 16`, 2);
         const index = this.#index("node", which);
         this.#burnish.withMemory(64, (at) => {
             this.#burnish.core.HEAPF32.set(matrix, at >>> 2);
@@ -285,7 +319,7 @@ class Scene {
     setEnvironment(environment, options = {}) {
         const files = {}, named = environment === undefined || environment === null || typeof environment === "string";
         if (!named)
-            files[environment.name ?? "environment.hdr"] = isBytes(environment) ? environment : environment.bytes;
+            files[environment.name ?? "environment.hdr"] = asBytes(isBytes(environment) ? environment : environment.bytes, "environment");
         this.#burnish.withFiles(files, (folder) =>
             this.#burnish.withOptions(options, (o) =>
                 this.#burnish.withText(named ? environment : `${folder}/${Object.keys(files)[0]}`, (e) =>
@@ -301,7 +335,7 @@ class Scene {
     }
 
     close() {
-        if (this.#session)
+        if (this.#session && !this.#burnish.lost)
             this.#burnish.core._burnish_close(this.#session);
         this.#session = 0;
     }
@@ -351,7 +385,7 @@ class Picture {
 
     /** Frees what rgba8() needs. The arrays stay. */
     close() {
-        if (this.#frame)
+        if (this.#frame && !this.#burnish.lost)
             this.#burnish.core._burnish_frame_free(this.#frame);
         this.#frame = 0;
     }

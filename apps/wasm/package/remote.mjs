@@ -6,7 +6,8 @@
 //   const picture = await scene.render({ width: 640, height: 360, display: {} });
 //   context.putImageData(new ImageData(picture.rgba, picture.width, picture.height), 0, 0);
 //
-// Options and results are those of burnish.mjs. `display` asks for 8-bit pixels too: {exposure, tonemap}.
+// Options and results are those of burnish.mjs. `display` asks for 8-bit pixels too: {exposure, tonemap}. A progress function hears, and cannot
+// stop the work: end() does.
 import { BurnishError } from "./burnish.mjs";
 
 async function start() {
@@ -46,7 +47,7 @@ export async function connect({ wasm } = {}) {
         worker.on("error", (error) => end(`the worker ended: ${error.message}`, 70));
     } else {
         worker.onmessage = ({ data }) => take(data);
-        worker.onerror = (event) => end(`the worker ended: ${event.message}`, 70);
+        worker.onerror = (event) => end(`the worker ended: ${event.message || "it could not start"}`, 70);
     }
     const call = (name, ...values) => new Promise((resolve, reject) => {
         if (ended) {
@@ -59,7 +60,12 @@ export async function connect({ wasm } = {}) {
             values[1] = rest;
         }
         waiting.set(id, { resolve, reject, progress });
-        worker.postMessage({ id, name, values, tells: !!progress });
+        try {
+            worker.postMessage({ id, name, values, tells: !!progress });
+        } catch (error) { // a value that cannot be sent
+            waiting.delete(id);
+            reject(new BurnishError(error.message, 2));
+        }
     });
     try {
         const { version, options, techniques } = await call("load", wasm === undefined ? {} : { wasm });

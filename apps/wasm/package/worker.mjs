@@ -7,6 +7,12 @@ let burnish = null, next = 0;
 
 const arrays_of = (picture) => [picture.pixels.buffer, ...Object.values(picture.layers).map((layer) => layer.values.buffer), ...(picture.rgba ? [picture.rgba.buffer] : [])];
 
+function scene_of(number) {
+    if (!scenes.has(number))
+        throw new BurnishError("the scene is closed", 2);
+    return scenes.get(number);
+}
+
 const work = {
     load: async (source) => {
         burnish = await load(source);
@@ -19,13 +25,15 @@ const work = {
         return { scene: next, materials, nodes, lights, variants, warnings };
     },
     render: (scene, { display, ...options }) => {
-        const drawn = scenes.get(scene).render(options);
-        const { width, height, pixels, hash, layers } = drawn;
-        const rgba = display ? drawn.rgba8(display) : undefined;
-        drawn.close();
-        return { width, height, pixels, hash, layers, rgba };
+        const drawn = scene_of(scene).render(options);
+        try {
+            const { width, height, pixels, hash, layers } = drawn;
+            return { width, height, pixels, hash, layers, rgba: display ? drawn.rgba8(display) : undefined };
+        } finally {
+            drawn.close();
+        }
     },
-    change: (scene, method, values) => { scenes.get(scene)[method](...values); },
+    change: (scene, method, values) => { scene_of(scene)[method](...values); },
     close: (scene) => { scenes.get(scene)?.close(); scenes.delete(scene); },
     compare: (reference, test) => burnish.compare(reference, test),
 };

@@ -25,31 +25,36 @@ constexpr std::uint64_t kMostDecoded = 1ull << 30; // bytes of a PNG file
 using Pixels = std::unique_ptr<void, void (*)(void*)>;
 
 // Decodes grey and colour, with or without alpha, 8 or 16 bits.
-std::optional<Status> read_by_stb(const std::uint8_t* data, std::size_t size, const PlacePixels& place)
+Status read_by_stb(const ImageBytes& file, const std::uint8_t* data, std::size_t size, const PlacePixels& place)
 {
+    const auto fault = [&] {
+        const char* const reason = stbi_failure_reason();
+        return file.error("", reason && std::strcmp(reason, "outofmem") == 0 ? "out of memory"
+                                                                             : fmt::format("is damaged: {}", reason ? reason : ""));
+    };
     const int length = static_cast<int>(size);
-    StoredHeader header;
-    if (size > 0x7fffffff || stbi_info_from_memory(data, length, &header.width, &header.height, &header.channels) == 0)
-        return std::nullopt;
     const bool wide = stbi_is_16_bit_from_memory(data, length) != 0;
-    int width = 0, height = 0, channels = 0;
-    const Pixels pixels(wide ? static_cast<void*>(stbi_load_16_from_memory(data, length, &width, &height, &channels, header.channels))
-                             : static_cast<void*>(stbi_load_from_memory(data, length, &width, &height, &channels, header.channels)),
+    StoredHeader header; // channels with those that a colour for transparency adds
+    const Pixels pixels(wide
+                            ? static_cast<void*>(stbi_load_16_from_memory(data, length, &header.width, &header.height, &header.channels, 0))
+                            : static_cast<void*>(stbi_load_from_memory(data, length, &header.width, &header.height, &header.channels, 0)),
                         stbi_image_free);
-    if (!pixels || width != header.width || height != header.height)
-        return std::nullopt;
-    header.full_width = width, header.full_height = height, header.depth = 1, header.type = wide ? PixelType::u16 : PixelType::u8;
+    if (!pixels)
+        return fault();
+    header.full_width = header.width, header.full_height = header.height, header.depth = 1,
+    header.type = wide ? PixelType::u16 : PixelType::u8;
     header.channel_names = header.channels <= 2 ? std::vector<std::string>{"Y", "A"} : std::vector<std::string>{"R", "G", "B", "A"};
     header.channel_names.resize(static_cast<std::size_t>(header.channels));
     const Result<PixelRequest> wanted = place(header);
-    if (!wanted)
-        return Status(wanted.error());
-    if (wanted->first != 0 || wanted->end != header.channels)
-        return std::nullopt;
-    std::memcpy(wanted->to, pixels.get(),
-                static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(header.channels) *
-                    pixel_type_bytes(header.type));
-    return Status();
+    BN_TRY(wanted);
+    const std::size_t pixel = static_cast<std::size_t>(header.channels) * pixel_type_bytes(header.type);
+    const auto first = static_cast<std::size_t>(wanted->first), end = static_cast<std::size_t>(wanted->end);
+    const std::size_t sample = pixel_type_bytes(header.type), taken = (end - first) * sample;
+    const std::size_t count = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+    const std::byte* const from = static_cast<const std::byte*>(pixels.get()) + first * sample;
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(wanted->to + i * taken, from + i * pixel, taken);
+    return {};
 }
 
 std::string decoded_path(const ImageBytes& file)
@@ -62,13 +67,13 @@ std::string decoded_path(const ImageBytes& file)
 std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place)
 {
     const bool own = probe.replacement.empty();
-    return read_by_stb(own ? file.data : probe.replacement.data(), own ? file.size : probe.replacement.size(), place);
+    return read_by_stb(file, own ? file.data : probe.replacement.data(), own ? file.size : probe.replacement.size(), place);
 }
 
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place)
 {
     const Result<std::vector<std::uint8_t>> decoded = read_file(decoded_path(file), kMostDecoded);
-    return decoded ? read_by_stb(decoded->data(), decoded->size(), place) : read_by_stb(file.data, file.size, place);
+    return decoded ? read_by_stb(file, decoded->data(), decoded->size(), place) : read_by_stb(file, file.data, file.size, place);
 }
 
 std::string jpeg_warning(const ImageBytes& file)

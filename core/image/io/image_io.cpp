@@ -14,6 +14,7 @@
 #include "core/image/io/icc.h"
 #include "core/image/io/image_library.h"
 #include "core/image/io/inflate.h"
+#include "core/image/io/jpeg_watch.h"
 #include "core/image/io/radiance.h"
 
 namespace burnish {
@@ -217,8 +218,11 @@ Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, con
 {
     try {
         Result<Image> image = decode(file, probe, limits, notes);
-        if (const std::string warning = std::strcmp(probe.format, "jpeg") == 0 ? jpeg_warning(file) : ""; !warning.empty())
-            notes.warnings.push_back(warning);
+        if (image && std::strcmp(probe.format, "jpeg") == 0) {
+            if (const std::string warning = jpeg_warning(file); !warning.empty())
+                notes.warnings.push_back(warning);
+            note_jpeg(file, *image);
+        }
         return image;
     } catch (...) {
         return error_of_exception(file.error("", "the image is damaged"));

@@ -1,5 +1,12 @@
 /** The library in a worker: the calling thread never waits. */
-import type { Comparison, Display, OpenOptions, OptionInfo, Options, Pixels, Layer, Source, TechniqueInfo } from "./burnish.mjs";
+import type { Comparison, Display, OpenOptions, OptionInfo, Options, Pixels, Layer, ProgressFunction, Source, TechniqueInfo } from "./burnish.mjs";
+
+/** Options of render(), and the 8-bit pixels that are wanted. */
+export interface RemoteOptions {
+    display?: Display;
+    progress?: ProgressFunction;
+    [option: string]: unknown;
+}
 
 export interface RemotePicture extends Pixels {
     readonly hash: string;
@@ -18,7 +25,7 @@ export interface RemoteScene {
     setLight(which: number | string, factors: Options): Promise<void>;
     setNode(which: number | string, matrix: ArrayLike<number>): Promise<void>;
     setEnvironment(environment: Source | undefined, options?: Options): Promise<void>;
-    render(options?: Options & { display?: Display }): Promise<RemotePicture>;
+    render(options?: RemoteOptions): Promise<RemotePicture>;
     close(): Promise<void>;
 }
 
