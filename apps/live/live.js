@@ -85,7 +85,9 @@
       if (!element.isConnected || !element.ownerDocument.defaultView) return;
     }
     try {
-      const info = JSON.parse((await ask('/draw', { scene, environment, options, width, height, reduction: 1 })).headers.get('X-Burnish'));
+      const answer = await ask('/draw', { scene, environment, options, width, height, reduction: 1 });
+      if (!answer.ok) throw new Error((await answer.json()).error);
+      const info = JSON.parse(answer.headers.get('X-Burnish'));
       const same = info.hash === hash;
       element.className = same ? 'good' : 'bad';
       element.textContent = same ? `\u2713 the bits of the machine that made this page: ${hash}` : `\u2717 this browser draws ${info.hash}, the machine that made this page ${hash}`;

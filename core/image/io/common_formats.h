@@ -13,5 +13,8 @@ std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, 
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place); // grey and colour, 8 bits
 // Returns a warning where another decoder than libjpeg reads this JPEG file; "" elsewhere.
 std::string jpeg_warning(const ImageBytes& file);
+#ifdef __EMSCRIPTEN__
+std::optional<Status> read_pfm(const ImageBytes& file, const PlacePixels& place); // three channels in this byte order, scale 1
+#endif
 
 } // namespace burnish

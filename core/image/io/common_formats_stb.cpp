@@ -2,6 +2,8 @@
 // JPEG decoders may differ by a step of 255, so pages that promise a hash bring JPEG images decoded by libjpeg, as PNG files in /decoded.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 
@@ -74,6 +76,30 @@ std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place
 {
     const Result<std::vector<std::uint8_t>> decoded = read_file(decoded_path(file), kMostDecoded);
     return decoded ? read_by_stb(file, decoded->data(), decoded->size(), place) : read_by_stb(file, file.data, file.size, place);
+}
+
+std::optional<Status> read_pfm(const ImageBytes& file, const PlacePixels& place)
+{
+    constexpr std::size_t kMostHead = 64;
+    const std::string head(reinterpret_cast<const char*>(file.data), std::min(file.size, kMostHead));
+    StoredHeader header;
+    float scale = 0.0f;
+    int length = 0;
+    if (std::sscanf(head.c_str(), "PF %d %d %f%n", &header.width, &header.height, &scale, &length) != 3 || scale != -1.0f)
+        return std::nullopt;
+    header.full_width = header.width, header.full_height = header.height, header.depth = 1, header.type = PixelType::f32;
+    header.channels = 3, header.channel_names = {"R", "G", "B"};
+    const std::size_t row = 12 * static_cast<std::size_t>(header.width), from = static_cast<std::size_t>(length) + 1;
+    if (file.size < from || (file.size - from) / row < static_cast<std::size_t>(header.height))
+        return file.error("", "ends within its pixels");
+    const Result<PixelRequest> wanted = place(header);
+    if (!wanted)
+        return Status(wanted.error());
+    if (wanted->first != 0 || wanted->end != 3)
+        return std::nullopt;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(header.height); ++y) // the lowest row comes first
+        std::memcpy(wanted->to + y * row, file.data + from + (static_cast<std::size_t>(header.height) - 1 - y) * row, row);
+    return Status();
 }
 
 std::string jpeg_warning(const ImageBytes& file)
