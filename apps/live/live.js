@@ -108,7 +108,10 @@
     dialog.style.cssText = 'width: 98vw; height: 98vh; max-width: none; max-height: none; padding: 0; border: 0; display: grid; grid-template-rows: auto 1fr';
     close.textContent = 'Close', close.style.cssText = 'justify-self: end; margin: 2px';
     close.addEventListener('click', () => dialog.close());
-    dialog.addEventListener('close', () => dialog.remove());
+    dialog.addEventListener('close', () => {
+      dialog.remove();
+      if (running) running.signal = { aborted: true };  // nobody waits for its picture
+    });
     frame.style.cssText = 'width: 100%; height: 100%; border: 0';
     frame.title = 'The picture, drawn here';
     dialog.append(close, frame);

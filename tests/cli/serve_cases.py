@@ -368,7 +368,7 @@ def errors(bench):
 @case("serve.every_option_draws_what_its_command_draws", tier="nightly")
 def every_option(bench):
     """A kept session must not outlive an option that it depends on."""
-    values = {"--camera": [], "--orbit": ["30,10"], "--eye": ["0.6,0.3,0.6"], "--target": ["0,0.05,0"], "--f0": ["0.9,0.5,0.3"], "--tilt": ["10,0"], "--env-size": ["32"],
+    values = {"--camera": [], "--variant": [], "--orbit": ["30,10"], "--eye": ["0.6,0.3,0.6"], "--target": ["0,0.05,0"], "--f0": ["0.9,0.5,0.3"], "--tilt": ["10,0"], "--env-size": ["32"],
               "--env-samples": ["32"], "--light": ["sphere:points=0,1,0:radius=0.1:radiance=9,9,9"], "--samples": ["9"], "--shadow-samples": ["32"], "--msaa": ["8"]}
     for scene in ("builtin:bumps", "builtin:lights"):
         with Served(bench, scene) as served:

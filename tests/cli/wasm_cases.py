@@ -1,11 +1,14 @@
 """burnish in WebAssembly: the library in node, and pages with the renderer inside in Chromium, with the bits of the program."""
 
 import base64
+import functools
+import http.server
 import json
 import pathlib
 import shutil
 import struct
 import subprocess
+import threading
 import time
 import zlib
 
@@ -269,7 +272,19 @@ def page_from_disk(bench):
         check(browser.value("document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window")
         browser.screenshot(bench.folder / "narrow.png")
         check(not browser.faults, str(browser.faults))
-        outside = [address for address in browser.requests if not address.startswith(("file:", "blob:", "data:"))]
+        # From a host, too
+        class Quiet(http.server.SimpleHTTPRequestHandler):
+            def log_message(self, *_):
+                pass
+
+        with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=bench.folder)) as host:
+            threading.Thread(target=host.serve_forever, daemon=True).start()
+            address = f"http://127.0.0.1:{host.server_address[1]}/page.html"
+            browser.visit(address)
+            browser.until(PROOF, 120)
+            check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
+            host.shutdown()
+        outside = [other for other in browser.requests if other != address and not other.startswith(("file:", "blob:", "data:"))]
         check(not outside, f"the page asks for {outside}")
 
 
