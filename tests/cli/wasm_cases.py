@@ -356,7 +356,7 @@ def no_renderer(bench, name, script="var Module = 1;\nexport default Module;", v
     (folder / "package.json").write_text(json.dumps({"version": version or bench.run("--version").expect(0).out.split()[1]}))
 
 
-@case("wasm.pages_hold_what_the_program_draws")
+@case("wasm.pages_hold_what_the_program_draws", budget=8)
 def pages_hold(bench):
     """With a renderer that cannot run: what is in the file."""
     no_renderer(bench, "renderer")
@@ -405,7 +405,7 @@ def pages_hold(bench):
         check(files[name] == (bench.folder / "scene" / name).read_bytes(), name)
 
 
-@case("wasm.wrong_requests_for_pages_say_one_line")
+@case("wasm.wrong_requests_for_pages_say_one_line", budget=4)
 def wrong_pages(bench):
     bench.run("export", "page", "-o", "x.html").expect(2).expect_one_line("SCENE")
     bench.run("export", "page", "builtin:sphere", "-o", "x.html", "--renderer", ".").expect(77).expect_one_line("cmake --preset wasm")
