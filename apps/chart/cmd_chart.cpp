@@ -48,7 +48,7 @@ bool pages_can_draw(const OptionTable& given)
     for (const Option& option : given.options()) {
         const Option* const of_render = render.find(option.name);
         if (option.given && !option.positional() && of_render && !is_served(*of_render) && option.group != "Machine" &&
-            option.group != "Output" && option.group != "Measurements" && option.name != "--size")
+            option.group != "Output" && option.group != "Measurements" && option.name != "--size" && option.name != "--no-cache")
             return false;
     }
     return true;

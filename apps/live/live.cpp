@@ -178,7 +178,7 @@ std::optional<DrawRequest> live_request(const OptionTable& given)
     DrawRequest request;
     request.width = 1280, request.height = 720; // as `burnish render` has them
     for (const Option& option : given.options()) {
-        if (!option.given || is_served(option) || option.group == "Machine")
+        if (!option.given || is_served(option) || option.group == "Machine" || option.name == "--no-cache")
             continue;
         const std::string value = option.texts.back();
         if (option.name == "SCENE")

@@ -434,7 +434,7 @@ def wrong_pages(bench):
 
 
 CHART = ("chart", "builtin:plate", "--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "16", "--runs", "1",
-         "--techniques", "bent_normal,major_axis", "--sweep", "samples=4", "--sweep", "roughness=0.3", "--orbit", "20,40")
+         "--no-cache", "--techniques", "bent_normal,major_axis", "--sweep", "samples=4", "--sweep", "roughness=0.3", "--orbit", "20,40")
 
 
 def page_rows(path):
@@ -478,7 +478,7 @@ def live_golden(bench):
         rows = [{"name": "ball <1>", "scene": "builtin:sphere", "options": ["--roughness", roughness]}, {"name": "same", "scene": "builtin:sphere"},
                 {"name": "model", "scene": "model.glb", "options": ["--env", "light.hdr", "--exposure", roughness]},
                 {"name": "night", "scene": "model.glb", "options": ["--env", "night/light.hdr", "--exposure", roughness]},
-                {"name": "threads", "scene": "builtin:plate", "options": ["--roughness", roughness, "--threads", "1"]},
+                {"name": "threads", "scene": "builtin:plate", "options": ["--roughness", roughness, "--threads", "1", "--no-cache"]},
                 {"name": "table", "scene": "builtin:lights", "options": ["--roughness", roughness, "--ltc-table", "table.ltc"]}]
         (bench.folder / "set/m.json").write_text(json.dumps({"defaults": {"options": small}, "rows": rows}))
 
