@@ -1,5 +1,5 @@
 // Replaces png_read.cpp, jpeg_read.cpp and inflate.cpp in WebAssembly, which has neither libpng nor libjpeg. PNG has one right picture.
-// JPEG decoders may differ by a step of 255, so pages that promise a hash bring JPEG images decoded by libjpeg, as PNG files in /decoded.
+// JPEG decoders differ by a few steps of 255. So pages that promise a hash bring JPEG images decoded by libjpeg, in /decoded.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -104,8 +104,9 @@ std::optional<Status> read_pfm(const ImageBytes& file, const PlacePixels& place)
 
 std::string jpeg_warning(const ImageBytes& file)
 {
-    return read_file(decoded_path(file), kMostDecoded) ? ""
-                                                       : "is a JPEG image: its texels may differ by a step from those of other machines";
+    return read_file(decoded_path(file), kMostDecoded)
+               ? ""
+               : "is a JPEG image: its texels may differ by a few steps of 255 from those of other machines";
 }
 
 std::vector<std::uint8_t> inflated(const std::uint8_t* data, std::size_t size, std::size_t most)
