@@ -271,6 +271,12 @@ def page_from_disk(bench):
         browser.until("document.body.dataset.done === 'A'", 120)
         check(browser.value("document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the window")
         browser.screenshot(bench.folder / "narrow.png")
+        # The mark of a picture under way moves nothing: another size of the view would draw it again, for ever
+        for width in range(380, 1300, 20):
+            browser.size(width, 800)
+            still = browser.value("(() => { const box = () => JSON.stringify(document.getElementById('view').getBoundingClientRect()), busy = document.getElementById('busy'); "
+                                  "busy.textContent = ''; const before = box(); busy.textContent = '\\u2026'; return before === box(); })()")
+            check(still, f"{width} pixels wide, the view has another size while a picture is drawn")
         check(not browser.faults, str(browser.faults))
         # From a host, too
         class Quiet(http.server.SimpleHTTPRequestHandler):
