@@ -16,11 +16,12 @@
     BN_ON_wasm32(X(wasm, program, true, "-O2", of))                                                          \
     BN_ON_aarch64(X(portable8, program, true, "-O1 -DBN_PORTABLE_CALLS", of))                                \
     BN_ON_any(X(portable16, tests, true, "-O1", of))
-// Not instruction sets, but compiled like them: a double in each lane (bn_oracle_objects), and counting floats
-// (bn_counted_objects).
+// Not instruction sets, but compiled like them: a double in each lane (bn_oracle_objects), counting floats
+// (bn_counted_objects), and kernels with mistakes (apps/lab/conform).
 #define BN_EACH_TWIN(X, of)                                                                                  \
     X(oracle, tests, true, "-O1", of)                                                                        \
-    X(counted, tests, true, "-O1", of)
+    X(counted, tests, true, "-O1", of)                                                                       \
+    X(mutated, tests, true, "-O1", of)
 // clang-format on
 
 #define BN_ON_any(row) row

@@ -1,5 +1,5 @@
-// Lane types of the current instruction set. BN_ISA is the set's name in isa_list.h, or one of two sets with one lane:
-// oracle (double precision) or counted (counts its work).
+// Lane types of the current instruction set. BN_ISA is the set's name in isa_list.h, or one of three sets with one lane:
+// oracle (double precision), counted (counts its work) or mutated (kernels with mistakes).
 //   real     kLanes floating-point numbers      (scalar: float itself; oracle: double itself)
 //   integer  kLanes 32-bit integers, wrapping   (scalar and oracle: int32_t itself)
 //   mask     kLanes truth values                (scalar and oracle: bool itself)

@@ -1,5 +1,5 @@
 // One lane. Defines every operation; each instruction set must equal this one bit for bit. `integer` wraps because the
-// files are compiled with -fwrapv. lanes_oracle.h and lanes_counted.h build other one-lane sets from this file.
+// files are compiled with -fwrapv. lanes_oracle.h, lanes_counted.h and lanes_mutated.h build other one-lane sets from this file.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -490,6 +490,12 @@ std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input)
     return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "double") : nullptr;
 }
 
+std::unique_ptr<Renderer> make_mutated_tile_renderer(const RenderInput& input)
+{
+    const auto fns = FnsByIsa<TileFns>::mutated;
+    return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "mutated") : nullptr;
+}
+
 bool has_counting_lanes()
 {
     const auto fns = FnsByIsa<TileFns>::counted;

@@ -1,4 +1,5 @@
-// The tile renderer with other lanes, compiled from the same source text: double ones, and ones that count their work. Both are slow.
+// The tile renderer with other lanes, compiled from the same source text: double ones, ones that count their work, and ones with mistakes in
+// their kernels. All are slow.
 #pragma once
 #include <memory>
 #include <optional>
@@ -11,6 +12,9 @@ namespace burnish {
 // Makes a renderer with double lanes, to measure float errors. Data between steps (the frame's record, transformed vertices, texels,
 // fragment colours) is still float. Null if the program lacks such lanes.
 std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input);
+
+// Makes a renderer whose kernels have the mistakes in drawn_mutants (shading/lab/conform/mutated.h). Null if the program lacks such lanes.
+std::unique_ptr<Renderer> make_mutated_tile_renderer(const RenderInput& input);
 
 struct CountedFrame {
     Frame frame; // pixels equal any other lanes'

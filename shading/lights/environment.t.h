@@ -53,7 +53,7 @@ BN_FN real3 irradiance_at(frame_ref f, BN_IN(shaded_point) x)
 BN_FN real3 environment_light(frame_ref f, BN_IN(shaded_point) x, int traits, real3 specular)
 {
     // Scale and correct the specular part
-    real3 scaled = specular * x.energy.gain * splat(the_frame(f).specular.scale);
+    real3 scaled = BN_MUTANT(no_specular_image, specular * x.energy.gain * splat(the_frame(f).specular.scale), vec3_all(lit(0.0)));
     real3 seen = seen_of_lobe(f, x, traits, scaled);
     // Return it alone on metals
     if (!x.diffuse) {

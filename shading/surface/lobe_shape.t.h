@@ -39,7 +39,7 @@ BN_FN lobe_shape shape_of_axes(slope_axes axes)
 BN_FN slope_covariance own_covariance(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     real roughness = min(max(at.roughness, lit(0.0)), lit(1.0));
-    real alpha = roughness * roughness;
+    real alpha = BN_MUTANT(alpha_is_roughness, roughness * roughness, roughness);
     real2 rotation = vec2_of(splat(the_material(m).grain[0]), splat(the_material(m).grain[1]));
     if (the_frame(f).override_anisotropy != 0)
         return covariance_from_eta_tensor(roughness, splat(the_frame(f).anisotropy), rotation, at.tensor2);
@@ -120,8 +120,11 @@ BN_FN aniso_lobe lobe_in_frame(material_ref m, BN_IN(lobe_shape) shape, BN_IN(su
     if (the_material(m).anisotropic == 0)
         return lobe;
     // Rotate them to the lobe's wide axis
-    lobe.u_axis = axes.t * shape.u.x + axes.b * shape.u.y;
-    lobe.v_axis = axes.b * shape.u.x - axes.t * shape.u.y;
+    real turned = BN_MUTANT(rotation_clockwise, shape.u.y, -shape.u.y);
+    real3 wide = axes.t * shape.u.x + axes.b * turned;
+    real3 narrow = axes.b * shape.u.x - axes.t * turned;
+    lobe.u_axis = BN_MUTANT(axes_swapped, wide, narrow);
+    lobe.v_axis = BN_MUTANT(axes_swapped, narrow, wide);
     return lobe;
 }
 

@@ -43,7 +43,8 @@ BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs)
 // Return the geometry's frame; a surface seen from behind shows its other side.
 BN_FN real facing_handedness(BN_IN(visible_point) p)
 {
-    return select(p.front, p.tangent_sign, -p.tangent_sign);
+    real sign = BN_MUTANT(handedness_ignored, p.tangent_sign, lit(1.0));
+    return select(p.front, sign, -sign);
 }
 BN_FN surface_frame facing_geometric_axes(BN_IN(visible_point) p)
 {

@@ -62,7 +62,7 @@ BN_STAGE real3 exact_reflectance(fresnel_parts p, real v_dot_h)
 BN_FN real3 reflectance_of(BN_IN(surface) s, real v_dot_h)
 {
     if (s.exact == 0)
-        return fresnel_schlick(s.f0, s.f90, v_dot_h);
+        return BN_MUTANT(no_fresnel, fresnel_schlick(s.f0, s.f90, v_dot_h), s.f0);
     return exact_reflectance(s.parts, v_dot_h);
 }
 
@@ -80,7 +80,7 @@ BN_FN real mean_v_dot_h(dfg_value dfg)
 BN_FN real3 albedo_of(BN_IN(surface) s, dfg_value dfg)
 {
     if (s.exact == 0)
-        return s.f0 * dfg.scale + s.f90 * dfg.bias;
+        return BN_MUTANT(no_fresnel, s.f0 * dfg.scale + s.f90 * dfg.bias, s.f0 * (dfg.scale + dfg.bias));
     return exact_reflectance(s.parts, mean_v_dot_h(dfg)) * (dfg.scale + dfg.bias);
 }
 

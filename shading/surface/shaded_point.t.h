@@ -141,7 +141,7 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
         dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, x.dielectric_f0, x.energy.whole);
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     if (!x.refracts)
-        return passed;
+        return BN_MUTANT(no_energy_share, passed, lit(1.0));
     // Glass reflects by Fresnel's equations, the table's lobe by Schlick's approximation: scale by the ratio of both in a
     // mirror. No table has the albedo from inside, so a mirror's replaces it there.
     real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);

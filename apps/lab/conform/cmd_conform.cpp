@@ -1,0 +1,171 @@
+// `burnish conform`: writes a conformance folder, or judges an engine's pictures of its scenes.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.h"
+#include "apps/cli/outputs.h"
+#include "apps/cli/report.h"
+#include "apps/cli/shared_options.h"
+#include "apps/cli/stop_signal.h"
+#include "apps/cli/values.h"
+#include "apps/lab/conform/draw.h"
+#include "apps/lab/conform/folder.h"
+#include "apps/lab/conform/judge.h"
+#include "apps/lab/conform/page.h"
+#include "apps/lab/conform/pictures.h"
+#include "apps/lab/conform/scenes.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+constexpr const char* kFooter =
+    R"(conform --write DIR makes scenes as glTF files, their environment and the reference's pictures of them. DIR/README.md says how an engine
+draws them. conform DIR PICTURES then compares the engine's pictures with the reference's, and names the mistakes that explain the difference.
+
+Exit codes: 0 every picture is right; 1 a picture is wrong or missing; 6 one holds NaN or infinities.
+
+Examples:
+  burnish conform --write conform
+  burnish conform conform pictures --html conform.html --junit conform.xml)";
+
+struct ConformArguments {
+    std::string folder, pictures, write, html, json, junit;
+    std::vector<std::string> without;
+    int samples = 1024, threads = 0, verbosity = 0;
+    bool quiet = false;
+    Limits limits;
+};
+
+OptionTable conform_option_table(ConformArguments& to)
+{
+    OptionTable table;
+    table.add("", {{"DIR", "", "Conformance folder", text(to.folder), "none"},
+                   {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"}});
+    table.add("Write", {{"--write", "DIR", "Write a conformance folder", folder(to.write)},
+                        {"--samples", "N", "Samples a pixel of the reference's pictures, {}", integer(to.samples, 64, 1 << 20)}});
+    table.add("Judge", {{"--without", "NAME,...", "Leave out scenes, which the engine cannot draw", choices(to.without, scene_names())},
+                        {"--html", "FILE", "Page with pictures, error maps and mistakes", file(to.html)},
+                        {"--json", "FILE", "Results as JSON; - for standard output", file(to.json)},
+                        {"--junit", "FILE", "Results as JUnit XML; - for standard output", file(to.junit)}});
+    table.add("Output", {quiet_option(to.quiet), verbose_option(to.verbosity)});
+    table.add("Machine", {threads_option(to.threads)});
+    table.add("Limits", limit_options(to.limits));
+    return table;
+}
+
+Status check_conform_arguments(const ConformArguments& a, const OptionTable& given)
+{
+    if (a.write.empty() && a.folder.empty())
+        return usage_error("DIR", "no conformance folder is given; --write makes one");
+    if (!a.write.empty())
+        for (const char* other : {"DIR", "PICTURES", "--without", "--html", "--json", "--junit"})
+            if (given.given(other))
+                return usage_error(other, "does not go with --write");
+    if (a.write.empty() && a.pictures.empty())
+        return usage_error("PICTURES", "no folder of pictures is given");
+    if (a.write.empty() && given.given("--samples"))
+        return usage_error("--samples", "needs --write");
+    return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, {});
+}
+
+int write_folder(const ConformArguments& a, Report& report)
+{
+    if (!reference_available())
+        return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which makes the truths"});
+    const std::atomic<bool>& stop = watch_stop_signals();
+    if (const Status written = write_conform_files(a.write); !written)
+        return fail(written.error());
+    const Result<ConformFolder> folder = read_conform_folder(a.write);
+    if (!folder)
+        return fail(folder.error());
+    Result<ConformDrawer> drawer = ConformDrawer::open(*folder, a.limits, std::make_shared<const Jobs>(a.threads));
+    if (!drawer)
+        return fail(drawer.error());
+    report.release();
+    for (std::size_t i = 0; i < folder->scenes.size(); ++i) {
+        const FolderScene& scene = folder->scenes[i];
+        const Result<ConformDrawer::Truth> truth = drawer->truth(i, static_cast<std::uint64_t>(a.samples), &stop);
+        if (!truth)
+            return fail(truth.error());
+        for (const auto& [path, image] : {std::pair{folder->truth_of(scene.name), &truth->color}, {folder->variance_of(scene.name), &truth->variance}})
+            if (const Status written = write_image(path, *image); !written)
+                return fail(written.error());
+        report.detail("scene", scene.name + ": " + scene.about);
+    }
+    report.event("wrote", fmt::format("{}: {}; README.md says how an engine draws them", a.write, counted(folder->scenes.size(), "scene")));
+    return 0;
+}
+
+void tell(const Judgement& judgement, Report& report)
+{
+    for (const SceneJudgement& s : judgement.scenes) {
+        if (s.outcome == SceneJudgement::Outcome::missing || s.outcome == SceneJudgement::Outcome::unusable) {
+            report.figure(s.name, s.reason);
+            continue;
+        }
+        std::string line = fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
+        if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
+            line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, judgement.exposure_ev), s.to_nearest);
+        report.figure(s.name, line);
+    }
+    report.figure("way", std::string("like ") + judgement.way->words);
+    for (const FoundMistake& m : judgement.mistakes)
+        report.figure("mistake", fmt::format("{} ({}; FLIP {:.3f} with it, {:.3f} without)", mistake_words(m.mutant, judgement.exposure_ev),
+                                             counted(m.scenes.size(), "scene"), m.after, m.before));
+    if (judgement.unexplained())
+        report.figure("mistake", "none of ours: no mistake that burnish knows looks like the wrong pictures");
+}
+
+int judge_folder(const ConformArguments& a, Report& report)
+{
+    report.promise_stdout({a.json, a.junit});
+    Result<ConformFolder> folder = read_conform_folder(a.folder);
+    if (!folder)
+        return fail(folder.error());
+    std::erase_if(folder->scenes, [&](const FolderScene& s) { return std::find(a.without.begin(), a.without.end(), s.name) != a.without.end(); });
+    const Result<ConformPictures> pictures = read_conform_pictures(*folder, a.pictures, a.limits, report);
+    if (!pictures)
+        return fail(pictures.error());
+    const std::shared_ptr<const Jobs> jobs = std::make_shared<const Jobs>(a.threads);
+    Result<ConformDrawer> drawer = ConformDrawer::open(*folder, a.limits, jobs);
+    if (!drawer)
+        return fail(drawer.error());
+    report.release();
+    const Result<Judgement> judgement = judge_pictures(*drawer, *folder, pictures->truths, pictures->engine, *jobs);
+    if (!judgement)
+        return fail(judgement.error());
+    tell(*judgement, report);
+    const Result<std::string> page = a.html.empty() ? std::string() : conform_page(*judgement, *folder, *pictures, *drawer, *jobs);
+    if (!page)
+        return fail(page.error());
+    for (const auto& [path, text] : {std::pair{a.html, *page}, {a.json, conform_json(*judgement)}, {a.junit, conform_junit(*judgement)}})
+        if (!path.empty()) {
+            if (const Status written = write_text(path, text); !written)
+                return fail(written.error());
+            report.wrote(path);
+        }
+    return judgement->all_right() ? 0 : fail(conform_error(*judgement));
+}
+
+int run_conform(const ConformArguments& a, const OptionTable& given)
+{
+    if (const Status good = check_conform_arguments(a, given); !good)
+        return fail(good.error());
+    Report report(a.quiet, a.verbosity);
+    return a.write.empty() ? judge_folder(a, report) : write_folder(a, report);
+}
+
+} // namespace
+
+Command conform_command()
+{
+    auto arguments = std::make_shared<ConformArguments>();
+    return {"conform", "Judge an engine's anisotropy by its pictures, and name its mistakes", conform_option_table(*arguments), kFooter,
+            [arguments](OptionTable& given) { return run_conform(*arguments, given); }};
+}
+
+} // namespace burnish

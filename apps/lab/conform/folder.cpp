@@ -1,0 +1,96 @@
+#include "apps/lab/conform/folder.h"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/outputs.h"
+#include "apps/lab/conform/assets.h"
+#include "apps/lab/conform/scenes.h"
+#include "apps/report/json.h"
+#include "core/base/file.h"
+#include "core/base/text.h"
+#include "core/base/version.h"
+#include "core/image/io/image_io.h"
+
+namespace burnish {
+namespace {
+
+Json numbers(const glm::vec3& v)
+{
+    return {shortest_decimal(v.x), shortest_decimal(v.y), shortest_decimal(v.z)};
+}
+
+Json area_light_json()
+{
+    const AreaLight light = conform_area_light();
+    Json corners = Json::array();
+    for (const glm::vec3& p : light.points)
+        corners.push_back(numbers(p));
+    return {{"corners", corners}, {"radiance", numbers(light.radiance)}};
+}
+
+Json folder_json()
+{
+    Json scenes = Json::array();
+    for (const ConformScene& scene : conform_scenes())
+        scenes.push_back({{"name", scene.name},
+                          {"about", scene.about},
+                          {"file", "scenes/" + scene.name + ".gltf"},
+                          {"environment", scene.environment},
+                          {"area_light", scene.area_light ? area_light_json() : Json(nullptr)}});
+    return {{"burnish_conform", kConformVersion}, {"width", kConformWidth},         {"height", kConformHeight},
+            {"exposure_ev", kConformEv},          {"environment", "environment.hdr"}, {"scenes", scenes}};
+}
+
+Error bad_folder(const std::string& file, const std::string& place, const std::string& reason)
+{
+    return Error{ExitCode::bad_input, file, place, reason};
+}
+
+} // namespace
+
+Result<ConformFolder> read_conform_folder(const std::string& path)
+{
+    constexpr std::uint64_t kMostBytes = 1u << 20;
+    const std::string file = path + "/conform.json";
+    const Result<std::vector<std::uint8_t>> bytes = read_file(file, kMostBytes);
+    if (!bytes)
+        return Error{bytes.error().code, bytes.error().file, bytes.error().place,
+                     bytes.error().reason + "; `burnish conform --write` makes a conformance folder"};
+    const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
+    if (json.is_discarded() || !json.is_object() || !json.contains("burnish_conform"))
+        return bad_folder(file, "", "describes no conformance folder");
+    if (json["burnish_conform"] != kConformVersion)
+        return bad_folder(file, "/burnish_conform",
+                          fmt::format("version {} of conformance folders; this program reads version {}: write the folder anew",
+                                      json["burnish_conform"].dump(), kConformVersion));
+    if (json.value("width", Json()) != kConformWidth || json.value("height", Json()) != kConformHeight)
+        return bad_folder(file, "/width", fmt::format("pictures are not {}x{}: write the folder anew", kConformWidth, kConformHeight));
+    ConformFolder folder;
+    folder.path = path;
+    for (const ConformScene& known : conform_scenes()) // the program's own: what is drawn must be what is known
+        folder.scenes.push_back({known.name, known.about, "scenes/" + known.name + ".gltf", known.environment, known.area_light});
+    return folder;
+}
+
+Status write_conform_files(const std::string& path)
+{
+    for (const char* part : {"", "/scenes", "/truth", "/pages"})
+        BN_TRY(make_output_folder(path + part));
+    for (const ConformScene& scene : conform_scenes()) {
+        const Result<std::string> text = scene_file_text(scene.name, scene.make());
+        BN_TRY(text);
+        BN_TRY(write_text(path + "/scenes/" + scene.name + ".gltf", *text));
+    }
+    const Image environment = conform_environment();
+    BN_TRY(write_image(path + "/environment.hdr", environment));
+    BN_TRY(write_image(path + "/environment.exr", environment));
+    const auto text_of = [](const EmbeddedFile& e) { return std::string(e.bytes, e.size); };
+    BN_TRY(write_text(path + "/README.md", text_of(kConformReadme)));
+    BN_TRY(write_text(path + "/pages/three.html", text_of(kConformThree)));
+    BN_TRY(write_text(path + "/pages/babylon.html", text_of(kConformBabylon)));
+    BN_TRY(write_text(path + "/pages/pictures.js", text_of(kConformPictures)));
+    return write_text(path + "/conform.json", json_text(folder_json(), 1) + "\n");
+}
+
+} // namespace burnish

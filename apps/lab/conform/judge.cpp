@@ -1,0 +1,318 @@
+#include "apps/lab/conform/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+#include <utility>
+
+#include "apps/lab/conform/scenes.h"
+#include "core/image/colour.h"
+#include "core/image/metrics/flip.h"
+#include "core/jobs/activity.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kMostMistakes = 6;
+constexpr double kSeen = 0.01;          // mean FLIP from which a mistake shows in a scene
+constexpr double kExplains = 0.7;       // of the distance before that a mistake may leave
+constexpr double kLeastGain = 0.012;    // mean FLIP a scene that a mistake must take away
+constexpr double kRight = 0.08;         // mean FLIP to the truth or to a right way, up to which a picture is right
+constexpr double kLeastExposure = 0.12; // stops
+
+double luminance(const std::byte* texel)
+{
+    const auto value = [&](int c) { return static_cast<double>(srgb_to_linear(static_cast<float>(static_cast<int>(texel[c])) / 255.0f)); };
+    return 0.2126 * value(0) + 0.7152 * value(1) + 0.0722 * value(2);
+}
+
+// Returns the median ratio of luminances where neither picture is dark or clipped, stops; none where too few pixels are so.
+std::optional<double> exposure_between(const Image& of, const Image& to)
+{
+    std::vector<double> stops;
+    for (std::size_t at = 0; at < of.bytes.size(); at += 3) {
+        const double a = luminance(&of.bytes[at]), b = luminance(&to.bytes[at]);
+        if (a > 0.005 && b > 0.005 && a < 0.9 && b < 0.9)
+            stops.push_back(std::log2(a / b));
+    }
+    if (stops.size() < 1000)
+        return std::nullopt;
+    const auto middle = stops.begin() + static_cast<std::ptrdiff_t>(stops.size() / 2);
+    std::nth_element(stops.begin(), middle, stops.end());
+    return *middle;
+}
+
+// The distances of one set of mistakes to the pictures, by scene; negative: it changes nothing there.
+struct Distances {
+    std::vector<double> of;
+};
+
+class Judge {
+  public:
+    Judge(ConformDrawer& drawer, const std::vector<EnginePicture>& pictures, const Jobs& jobs)
+        : drawer_(drawer), pictures_(pictures), jobs_(jobs)
+    {
+    }
+    Result<Judgement> run(const ConformFolder& folder, const std::vector<Image>& truths);
+
+  private:
+    bool usable(std::size_t scene) const { return !pictures_[scene].file.empty() && pictures_[scene].fault.empty(); }
+    Result<std::optional<Image>> shown_with(std::size_t scene, const std::vector<int>& mistakes);
+    Status find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of, Distances& to);
+    Result<Distances> distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
+                                   const std::vector<SceneJudgement>& scenes);
+    Status choose_way(Judgement& to);
+    double exposure_against(const std::vector<Image>& without) const;
+    Status find_mistakes(Judgement& to);
+
+    ConformDrawer& drawer_;
+    const std::vector<EnginePicture>& pictures_;
+    const Jobs& jobs_;
+    std::vector<Image> usual_;  // by scene
+    double exposure_ev_ = 0.0;  // of the mistake kExposure
+};
+
+Result<std::optional<Image>> Judge::shown_with(std::size_t scene, const std::vector<int>& mistakes)
+{
+    std::vector<int> drawn_ones;
+    float stops = kConformEv;
+    for (const int m : mistakes)
+        if (m == kExposure)
+            stops += static_cast<float>(exposure_ev_);
+        else
+            drawn_ones.push_back(m);
+    Result<std::optional<Image>> drawn = drawer_.draw(scene, drawn_ones);
+    BN_TRY(drawn);
+    if (!*drawn)
+        return std::optional<Image>();
+    return std::optional<Image>(tonemap_to_srgb8(**drawn, Tonemap::none, stops));
+}
+
+// Fills the distances of the scenes that `of` asks for.
+Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of, Distances& to)
+{
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        if (!usable(i) || !of[i])
+            continue;
+        Result<std::optional<Image>> drawn = shown_with(i, mistakes);
+        BN_TRY(drawn);
+        if (*drawn && mean_flip(without[i], **drawn, jobs_) >= kSeen)
+            to.of[i] = mean_flip(**drawn, pictures_[i].shown, jobs_);
+    }
+    return {};
+}
+
+// Returns the distances of a set of mistakes. Scenes without a fault are drawn only where it explains others.
+Result<Distances> Judge::distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
+                                      const std::vector<SceneJudgement>& scenes)
+{
+    Distances found{std::vector<double>(pictures_.size(), -1.0)};
+    std::vector<bool> faulty(pictures_.size());
+    for (std::size_t i = 0; i < faulty.size(); ++i)
+        faulty[i] = scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > kRight;
+    BN_TRY(find_distances(mistakes, without, faulty, found));
+    bool explains = false;
+    for (std::size_t i = 0; i < faulty.size(); ++i)
+        explains = explains || (found.of[i] >= 0.0 && found.of[i] <= kExplains * left[i]);
+    if (explains) {
+        faulty.flip();
+        BN_TRY(find_distances(mistakes, without, faulty, found));
+    }
+    return found;
+}
+
+// Returns the pictures' exposure against those, the median over scenes, stops; 0 where it is small.
+double Judge::exposure_against(const std::vector<Image>& without) const
+{
+    std::vector<double> found;
+    for (std::size_t i = 0; i < pictures_.size(); ++i)
+        if (usable(i))
+            if (const std::optional<double> stops = exposure_between(pictures_[i].shown, without[i]))
+                found.push_back(*stops);
+    if (found.empty())
+        return 0.0;
+    std::sort(found.begin(), found.end());
+    const double stops = found[found.size() / 2];
+    return std::abs(stops) < kLeastExposure ? 0.0 : stops;
+}
+
+Status Judge::find_mistakes(Judgement& to)
+{
+    std::vector<Image> without = usual_;
+    std::vector<double> left(pictures_.size());
+    for (std::size_t i = 0; i < left.size(); ++i)
+        left[i] = to.scenes[i].explained;
+    std::vector<int> known;
+    while (known.size() < kMostMistakes) {
+        // Look for the mistake that takes away most
+        int best = -1;
+        double best_gain = 0.0;
+        FoundMistake found;
+        std::vector<double> best_left;
+        const bool exposed = std::find(known.begin(), known.end(), kExposure) != known.end();
+        if (!exposed)
+            exposure_ev_ = exposure_against(without);
+        for (int m = kExposure; m < static_cast<int>(mutants().size()); ++m) {
+            if (std::find(known.begin(), known.end(), m) != known.end() || (m == kExposure && exposure_ev_ == 0.0))
+                continue;
+            const Activity activity("drawing mistake " + mistake_words(m, exposure_ev_));
+            std::vector<int> mistakes = known;
+            mistakes.push_back(m);
+            const Result<Distances> distances = distances_of(mistakes, without, left, to.scenes);
+            BN_TRY(distances);
+            double before = 0.0, after = 0.0;
+            bool wrong = false;
+            std::vector<std::string> seen_in;
+            std::vector<double> rest = left;
+            for (std::size_t i = 0; i < left.size(); ++i) {
+                if (distances->of[i] < 0.0)
+                    continue;
+                before += left[i], after += distances->of[i];
+                rest[i] = distances->of[i];
+                wrong = wrong || (to.scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > kRight);
+                seen_in.push_back(to.scenes[i].name);
+                if (known.empty() && distances->of[i] < to.scenes[i].to_usual &&
+                    (to.scenes[i].nearest == kNoMistake || distances->of[i] < to.scenes[i].to_nearest))
+                    to.scenes[i].nearest = m, to.scenes[i].to_nearest = distances->of[i];
+            }
+            const double count = static_cast<double>(seen_in.size());
+            if (wrong && before - after > best_gain && after <= kExplains * before && before - after >= kLeastGain * count)
+                best = m, best_gain = before - after, best_left = rest,
+                found = {m, seen_in, before / count, after / count};
+        }
+        if (best < 0)
+            return {};
+        // Take it for known, and look at what it leaves
+        known.push_back(best);
+        if (best == kExposure)
+            to.exposure_ev = exposure_ev_;
+        to.mistakes.push_back(std::move(found));
+        left = best_left;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            to.scenes[i].explained = left[i];
+            if (!usable(i))
+                continue;
+            Result<std::optional<Image>> drawn = shown_with(i, known);
+            BN_TRY(drawn);
+            if (*drawn)
+                without[i] = std::move(**drawn);
+        }
+    }
+    return {};
+}
+
+// Fills usual_ and the judgements' distances by the right way that is nearest to the pictures, the median over scenes.
+Status Judge::choose_way(Judgement& to)
+{
+    std::vector<double> nearest(pictures_.size(), 2.0);
+    double least = 2.0;
+    for (const RightWay& way : right_ways()) {
+        const Activity activity(std::string("drawing by ") + way.words);
+        drawer_.set_way(way);
+        std::vector<Image> drawn(pictures_.size());
+        std::vector<double> distances;
+        for (std::size_t i = 0; i < pictures_.size(); ++i) {
+            if (!usable(i))
+                continue;
+            Result<std::optional<Image>> shown = shown_with(i, {});
+            BN_TRY(shown);
+            drawn[i] = std::move(**shown);
+            distances.push_back(mean_flip(drawn[i], pictures_[i].shown, jobs_));
+            nearest[i] = std::min(nearest[i], distances.back());
+        }
+        if (distances.empty())
+            return {};
+        std::vector<double> sorted = distances;
+        std::sort(sorted.begin(), sorted.end());
+        if (sorted[sorted.size() / 2] >= least)
+            continue;
+        least = sorted[sorted.size() / 2];
+        to.way = &way;
+        usual_ = std::move(drawn);
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < pictures_.size(); ++i)
+            if (usable(i))
+                to.scenes[i].to_usual = to.scenes[i].explained = distances[at++];
+    }
+    drawer_.set_way(*to.way);
+    for (std::size_t i = 0; i < pictures_.size(); ++i)
+        to.scenes[i].to_right = std::min(nearest[i], to.scenes[i].to_truth);
+    return {};
+}
+
+Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& truths)
+{
+    Judgement result;
+    for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
+        SceneJudgement scene;
+        scene.name = folder.scenes[i].name;
+        const EnginePicture& picture = pictures_[i];
+        if (usable(i))
+            scene.to_truth = mean_flip(shown_picture(truths[i]), picture.shown, jobs_);
+        else {
+            scene.outcome = picture.file.empty() ? SceneJudgement::Outcome::missing : SceneJudgement::Outcome::unusable;
+            scene.reason = picture.file.empty() ? "there is no picture" : picture.fault;
+            scene.not_finite = picture.not_finite;
+        }
+        result.scenes.push_back(std::move(scene));
+    }
+    BN_TRY(choose_way(result));
+    for (std::size_t i = 0; i < result.scenes.size(); ++i) {
+        SceneJudgement& scene = result.scenes[i];
+        if (!usable(i))
+            continue;
+        scene.usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
+        scene.outcome = scene.to_right <= kRight ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
+    }
+    if (!result.all_right())
+        BN_TRY(find_mistakes(result));
+    return result;
+}
+
+} // namespace
+
+std::string mistake_name(int mutant)
+{
+    return mutant == kExposure ? "exposure" : mutants()[static_cast<std::size_t>(mutant)].name;
+}
+
+std::string mistake_words(int mutant, double exposure_ev)
+{
+    if (mutant == kExposure)
+        return fmt::format("the exposure is off by {:+.2f} stops, a factor of {:.3g}", exposure_ev, std::exp2(exposure_ev));
+    return mutants()[static_cast<std::size_t>(mutant)].words;
+}
+
+bool Judgement::all_right() const
+{
+    return std::all_of(scenes.begin(), scenes.end(), [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::right; });
+}
+
+bool Judgement::unexplained() const
+{
+    return mistakes.empty() &&
+           std::any_of(scenes.begin(), scenes.end(), [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
+}
+
+Image shown_picture(const Image& linear)
+{
+    return tonemap_to_srgb8(linear, Tonemap::none, kConformEv);
+}
+
+double mean_flip(const Image& reference, const Image& test, const Jobs& jobs)
+{
+    const FlipResult flip = flip_ldr(reference, test, FlipOptions{}, jobs);
+    double sum = 0.0;
+    const std::size_t count = flip.error.bytes.size() / sizeof(float);
+    for (std::size_t i = 0; i < count; ++i)
+        sum += static_cast<double>(flip.error.f32()[i]);
+    return sum / static_cast<double>(count);
+}
+
+Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
+                                 const std::vector<EnginePicture>& pictures, const Jobs& jobs)
+{
+    return Judge(drawer, pictures, jobs).run(folder, truths);
+}
+
+} // namespace burnish

@@ -1,0 +1,66 @@
+// Compares an engine's pictures with truths, and finds the mistakes that explain them.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/lab/conform/draw.h"
+#include "core/base/result.h"
+#include "core/image/image.h"
+
+namespace burnish {
+
+struct EnginePicture {
+    std::string file;           // as read; empty: there is none
+    std::string fault;          // why it cannot be compared; empty: it can
+    bool not_finite = false;
+    Image shown;                // as displays show it: u8 RGB at kConformEv
+    bool from_eight_bits = false;
+};
+
+inline constexpr int kExposure = -1, kNoMistake = -2; // beside the indices into mutants()
+std::string mistake_name(int mutant);
+std::string mistake_words(int mutant, double exposure_ev);
+
+struct SceneJudgement {
+    enum class Outcome { right, wrong, unusable, missing };
+    std::string name;
+    Outcome outcome = Outcome::missing;
+    std::string reason;      // for unusable and missing ones
+    bool not_finite = false; // the picture holds NaN or infinities
+    double to_truth = 0.0;   // mean LDR-FLIP of the picture to the truth
+    double usual = 0.0;      // of Judgement::way to the truth
+    double to_right = 0.0;   // of the picture to the truth or to a right way, the least
+    double to_usual = 0.0;   // of the picture to Judgement::way
+    int nearest = kNoMistake; // none is nearer than Judgement::way
+    double to_nearest = 0.0; // of the picture to that one
+    double explained = 0.0;  // of the picture to the one with the mistakes found; to_usual without any
+};
+
+struct FoundMistake {
+    int mutant = kNoMistake;
+    std::vector<std::string> scenes; // that it changes
+    double before = 0.0, after = 0.0; // mean FLIP of their pictures to those without and with it
+};
+
+struct Judgement {
+    const RightWay* way = &right_ways().front(); // without a mistake, nearest to the pictures
+    std::vector<SceneJudgement> scenes;
+    std::vector<FoundMistake> mistakes; // the one that explains most comes first
+    double exposure_ev = 0.0;           // of the pictures against what is right, where that is a mistake; else 0
+    bool all_right() const;
+    bool unexplained() const; // wrong pictures, and no mistake found
+};
+
+// Judges the pictures, one for each of the folder's scenes. told: called before each mutant.
+Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
+                                 const std::vector<EnginePicture>& pictures, const Jobs& jobs);
+
+// Returns the picture as displays show it at kConformEv, u8 RGB.
+Image shown_picture(const Image& linear);
+
+// Returns the mean LDR-FLIP of two pictures.
+double mean_flip(const Image& reference, const Image& test, const Jobs& jobs);
+
+} // namespace burnish

@@ -1,0 +1,22 @@
+// Reads an engine's pictures of the scenes in a conformance folder, and the truths.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/cli/report.h"
+#include "apps/lab/conform/folder.h"
+#include "apps/lab/conform/judge.h"
+#include "core/base/limits.h"
+
+namespace burnish {
+
+struct ConformPictures {
+    std::vector<Image> truths;         // f32 RGB, by scene
+    std::vector<EnginePicture> engine; // by scene
+};
+
+// Looks for NAME.exr, .hdr, .pfm and .png in this order. Errors: those of truths, and a folder without one picture. A picture that cannot
+// be read or compared has a fault.
+Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits, Report& report);
+
+} // namespace burnish
