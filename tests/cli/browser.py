@@ -17,9 +17,9 @@ TIMEOUT = 60.0  # seconds for one answer
 
 
 class Browser:
-    """Used as `with Browser(folder) as browser`. The folder holds its profile."""
+    """Used as `with Browser(folder) as browser`. The folder holds its profile. webgl: pages draw by WebGL on the CPU."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, webgl=False):
         program = next(filter(None, map(shutil.which, NAMES)), None)
         if not program:
             raise Skipped("no Chromium: package chromium, group test of apps/packages.txt")
@@ -33,7 +33,8 @@ class Browser:
             os.dup2(104, 4)
 
         self.process = subprocess.Popen(
-            [program, "--headless=new", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run",
+            [program, "--headless=new", "--remote-debugging-pipe", "--no-sandbox",
+             *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist") if webgl else ("--disable-gpu",)), "--hide-scrollbars", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage", f"--user-data-dir={folder}/profile", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False, preexec_fn=place_pipes,
             start_new_session=True, env={**os.environ, "HOME": str(folder)})

@@ -34,11 +34,35 @@ Examples:
 
 struct ConformArguments {
     std::string folder, pictures, write, html, json, junit;
-    std::vector<std::string> without;
+    std::vector<std::string> without, mistakes;
+    std::string technique;
+    bool draw = false;
     int samples = 1024, threads = 0, verbosity = 0;
     bool quiet = false;
     Limits limits;
 };
+
+std::vector<std::string> mistake_names()
+{
+    std::vector<std::string> names;
+    for (const Mutant& mutant : mutants())
+        names.emplace_back(mutant.name);
+    return names;
+}
+
+// Returns the right ways, then the techniques.
+const std::vector<std::string>& drawing_names()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const RightWay& way : right_ways())
+            all.emplace_back(way.name);
+        for (const TechniqueInfo& technique : techniques())
+            all.emplace_back(technique.name);
+        return all;
+    }();
+    return names;
+}
 
 OptionTable conform_option_table(ConformArguments& to)
 {
@@ -51,6 +75,9 @@ OptionTable conform_option_table(ConformArguments& to)
                         {"--html", "FILE", "Page with pictures, error maps and mistakes", file(to.html)},
                         {"--json", "FILE", "Results as JSON; - for standard output", file(to.json)},
                         {"--junit", "FILE", "Results as JUnit XML; - for standard output", file(to.junit)}});
+    table.add("Draw", {{"--draw", "", "Draw the scenes into PICTURES by burnish, in place of judging them", flag(to.draw)},
+                       {"--mistake", "NAME,...", "With mistakes that engines make, to see what they look like", choices(to.mistakes, mistake_names())},
+                       {"--technique", "NAME", "Technique: {}", choice(to.technique, drawing_names()), drawing_names().front().c_str()}});
     table.add("Output", {quiet_option(to.quiet), verbose_option(to.verbosity)});
     table.add("Machine", {threads_option(to.threads)});
     table.add("Limits", limit_options(to.limits));
@@ -62,13 +89,19 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     if (a.write.empty() && a.folder.empty())
         return usage_error("DIR", "no conformance folder is given; --write makes one");
     if (!a.write.empty())
-        for (const char* other : {"DIR", "PICTURES", "--without", "--html", "--json", "--junit"})
+        for (const char* other : {"DIR", "PICTURES", "--without", "--html", "--json", "--junit", "--draw"})
             if (given.given(other))
                 return usage_error(other, "does not go with --write");
     if (a.write.empty() && a.pictures.empty())
         return usage_error("PICTURES", "no folder of pictures is given");
     if (a.write.empty() && given.given("--samples"))
         return usage_error("--samples", "needs --write");
+    for (const char* option : {"--mistake", "--technique"})
+        if (!a.draw && given.given(option))
+            return usage_error(option, "needs --draw");
+    for (const char* option : {"--without", "--html", "--json", "--junit"})
+        if (a.draw && given.given(option))
+            return usage_error(option, "does not go with --draw");
     return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, {});
 }
 
@@ -120,6 +153,42 @@ void tell(const Judgement& judgement, Report& report)
         report.figure("mistake", "none of ours: no mistake that burnish knows looks like the wrong pictures");
 }
 
+int draw_folder(const ConformArguments& a, Report& report)
+{
+    const Result<ConformFolder> folder = read_conform_folder(a.folder);
+    if (!folder)
+        return fail(folder.error());
+    if (const Status made = make_output_folder(a.pictures); !made)
+        return fail(made.error());
+    Result<ConformDrawer> drawer = ConformDrawer::open(*folder, a.limits, std::make_shared<const Jobs>(a.threads));
+    if (!drawer)
+        return fail(drawer.error());
+    RightWay way = right_ways().front();
+    if (const TechniqueInfo* technique = find_technique(a.technique))
+        way = {technique->name, technique->summary, technique->name, technique->default_samples, 0};
+    for (const RightWay& right : right_ways())
+        if (right.name == a.technique)
+            way = right;
+    drawer->set_way(way);
+    std::vector<int> mistakes;
+    for (const std::string& name : a.mistakes)
+        for (std::size_t m = 0; m < mutants().size(); ++m)
+            if (mutants()[m].name == name)
+                mistakes.push_back(static_cast<int>(m));
+    report.release();
+    for (std::size_t i = 0; i < folder->scenes.size(); ++i) {
+        Result<std::optional<Image>> drawn = drawer->draw(i, mistakes);
+        if (drawn && !*drawn) // the mistakes change nothing in this scene
+            drawn = drawer->draw(i, {});
+        if (!drawn)
+            return fail(drawn.error());
+        if (const Status written = write_image(a.pictures + "/" + folder->scenes[i].name + ".exr", **drawn); !written)
+            return fail(written.error());
+    }
+    report.event("wrote", fmt::format("{}: {}", a.pictures, counted(folder->scenes.size(), "picture")));
+    return 0;
+}
+
 int judge_folder(const ConformArguments& a, Report& report)
 {
     report.promise_stdout({a.json, a.junit});
@@ -156,7 +225,9 @@ int run_conform(const ConformArguments& a, const OptionTable& given)
     if (const Status good = check_conform_arguments(a, given); !good)
         return fail(good.error());
     Report report(a.quiet, a.verbosity);
-    return a.write.empty() ? judge_folder(a, report) : write_folder(a, report);
+    if (!a.write.empty())
+        return write_folder(a, report);
+    return a.draw ? draw_folder(a, report) : judge_folder(a, report);
 }
 
 } // namespace

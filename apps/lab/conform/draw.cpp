@@ -17,7 +17,10 @@ namespace {
 
 constexpr int kSkies = static_cast<int>(MutantSky::turned_back) + 1; // and a black one
 constexpr int kMsaa = 8;
-constexpr std::uint32_t kLightSamples = 64; // on the area light
+constexpr std::uint32_t kLightSamples = 16; // on the area light
+// Mistakes that show under an environment alone.
+constexpr std::uint32_t kOfImageLight = mutant_bit(KernelMutant::bend_factor) | mutant_bit(KernelMutant::bend_across) |
+                                        mutant_bit(KernelMutant::no_bend) | mutant_bit(KernelMutant::mean_width) | mutant_bit(KernelMutant::no_specular_image);
 constexpr int kCubeSize = 256, kBakeSamples = 512;
 
 } // namespace
@@ -29,7 +32,7 @@ const std::vector<RightWay>& right_ways()
         {"gltf_compensated", "that bent normal, with light that rough lobes lose given back", "bent_normal", 1, mutant_bit(KernelMutant::gltf_bend),
          true},
         {"hdrp", "the bent normal of Unity's HDRP", "bent_normal", 1, 0},
-        {"samples", "samples of the lobe", "lobe_line", 36, 0},
+        {"samples", "samples of the lobe", "lobe_line", 16, 0},
     };
     return ways;
 }
@@ -114,7 +117,7 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
         kernels |= mutant.kernels;
         if (mutant.sky != MutantSky::right && opened.environment)
             change = mutant.sky, any = true;
-        any = any || mutant.kernels != 0 || (mutant.frame && !mutant.scene) || mutant.picture;
+        any = any || (mutant.kernels & (opened.environment ? ~0u : ~kOfImageLight)) != 0 || (mutant.frame && !mutant.scene) || mutant.picture;
     }
     if (!any)
         return std::optional<Image>();
@@ -163,22 +166,6 @@ Result<ConformDrawer::Truth> ConformDrawer::truth(std::size_t scene, std::uint64
     if (frame->stats.sampling.stopped)
         return Error{ExitCode::stopped, "", "", "stopped"};
     return Truth{std::move(frame->color), std::move(frame->variance)};
-}
-
-Result<Image> ConformDrawer::by_technique(std::size_t scene, const std::string& technique, int samples)
-{
-    const Result<std::shared_ptr<const Environment>> environment = sky(scenes_[scene].environment, MutantSky::right);
-    BN_TRY(environment);
-    SessionParts parts;
-    parts.scene = scenes_[scene].data, parts.environment = *environment, parts.jobs = jobs_, parts.dfg = dfg_;
-    Result<Session> session = Session::make(std::move(parts));
-    BN_TRY(session);
-    FrameDesc desc = desc_of(scenes_[scene].data->scene);
-    desc.technique = technique;
-    desc.samples = samples;
-    Result<Frame> frame = session->render(desc);
-    BN_TRY(frame);
-    return std::move(frame->color);
 }
 
 } // namespace burnish

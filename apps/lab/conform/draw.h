@@ -42,9 +42,6 @@ class ConformDrawer {
     // Draws a scene by the reference. samples: per pixel.
     Result<Truth> truth(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop);
 
-    // Draws a scene by another technique of the tile renderer.
-    Result<Image> by_technique(std::size_t scene, const std::string& technique, int samples);
-
   private:
     struct Opened {
         std::shared_ptr<const SceneData> data;

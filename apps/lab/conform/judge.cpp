@@ -17,7 +17,13 @@ constexpr std::size_t kMostMistakes = 6;
 constexpr double kSeen = 0.01;          // mean FLIP from which a mistake shows in a scene
 constexpr double kExplains = 0.7;       // of the distance before that a mistake may leave
 constexpr double kLeastGain = 0.012;    // mean FLIP a scene that a mistake must take away
-constexpr double kRight = 0.08;         // mean FLIP to the truth or to a right way, up to which a picture is right
+// A picture is right up to this mean FLIP to the truth or to a right way: a factor on the median of all scenes, since an engine filters
+// light in its own way everywhere, within bounds.
+constexpr double kRightOfMedian = 2.0, kLeastRight = 0.06, kMostRight = 0.12;
+constexpr int kProbes = 4;             // scenes after which a mistake that takes nothing away is given up
+constexpr std::size_t kStride = 11;    // between scenes tried one after the other
+constexpr double kExplained = 0.5;     // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kHopeful = 0.85;      // of the distance before, which it may leave there
 constexpr double kLeastExposure = 0.12; // stops
 
 double luminance(const std::byte* texel)
@@ -58,10 +64,11 @@ class Judge {
   private:
     bool usable(std::size_t scene) const { return !pictures_[scene].file.empty() && pictures_[scene].fault.empty(); }
     Result<std::optional<Image>> shown_with(std::size_t scene, const std::vector<int>& mistakes);
-    Status find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of, Distances& to);
+    Status find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
+                          const std::vector<double>& left, Distances& to);
     Result<Distances> distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
-                                   const std::vector<SceneJudgement>& scenes);
-    Status choose_way(Judgement& to);
+                                   const Judgement& judgement);
+    Status draw_way(const RightWay& way, Judgement& to);
     double exposure_against(const std::vector<Image>& without) const;
     Status find_mistakes(Judgement& to);
 
@@ -69,6 +76,7 @@ class Judge {
     const std::vector<EnginePicture>& pictures_;
     const Jobs& jobs_;
     std::vector<Image> usual_;  // by scene
+    std::vector<std::size_t> order_; // of scenes, with unlike ones after each other
     double exposure_ev_ = 0.0;  // of the mistake kExposure
 };
 
@@ -88,35 +96,43 @@ Result<std::optional<Image>> Judge::shown_with(std::size_t scene, const std::vec
     return std::optional<Image>(tonemap_to_srgb8(**drawn, Tonemap::none, stops));
 }
 
-// Fills the distances of the scenes that `of` asks for.
-Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of, Distances& to)
+// Fills the distances of the scenes that `of` asks for. least: returns early where the first scenes come no nearer by them.
+Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
+                             const std::vector<double>& left, Distances& to)
 {
-    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    double before = 0.0, after = 0.0;
+    int tried = 0;
+    for (const std::size_t i : order_) {
         if (!usable(i) || !of[i])
             continue;
         Result<std::optional<Image>> drawn = shown_with(i, mistakes);
         BN_TRY(drawn);
-        if (*drawn && mean_flip(without[i], **drawn, jobs_) >= kSeen)
-            to.of[i] = mean_flip(**drawn, pictures_[i].shown, jobs_);
+        if (!*drawn || mean_flip(without[i], **drawn, jobs_) < kSeen)
+            continue;
+        to.of[i] = mean_flip(**drawn, pictures_[i].shown, jobs_);
+        before += left[i], after += to.of[i];
+        if (++tried == kProbes && after > kHopeful * before)
+            return {};
     }
     return {};
 }
 
 // Returns the distances of a set of mistakes. Scenes without a fault are drawn only where it explains others.
 Result<Distances> Judge::distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
-                                      const std::vector<SceneJudgement>& scenes)
+                                      const Judgement& judgement)
 {
+    const std::vector<SceneJudgement>& scenes = judgement.scenes;
     Distances found{std::vector<double>(pictures_.size(), -1.0)};
     std::vector<bool> faulty(pictures_.size());
     for (std::size_t i = 0; i < faulty.size(); ++i)
-        faulty[i] = scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > kRight;
-    BN_TRY(find_distances(mistakes, without, faulty, found));
+        faulty[i] = scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > judgement.right_up_to;
+    BN_TRY(find_distances(mistakes, without, faulty, left, found));
     bool explains = false;
     for (std::size_t i = 0; i < faulty.size(); ++i)
         explains = explains || (found.of[i] >= 0.0 && found.of[i] <= kExplains * left[i]);
     if (explains) {
         faulty.flip();
-        BN_TRY(find_distances(mistakes, without, faulty, found));
+        BN_TRY(find_distances(mistakes, without, faulty, left, found));
     }
     return found;
 }
@@ -158,7 +174,7 @@ Status Judge::find_mistakes(Judgement& to)
             const Activity activity("drawing mistake " + mistake_words(m, exposure_ev_));
             std::vector<int> mistakes = known;
             mistakes.push_back(m);
-            const Result<Distances> distances = distances_of(mistakes, without, left, to.scenes);
+            const Result<Distances> distances = distances_of(mistakes, without, left, to);
             BN_TRY(distances);
             double before = 0.0, after = 0.0;
             bool wrong = false;
@@ -169,7 +185,7 @@ Status Judge::find_mistakes(Judgement& to)
                     continue;
                 before += left[i], after += distances->of[i];
                 rest[i] = distances->of[i];
-                wrong = wrong || (to.scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > kRight);
+                wrong = wrong || (to.scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > to.right_up_to);
                 seen_in.push_back(to.scenes[i].name);
                 if (known.empty() && distances->of[i] < to.scenes[i].to_usual &&
                     (to.scenes[i].nearest == kNoMistake || distances->of[i] < to.scenes[i].to_nearest))
@@ -189,6 +205,8 @@ Status Judge::find_mistakes(Judgement& to)
         to.mistakes.push_back(std::move(found));
         left = best_left;
         for (std::size_t i = 0; i < left.size(); ++i) {
+            if (known.size() == 1 && left[i] < to.scenes[i].explained)
+                to.scenes[i].nearest = best, to.scenes[i].to_nearest = left[i];
             to.scenes[i].explained = left[i];
             if (!usable(i))
                 continue;
@@ -201,72 +219,89 @@ Status Judge::find_mistakes(Judgement& to)
     return {};
 }
 
-// Fills usual_ and the judgements' distances by the right way that is nearest to the pictures, the median over scenes.
-Status Judge::choose_way(Judgement& to)
+// Draws all scenes in a way without mistakes. Fills usual_ and the distances to it.
+Status Judge::draw_way(const RightWay& way, Judgement& to)
 {
-    std::vector<double> nearest(pictures_.size(), 2.0);
-    double least = 2.0;
-    for (const RightWay& way : right_ways()) {
-        const Activity activity(std::string("drawing by ") + way.words);
-        drawer_.set_way(way);
-        std::vector<Image> drawn(pictures_.size());
-        std::vector<double> distances;
-        for (std::size_t i = 0; i < pictures_.size(); ++i) {
-            if (!usable(i))
-                continue;
-            Result<std::optional<Image>> shown = shown_with(i, {});
-            BN_TRY(shown);
-            drawn[i] = std::move(**shown);
-            distances.push_back(mean_flip(drawn[i], pictures_[i].shown, jobs_));
-            nearest[i] = std::min(nearest[i], distances.back());
-        }
-        if (distances.empty())
-            return {};
-        std::vector<double> sorted = distances;
-        std::sort(sorted.begin(), sorted.end());
-        if (sorted[sorted.size() / 2] >= least)
+    const Activity activity(std::string("drawing ") + way.words);
+    drawer_.set_way(way);
+    to.way = &way;
+    usual_.assign(pictures_.size(), Image{});
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        if (!usable(i))
             continue;
-        least = sorted[sorted.size() / 2];
-        to.way = &way;
-        usual_ = std::move(drawn);
-        std::size_t at = 0;
-        for (std::size_t i = 0; i < pictures_.size(); ++i)
-            if (usable(i))
-                to.scenes[i].to_usual = to.scenes[i].explained = distances[at++];
+        Result<std::optional<Image>> shown = shown_with(i, {});
+        BN_TRY(shown);
+        usual_[i] = std::move(**shown);
+        SceneJudgement& scene = to.scenes[i];
+        scene.to_usual = scene.explained = mean_flip(usual_[i], pictures_[i].shown, jobs_);
+        scene.to_right = std::min(scene.to_right, scene.to_usual);
     }
-    drawer_.set_way(*to.way);
-    for (std::size_t i = 0; i < pictures_.size(); ++i)
-        to.scenes[i].to_right = std::min(nearest[i], to.scenes[i].to_truth);
     return {};
+}
+
+// Returns how far the pictures are from what explains them, a sum over scenes. Distances that are right do not count.
+double unexplained_distance(const Judgement& judgement)
+{
+    double sum = 0.0;
+    for (const SceneJudgement& s : judgement.scenes)
+        if (s.outcome == SceneJudgement::Outcome::wrong)
+            sum += std::max(s.explained - judgement.right_up_to, 0.0);
+    return sum;
 }
 
 Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& truths)
 {
-    Judgement result;
+    Judgement none;
     for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
         SceneJudgement scene;
         scene.name = folder.scenes[i].name;
         const EnginePicture& picture = pictures_[i];
         if (usable(i))
-            scene.to_truth = mean_flip(shown_picture(truths[i]), picture.shown, jobs_);
+            scene.to_truth = scene.to_right = mean_flip(shown_picture(truths[i]), picture.shown, jobs_);
         else {
             scene.outcome = picture.file.empty() ? SceneJudgement::Outcome::missing : SceneJudgement::Outcome::unusable;
             scene.reason = picture.file.empty() ? "there is no picture" : picture.fault;
             scene.not_finite = picture.not_finite;
         }
-        result.scenes.push_back(std::move(scene));
+        none.scenes.push_back(std::move(scene));
+        order_.push_back((i * kStride) % folder.scenes.size());
     }
-    BN_TRY(choose_way(result));
-    for (std::size_t i = 0; i < result.scenes.size(); ++i) {
-        SceneJudgement& scene = result.scenes[i];
-        if (!usable(i))
-            continue;
-        scene.usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
-        scene.outcome = scene.to_right <= kRight ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
+    // Find the pictures that are right in some way
+    std::vector<std::pair<std::ptrdiff_t, const RightWay*>> ways; // by the scenes that are far from them
+    for (const RightWay& way : right_ways()) {
+        BN_TRY(draw_way(way, none));
+        ways.emplace_back(std::count_if(none.scenes.begin(), none.scenes.end(), [](const SceneJudgement& s) { return s.to_usual > kLeastRight; }), &way);
     }
-    if (!result.all_right())
-        BN_TRY(find_mistakes(result));
-    return result;
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < none.scenes.size(); ++i)
+        if (usable(i))
+            distances.push_back(none.scenes[i].to_right);
+    std::sort(distances.begin(), distances.end());
+    if (!distances.empty())
+        none.right_up_to = std::clamp(kRightOfMedian * distances[distances.size() / 2], kLeastRight, kMostRight);
+    for (std::size_t i = 0; i < none.scenes.size(); ++i)
+        if (usable(i))
+            none.scenes[i].outcome = none.scenes[i].to_right <= none.right_up_to ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
+    std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Look for mistakes in the nearest way, and in others while most is left unexplained
+    std::optional<Judgement> best;
+    for (const auto& [far_scenes, way] : ways) {
+        Judgement judgement = none;
+        BN_TRY(draw_way(*way, judgement));
+        const double before = unexplained_distance(judgement);
+        if (before > 0.0)
+            BN_TRY(find_mistakes(judgement));
+        for (std::size_t i = 0; i < judgement.scenes.size(); ++i)
+            if (usable(i))
+                judgement.scenes[i].usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
+        const double left = unexplained_distance(judgement);
+        if (!best || left < unexplained_distance(*best))
+            best = std::move(judgement);
+        if (left <= kExplained * before)
+            break;
+    }
+    drawer_.set_way(*best->way);
+    return std::move(*best);
 }
 
 } // namespace

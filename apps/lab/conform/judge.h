@@ -47,6 +47,7 @@ struct FoundMistake {
 struct Judgement {
     const RightWay* way = &right_ways().front(); // without a mistake, nearest to the pictures
     std::vector<SceneJudgement> scenes;
+    double right_up_to = 0.0; // mean FLIP to the truth or to a right way
     std::vector<FoundMistake> mistakes; // the one that explains most comes first
     double exposure_ev = 0.0;           // of the pictures against what is right, where that is a mistake; else 0
     bool all_right() const;

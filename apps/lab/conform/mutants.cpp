@@ -347,6 +347,7 @@ const std::vector<Mutant>& mutants()
         {"bend_across", "the normal for image light is bent about the tangent, not the bitangent", bit(K::bend_across)},
         {"bend_factor", "the bend factor is 2^(2^x), where x^4 is meant", bit(K::bend_factor)},
         {"no_bend", "image light ignores anisotropy", bit(K::no_bend)},
+        {"mean_width", "image light takes a round lobe of the mean width", bit(K::mean_width)},
         {"no_specular_image", "the environment's specular light is lost", bit(K::no_specular_image)},
         {"handedness_ignored", "the tangents' w is taken for 1", bit(K::handedness_ignored)},
         {"tangents_ignored", "the file's tangents are ignored: they follow from the coordinates", 0, own_tangents_ignored},

@@ -42,12 +42,13 @@ BN_FN bent_ray gltf_bent_ray(real3 n, real3 v, aniso_lobe lobe)
     real squared = factor * factor;
     real kept = BN_MUTANT(bend_factor, squared * squared, k_exp2(k_exp2(factor)));
     kept = BN_MUTANT(no_bend, kept, lit(1.0));
+    kept = BN_MUTANT(mean_width, kept, lit(1.0));
     real3 mixed = turned * (lit(1.0) - kept) + n * kept;
     real3 bent = k_normalize3(mixed);
     // Mirror the view
     bent_ray r;
     r.direction = bent * (lit(2.0) * k_dot3(bent, v)) - v;
-    r.lod = roughness;
+    r.lod = BN_MUTANT(mean_width, roughness, lobe_alpha_lin(lobe));
     return r;
 }
 

@@ -10,6 +10,7 @@ namespace burnish {
     X(bend_factor)        /* that bends by 2^(2^x), where x^4 is meant */                                                                  \
     X(bend_across)        /* that bends about the tangent, not the bitangent */                                                            \
     X(no_bend)            /* that does not bend */                                                                                         \
+    X(mean_width)         /* nor that: a round lobe of the mean width */                                                                   \
     X(no_specular_image)  /* the environment's specular light is lost */                                                                   \
     X(rotation_clockwise) /* directions turn the other way */                                                                              \
     X(axes_swapped)       /* the lobe's axes change places */                                                                              \
