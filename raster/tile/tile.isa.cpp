@@ -130,9 +130,20 @@ void draw_layers(const Tile& t, const view_params& view, const MaterialRecord& m
     }
 }
 
+// True for the techniques that this copy of the kernels draws by.
+#ifndef BN_COMPILES_TECHNIQUE
+#define BN_COMPILES_TECHNIQUE(id) true
+#endif
 using ShadeSlot = void (*)(const Tile&, const view_params&, const MaterialRecord&, std::uint32_t, std::uint32_t);
+template <Technique kTechnique, bool kCompiled> constexpr ShadeSlot slot_of()
+{
+    if constexpr (kCompiled)
+        return shade_slot<kTechnique>;
+    else
+        return nullptr;
+}
 constexpr ShadeSlot kShadeSlots[] = {
-#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) shade_slot<Technique::id>,
+#define BN_TECHNIQUE(id, sampling, default_samples, most_samples, traits, summary) slot_of<Technique::id, BN_COMPILES_TECHNIQUE(id)>(),
 #include "shading/models.def"
 };
 

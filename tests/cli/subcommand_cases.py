@@ -36,6 +36,7 @@ RUNS = {
     "serve": [(("nothing.glb",), (4,))],
     "chart": [((*CHART[1:], "--sweep", "roughness=0.2,0.5", "--sweep", "anisotropy=0,0.5", "-o", "report"), (0, 77))],
     "atlas": [(("--list",), (0,)), (("albedo_by_a_fit", "--quick", "-o", "atlas", "--json", "atlas.json"), (0, 77))],
+    "conform": [(("nothing", "pictures"), (4,))],
     "profile": [((*VIEW, "--frames", "2", "--json", "p.json", "--svg", "p.svg", "--trace", "pt.json"), (0,))],
     "parity": [(("builtin:plate", *VIEW, "--technique", "mc", "--device", "lavapipe", "--json", "y.json", "--html", "y.html",
                  "--junit", "y.xml"), (0, 77))],

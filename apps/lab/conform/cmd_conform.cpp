@@ -64,6 +64,14 @@ const std::vector<std::string>& drawing_names()
     return names;
 }
 
+std::string ways_in_words()
+{
+    std::vector<std::string> names;
+    for (const RightWay& way : right_ways())
+        names.emplace_back(way.name);
+    return join(names);
+}
+
 OptionTable conform_option_table(ConformArguments& to)
 {
     OptionTable table;
@@ -99,6 +107,8 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     for (const char* option : {"--mistake", "--technique"})
         if (!a.draw && given.given(option))
             return usage_error(option, "needs --draw");
+    if (!a.mistakes.empty() && find_technique(a.technique))
+        return usage_error("--technique", fmt::format("{} is drawn without mistakes alone; {} are drawn with them", a.technique, ways_in_words()));
     for (const char* option : {"--without", "--html", "--json", "--junit"})
         if (a.draw && given.given(option))
             return usage_error(option, "does not go with --draw");
@@ -153,6 +163,16 @@ void tell(const Judgement& judgement, Report& report)
         report.figure("mistake", "none of ours: no mistake that burnish knows looks like the wrong pictures");
 }
 
+// Draws a scene with mistakes, or without where they change nothing in it.
+Result<Image> drawn_with(ConformDrawer& drawer, std::size_t scene, const std::vector<int>& mistakes)
+{
+    Result<std::optional<Image>> drawn = drawer.draw(scene, mistakes);
+    if (drawn && !*drawn)
+        drawn = drawer.draw(scene, {});
+    BN_TRY(drawn);
+    return std::move(**drawn);
+}
+
 int draw_folder(const ConformArguments& a, Report& report)
 {
     const Result<ConformFolder> folder = read_conform_folder(a.folder);
@@ -163,13 +183,10 @@ int draw_folder(const ConformArguments& a, Report& report)
     Result<ConformDrawer> drawer = ConformDrawer::open(*folder, a.limits, std::make_shared<const Jobs>(a.threads));
     if (!drawer)
         return fail(drawer.error());
-    RightWay way = right_ways().front();
-    if (const TechniqueInfo* technique = find_technique(a.technique))
-        way = {technique->name, technique->summary, technique->name, technique->default_samples, 0};
-    for (const RightWay& right : right_ways())
-        if (right.name == a.technique)
-            way = right;
-    drawer->set_way(way);
+    const TechniqueInfo* const technique = find_technique(a.technique);
+    for (const RightWay& way : right_ways())
+        if (way.name == a.technique)
+            drawer->set_way(way);
     std::vector<int> mistakes;
     for (const std::string& name : a.mistakes)
         for (std::size_t m = 0; m < mutants().size(); ++m)
@@ -177,12 +194,10 @@ int draw_folder(const ConformArguments& a, Report& report)
                 mistakes.push_back(static_cast<int>(m));
     report.release();
     for (std::size_t i = 0; i < folder->scenes.size(); ++i) {
-        Result<std::optional<Image>> drawn = drawer->draw(i, mistakes);
-        if (drawn && !*drawn) // the mistakes change nothing in this scene
-            drawn = drawer->draw(i, {});
-        if (!drawn)
-            return fail(drawn.error());
-        if (const Status written = write_image(a.pictures + "/" + folder->scenes[i].name + ".exr", **drawn); !written)
+        Result<Image> picture = technique ? drawer->by_technique(i, *technique) : drawn_with(*drawer, i, mistakes);
+        if (!picture)
+            return fail(picture.error());
+        if (const Status written = write_image(a.pictures + "/" + folder->scenes[i].name + ".exr", *picture); !written)
             return fail(written.error());
     }
     report.event("wrote", fmt::format("{}: {}", a.pictures, counted(folder->scenes.size(), "picture")));

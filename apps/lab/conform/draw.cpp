@@ -149,17 +149,38 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
     return std::optional<Image>(std::move(picture));
 }
 
-Result<ConformDrawer::Truth> ConformDrawer::truth(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop)
+Result<SessionParts> ConformDrawer::parts_of(std::size_t scene)
 {
     const Result<std::shared_ptr<const Environment>> environment = sky(scenes_[scene].environment, MutantSky::right);
     BN_TRY(environment);
     SessionParts parts;
     parts.scene = scenes_[scene].data, parts.environment = *environment, parts.jobs = jobs_, parts.dfg = dfg_;
+    return parts;
+}
+
+Result<Image> ConformDrawer::by_technique(std::size_t scene, const TechniqueInfo& technique)
+{
+    Result<SessionParts> parts = parts_of(scene);
+    BN_TRY(parts);
+    Result<Session> session = Session::make(std::move(*parts));
+    BN_TRY(session);
+    FrameDesc desc = desc_of(scenes_[scene].data->scene);
+    desc.technique = technique.name;
+    desc.samples = technique.default_samples;
+    Result<Frame> frame = session->render(desc);
+    BN_TRY(frame);
+    return std::move(frame->color);
+}
+
+Result<ConformDrawer::Truth> ConformDrawer::truth(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop)
+{
+    Result<SessionParts> parts = parts_of(scene);
+    BN_TRY(parts);
     SessionOptions options;
     options.backend = Backend::reference;
     options.reference.samples = samples;
     options.reference.stop = stop;
-    Result<Session> session = Session::make(std::move(parts), options);
+    Result<Session> session = Session::make(std::move(*parts), options);
     BN_TRY(session);
     Result<Frame> frame = session->render(desc_of(scenes_[scene].data->scene));
     BN_TRY(frame);

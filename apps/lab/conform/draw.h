@@ -36,6 +36,9 @@ class ConformDrawer {
     // the mistakes has nothing to change in the scene.
     Result<std::optional<Image>> draw(std::size_t scene, std::span<const int> mistakes);
 
+    // Draws a scene without a mistake by any technique of burnish, f32 RGB.
+    Result<Image> by_technique(std::size_t scene, const TechniqueInfo& technique);
+
     struct Truth {
         Image color, variance;
     };
@@ -48,6 +51,7 @@ class ConformDrawer {
         bool environment;
     };
     FrameDesc desc_of(const Scene& scene) const;
+    Result<SessionParts> parts_of(std::size_t scene);
     Result<std::shared_ptr<const Environment>> sky(bool lit, MutantSky change);
 
     const RightWay* way_ = &right_ways().front();

@@ -101,7 +101,7 @@ Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector
                              const std::vector<double>& left, Distances& to)
 {
     double before = 0.0, after = 0.0;
-    int tried = 0;
+    int probed = 0;
     for (const std::size_t i : order_) {
         if (!usable(i) || !of[i])
             continue;
@@ -111,7 +111,7 @@ Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector
             continue;
         to.of[i] = mean_flip(**drawn, pictures_[i].shown, jobs_);
         before += left[i], after += to.of[i];
-        if (++tried == kProbes && after > kHopeful * before)
+        if (++probed == kProbes && after > kHopeful * before)
             return {};
     }
     return {};
