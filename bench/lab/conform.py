@@ -101,7 +101,7 @@ THREE = {
                                   "( vec3( 0.0, 1.0, 0.0 ) + vec3( 1.0, - 1.0, 1.0 ) * texture2D( anisotropyMap, vAnisotropyMapUv ).rgb )"),
     "map_strength_ignored": chunk("lights_physical_fragment", " * anisotropyPolar.b;", ";"),
     "first_coordinates": three("if (m.anisotropyMap) m.anisotropyMap.channel = 0;"),
-    "transform_ignored": three("if (m.anisotropyMap) { m.anisotropyMap.offset.set(0, 0); m.anisotropyMap.rotation = 0; m.anisotropyMap.repeat.set(1, 1); }"),
+    "transform_ignored": three("if (m.anisotropyMap) { m.anisotropyMap.matrixAutoUpdate = false; m.anisotropyMap.matrix.identity(); }"),
     "coat_ignored": three("m.clearcoat = 0;"),
     "backs_culled": three("m.side = THREE.FrontSide;"),
     "lamps_ignored": {"model": "gltf.scene.traverse(o => { if (o.isLight) o.intensity = 0; });\n"},

@@ -15,7 +15,7 @@ template <class Fns> struct FnsByIsa;
     template <> struct FnsByIsa<Fns> {                                                                                                     \
         using Get = const Fns& (*)(const Fns*);                                                                                            \
         static constexpr Get of[] = {BN_EACH_ISA(BN_FNS_OF, Fns)};                                                                         \
-        static constexpr Get oracle = &bn_oracle::isa_fns, counted = &bn_counted::isa_fns, mutated = &bn_mutated::isa_fns;                   \
+        static constexpr Get oracle = &bn_oracle::isa_fns, counted = &bn_counted::isa_fns, mutated = &bn_mutated::isa_fns;                 \
     }
 #define BN_DECLARE_FNS_OF(name, use, runs, flags, Fns)                                                                                     \
     inline namespace bn_##name                                                                                                             \

@@ -1,5 +1,5 @@
-// The tile renderer with other lanes, compiled from the same source text: double ones, ones that count their work, and ones with mistakes in
-// their kernels. All are slow.
+// The tile renderer with other lanes, compiled from the same source text: double ones, ones that count their work, and ones with mistakes
+// in their kernels. All are slow.
 #pragma once
 #include <memory>
 #include <optional>

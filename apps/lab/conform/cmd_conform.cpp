@@ -75,8 +75,9 @@ std::string ways_in_words()
 OptionTable conform_option_table(ConformArguments& to)
 {
     OptionTable table;
-    table.add("", {{"DIR", "", "Conformance folder", text(to.folder), "none"},
-                   {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"}});
+    table.add(
+        "", {{"DIR", "", "Conformance folder", text(to.folder), "none"},
+             {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"}});
     table.add("Write", {{"--write", "DIR", "Write a conformance folder", folder(to.write)},
                         {"--samples", "N", "Samples a pixel of the reference's pictures, {}", integer(to.samples, 64, 1 << 20)}});
     table.add("Judge", {{"--without", "NAME,...", "Leave out scenes, which the engine cannot draw", choices(to.without, scene_names())},
@@ -84,7 +85,8 @@ OptionTable conform_option_table(ConformArguments& to)
                         {"--json", "FILE", "Results as JSON; - for standard output", file(to.json)},
                         {"--junit", "FILE", "Results as JUnit XML; - for standard output", file(to.junit)}});
     table.add("Draw", {{"--draw", "", "Draw the scenes into PICTURES by burnish, in place of judging them", flag(to.draw)},
-                       {"--mistake", "NAME,...", "With mistakes that engines make, to see what they look like", choices(to.mistakes, mistake_names())},
+                       {"--mistake", "NAME,...", "With mistakes that engines make, to see what they look like",
+                        choices(to.mistakes, mistake_names())},
                        {"--technique", "NAME", "Technique: {}", choice(to.technique, drawing_names()), drawing_names().front().c_str()}});
     table.add("Output", {quiet_option(to.quiet), verbose_option(to.verbosity)});
     table.add("Machine", {threads_option(to.threads)});
@@ -108,7 +110,8 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
         if (!a.draw && given.given(option))
             return usage_error(option, "needs --draw");
     if (!a.mistakes.empty() && find_technique(a.technique))
-        return usage_error("--technique", fmt::format("{} is drawn without mistakes alone; {} are drawn with them", a.technique, ways_in_words()));
+        return usage_error("--technique",
+                           fmt::format("{} is drawn without mistakes alone; {} are drawn with them", a.technique, ways_in_words()));
     for (const char* option : {"--without", "--html", "--json", "--junit"})
         if (a.draw && given.given(option))
             return usage_error(option, "does not go with --draw");
@@ -134,7 +137,8 @@ int write_folder(const ConformArguments& a, Report& report)
         const Result<ConformDrawer::Truth> truth = drawer->truth(i, static_cast<std::uint64_t>(a.samples), &stop);
         if (!truth)
             return fail(truth.error());
-        for (const auto& [path, image] : {std::pair{folder->truth_of(scene.name), &truth->color}, {folder->variance_of(scene.name), &truth->variance}})
+        for (const auto& [path, image] :
+             {std::pair{folder->truth_of(scene.name), &truth->color}, {folder->variance_of(scene.name), &truth->variance}})
             if (const Status written = write_image(path, *image); !written)
                 return fail(written.error());
         report.detail("scene", scene.name + ": " + scene.about);
@@ -150,7 +154,8 @@ void tell(const Judgement& judgement, Report& report)
             report.figure(s.name, s.reason);
             continue;
         }
-        std::string line = fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
+        std::string line =
+            fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
             line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, judgement.exposure_ev), s.to_nearest);
         report.figure(s.name, line);
@@ -159,8 +164,8 @@ void tell(const Judgement& judgement, Report& report)
     for (const FoundMistake& m : judgement.mistakes)
         report.figure("mistake", fmt::format("{} ({}; FLIP {:.3f} with it, {:.3f} without)", mistake_words(m.mutant, judgement.exposure_ev),
                                              counted(m.scenes.size(), "scene"), m.after, m.before));
-    if (judgement.unexplained())
-        report.figure("mistake", "none of ours: no mistake that burnish knows looks like the wrong pictures");
+    if (const std::vector<std::string> names = judgement.unexplained(); !names.empty())
+        report.figure("mistake", fmt::format("none of ours looks like {}", join(names)));
 }
 
 // Draws a scene with mistakes, or without where they change nothing in it.
@@ -210,7 +215,8 @@ int judge_folder(const ConformArguments& a, Report& report)
     Result<ConformFolder> folder = read_conform_folder(a.folder);
     if (!folder)
         return fail(folder.error());
-    std::erase_if(folder->scenes, [&](const FolderScene& s) { return std::find(a.without.begin(), a.without.end(), s.name) != a.without.end(); });
+    std::erase_if(folder->scenes,
+                  [&](const FolderScene& s) { return std::find(a.without.begin(), a.without.end(), s.name) != a.without.end(); });
     const Result<ConformPictures> pictures = read_conform_pictures(*folder, a.pictures, a.limits, report);
     if (!pictures)
         return fail(pictures.error());

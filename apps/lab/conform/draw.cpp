@@ -20,7 +20,8 @@ constexpr int kMsaa = 8;
 constexpr std::uint32_t kLightSamples = 16; // on the area light
 // Mistakes that show under an environment alone.
 constexpr std::uint32_t kOfImageLight = mutant_bit(KernelMutant::bend_factor) | mutant_bit(KernelMutant::bend_across) |
-                                        mutant_bit(KernelMutant::no_bend) | mutant_bit(KernelMutant::mean_width) | mutant_bit(KernelMutant::no_specular_image);
+                                        mutant_bit(KernelMutant::no_bend) | mutant_bit(KernelMutant::mean_width) |
+                                        mutant_bit(KernelMutant::no_specular_image);
 constexpr int kCubeSize = 256, kBakeSamples = 512;
 
 } // namespace
@@ -29,8 +30,8 @@ const std::vector<RightWay>& right_ways()
 {
     static const std::vector<RightWay> ways = {
         {"gltf", "the bent normal that KHR_materials_anisotropy recommends", "bent_normal", 1, mutant_bit(KernelMutant::gltf_bend)},
-        {"gltf_compensated", "that bent normal, with light that rough lobes lose given back", "bent_normal", 1, mutant_bit(KernelMutant::gltf_bend),
-         true},
+        {"gltf_compensated", "that bent normal, with light that rough lobes lose given back", "bent_normal", 1,
+         mutant_bit(KernelMutant::gltf_bend), true},
         {"hdrp", "the bent normal of Unity's HDRP", "bent_normal", 1, 0},
         {"samples", "samples of the lobe", "lobe_line", 16, 0},
     };
@@ -55,8 +56,7 @@ Result<ConformDrawer> ConformDrawer::open(const ConformFolder& folder, const Lim
         std::vector<AreaLight> lights;
         if (scene.area_light)
             lights.push_back(conform_area_light());
-        Result<std::shared_ptr<const SceneData>> data =
-            load_scene_data(folder.path + "/" + scene.file, limits, {}, {}, {}, lights);
+        Result<std::shared_ptr<const SceneData>> data = load_scene_data(folder.path + "/" + scene.file, limits, {}, {}, {}, lights);
         BN_TRY(data);
         if ((*data)->scene.cameras.empty())
             return Error{ExitCode::bad_input, folder.path + "/" + scene.file, "/cameras", "there is no camera"};
@@ -95,7 +95,8 @@ Result<std::shared_ptr<const Environment>> ConformDrawer::sky(bool lit, MutantSk
 Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<const int> mistakes)
 {
     const Opened& opened = scenes_[scene];
-    const bool edits_scene = std::any_of(mistakes.begin(), mistakes.end(), [](int m) { return mutants()[static_cast<std::size_t>(m)].scene; });
+    const bool edits_scene =
+        std::any_of(mistakes.begin(), mistakes.end(), [](int m) { return mutants()[static_cast<std::size_t>(m)].scene; });
     // Make the mistakes of the scene
     bool any = mistakes.empty();
     std::shared_ptr<const SceneData> data = opened.data;
@@ -117,7 +118,8 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
         kernels |= mutant.kernels;
         if (mutant.sky != MutantSky::right && opened.environment)
             change = mutant.sky, any = true;
-        any = any || (mutant.kernels & (opened.environment ? ~0u : ~kOfImageLight)) != 0 || (mutant.frame && !mutant.scene) || mutant.picture;
+        any =
+            any || (mutant.kernels & (opened.environment ? ~0u : ~kOfImageLight)) != 0 || (mutant.frame && !mutant.scene) || mutant.picture;
     }
     if (!any)
         return std::optional<Image>();

@@ -38,7 +38,7 @@ Json folder_json()
                           {"file", "scenes/" + scene.name + ".gltf"},
                           {"environment", scene.environment},
                           {"area_light", scene.area_light ? area_light_json() : Json(nullptr)}});
-    return {{"burnish_conform", kConformVersion}, {"width", kConformWidth},         {"height", kConformHeight},
+    return {{"burnish_conform", kConformVersion}, {"width", kConformWidth},           {"height", kConformHeight},
             {"exposure_ev", kConformEv},          {"environment", "environment.hdr"}, {"scenes", scenes}};
 }
 

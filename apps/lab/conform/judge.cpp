@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "apps/lab/conform/scenes.h"
@@ -14,16 +16,18 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kMostMistakes = 6;
-constexpr double kSeen = 0.01;          // mean FLIP from which a mistake shows in a scene
-constexpr double kExplains = 0.7;       // of the distance before that a mistake may leave
-constexpr double kLeastGain = 0.012;    // mean FLIP a scene that a mistake must take away
-// A picture is right up to this mean FLIP to the truth or to a right way: a factor on the median of all scenes, since an engine filters
-// light in its own way everywhere, within bounds.
-constexpr double kRightOfMedian = 2.0, kLeastRight = 0.06, kMostRight = 0.12;
-constexpr int kProbes = 4;             // scenes after which a mistake that takes nothing away is given up
-constexpr std::size_t kStride = 11;    // between scenes tried one after the other
-constexpr double kExplained = 0.5;     // of what is wrong in a way, which its mistakes may leave before another way is tried
-constexpr double kHopeful = 0.85;      // of the distance before, which it may leave there
+constexpr double kSeen = 0.01;       // mean FLIP from which a mistake shows in a scene
+constexpr double kExplains = 0.7;    // of the distance before that a mistake may leave
+constexpr double kLeastGain = 0.012; // mean FLIP a scene that a mistake must take away
+// A picture is right up to this mean FLIP to the truth or to the engine's way, a factor on the engine's noise, within bounds. The noise is
+// the median of that FLIP over all scenes.
+constexpr double kRightOfNoise = 2.0, kLeastRight = 0.06, kMostRight = 0.12, kLeastNoise = 0.03;
+constexpr double kSuspect = 1.4;        // of the noise, from which a scene may hold a mistake
+constexpr double kNear = 1.3;           // of the noise, up to which pictures are like those with a mistake
+constexpr int kProbes = 4;              // scenes after which a mistake that takes nothing away is given up
+constexpr std::size_t kStride = 11;     // between scenes tried one after the other
+constexpr double kExplained = 0.5;      // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kHopeful = 0.85;       // of the distance before, which it may leave there
 constexpr double kLeastExposure = 0.12; // stops
 
 double luminance(const std::byte* texel)
@@ -53,6 +57,20 @@ struct Distances {
     std::vector<double> of;
 };
 
+// Returns true where a scene may hold a mistake that is not found yet. left: its distance to what is known.
+bool is_suspect(const SceneJudgement& scene, const Judgement& judgement, double left)
+{
+    return std::min(scene.to_right, left) > std::min(kSuspect * judgement.noise, judgement.right_up_to);
+}
+
+// All scenes in a way without mistakes, and the pictures' distances to them.
+struct DrawnWay {
+    const RightWay* way;
+    std::vector<Image> shown;
+    std::vector<double> distance;
+    int far; // scenes that are not like it
+};
+
 class Judge {
   public:
     Judge(ConformDrawer& drawer, const std::vector<EnginePicture>& pictures, const Jobs& jobs)
@@ -68,16 +86,17 @@ class Judge {
                           const std::vector<double>& left, Distances& to);
     Result<Distances> distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
                                    const Judgement& judgement);
-    Status draw_way(const RightWay& way, Judgement& to);
+    Result<DrawnWay> draw_way(const RightWay& way);
+    void judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to);
     double exposure_against(const std::vector<Image>& without) const;
     Status find_mistakes(Judgement& to);
 
     ConformDrawer& drawer_;
     const std::vector<EnginePicture>& pictures_;
     const Jobs& jobs_;
-    std::vector<Image> usual_;  // by scene
+    std::vector<Image> usual_;       // by scene
     std::vector<std::size_t> order_; // of scenes, with unlike ones after each other
-    double exposure_ev_ = 0.0;  // of the mistake kExposure
+    double exposure_ev_ = 0.0;       // of the mistake kExposure
 };
 
 Result<std::optional<Image>> Judge::shown_with(std::size_t scene, const std::vector<int>& mistakes)
@@ -96,7 +115,7 @@ Result<std::optional<Image>> Judge::shown_with(std::size_t scene, const std::vec
     return std::optional<Image>(tonemap_to_srgb8(**drawn, Tonemap::none, stops));
 }
 
-// Fills the distances of the scenes that `of` asks for. least: returns early where the first scenes come no nearer by them.
+// Fills the distances of the scenes that `of` asks for. Returns early where the first scenes come no nearer by the mistakes.
 Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
                              const std::vector<double>& left, Distances& to)
 {
@@ -117,7 +136,7 @@ Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector
     return {};
 }
 
-// Returns the distances of a set of mistakes. Scenes without a fault are drawn only where it explains others.
+// Returns the distances of a set of mistakes. Draws scenes that are not suspect only where the mistakes explain others.
 Result<Distances> Judge::distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
                                       const Judgement& judgement)
 {
@@ -125,7 +144,7 @@ Result<Distances> Judge::distances_of(const std::vector<int>& mistakes, const st
     Distances found{std::vector<double>(pictures_.size(), -1.0)};
     std::vector<bool> faulty(pictures_.size());
     for (std::size_t i = 0; i < faulty.size(); ++i)
-        faulty[i] = scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > judgement.right_up_to;
+        faulty[i] = usable(i) && is_suspect(scenes[i], judgement, left[i]);
     BN_TRY(find_distances(mistakes, without, faulty, left, found));
     bool explains = false;
     for (std::size_t i = 0; i < faulty.size(); ++i)
@@ -177,7 +196,7 @@ Status Judge::find_mistakes(Judgement& to)
             const Result<Distances> distances = distances_of(mistakes, without, left, to);
             BN_TRY(distances);
             double before = 0.0, after = 0.0;
-            bool wrong = false;
+            bool wrong = false, near = false;
             std::vector<std::string> seen_in;
             std::vector<double> rest = left;
             for (std::size_t i = 0; i < left.size(); ++i) {
@@ -186,15 +205,15 @@ Status Judge::find_mistakes(Judgement& to)
                 before += left[i], after += distances->of[i];
                 rest[i] = distances->of[i];
                 wrong = wrong || (to.scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > to.right_up_to);
+                near = near || (is_suspect(to.scenes[i], to, left[i]) && distances->of[i] <= kNear * to.noise);
                 seen_in.push_back(to.scenes[i].name);
                 if (known.empty() && distances->of[i] < to.scenes[i].to_usual &&
                     (to.scenes[i].nearest == kNoMistake || distances->of[i] < to.scenes[i].to_nearest))
                     to.scenes[i].nearest = m, to.scenes[i].to_nearest = distances->of[i];
             }
             const double count = static_cast<double>(seen_in.size());
-            if (wrong && before - after > best_gain && after <= kExplains * before && before - after >= kLeastGain * count)
-                best = m, best_gain = before - after, best_left = rest,
-                found = {m, seen_in, before / count, after / count};
+            if ((wrong || near) && before - after > best_gain && after <= kExplains * before && before - after >= kLeastGain * count)
+                best = m, best_gain = before - after, best_left = rest, found = {m, seen_in, before / count, after / count};
         }
         if (best < 0)
             return {};
@@ -207,6 +226,8 @@ Status Judge::find_mistakes(Judgement& to)
         for (std::size_t i = 0; i < left.size(); ++i) {
             if (known.size() == 1 && left[i] < to.scenes[i].explained)
                 to.scenes[i].nearest = best, to.scenes[i].to_nearest = left[i];
+            if (usable(i) && is_suspect(to.scenes[i], to, to.scenes[i].explained) && left[i] <= kExplains * to.scenes[i].explained)
+                to.scenes[i].outcome = SceneJudgement::Outcome::wrong;
             to.scenes[i].explained = left[i];
             if (!usable(i))
                 continue;
@@ -219,24 +240,53 @@ Status Judge::find_mistakes(Judgement& to)
     return {};
 }
 
-// Draws all scenes in a way without mistakes. Fills usual_ and the distances to it.
-Status Judge::draw_way(const RightWay& way, Judgement& to)
+// Draws all scenes in a way without mistakes.
+Result<DrawnWay> Judge::draw_way(const RightWay& way)
 {
     const Activity activity(std::string("drawing ") + way.words);
     drawer_.set_way(way);
-    to.way = &way;
-    usual_.assign(pictures_.size(), Image{});
+    DrawnWay drawn{&way, std::vector<Image>(pictures_.size()), std::vector<double>(pictures_.size()), 0};
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         if (!usable(i))
             continue;
         Result<std::optional<Image>> shown = shown_with(i, {});
         BN_TRY(shown);
-        usual_[i] = std::move(**shown);
-        SceneJudgement& scene = to.scenes[i];
-        scene.to_usual = scene.explained = mean_flip(usual_[i], pictures_[i].shown, jobs_);
-        scene.to_right = std::min(scene.to_right, scene.to_usual);
+        drawn.shown[i] = std::move(**shown);
+        drawn.distance[i] = mean_flip(drawn.shown[i], pictures_[i].shown, jobs_);
+        drawn.far += drawn.distance[i] > kLeastRight;
     }
-    return {};
+    return drawn;
+}
+
+// Fills a judgement for an engine that draws in that way. Fills usual_.
+void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to)
+{
+    const RightWay& way = *ways[at].way;
+    drawer_.set_way(way);
+    to.way = &way;
+    usual_ = ways[at].shown;
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        if (!usable(i))
+            continue;
+        SceneJudgement& scene = to.scenes[i];
+        scene.to_usual = scene.explained = ways[at].distance[i];
+        scene.usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
+        scene.to_right = std::min(scene.to_truth, scene.to_usual);
+        for (const DrawnWay& other : ways) // lost light may be given back or not
+            if (other.way->kernels == way.kernels && std::string_view(other.way->technique) == way.technique)
+                scene.to_right = std::min(scene.to_right, other.distance[i]);
+        distances.push_back(scene.to_right);
+    }
+    if (distances.empty())
+        return;
+    std::sort(distances.begin(), distances.end());
+    to.noise = std::max(distances[distances.size() / 2], kLeastNoise);
+    to.right_up_to = std::clamp(kRightOfNoise * to.noise, kLeastRight, kMostRight);
+    for (std::size_t i = 0; i < pictures_.size(); ++i)
+        if (usable(i))
+            to.scenes[i].outcome =
+                to.scenes[i].to_right <= to.right_up_to ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
 }
 
 // Returns how far the pictures are from what explains them, a sum over scenes. Distances that are right do not count.
@@ -264,36 +314,27 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
             scene.not_finite = picture.not_finite;
         }
         none.scenes.push_back(std::move(scene));
-        order_.push_back((i * kStride) % folder.scenes.size());
     }
-    // Find the pictures that are right in some way
-    std::vector<std::pair<std::ptrdiff_t, const RightWay*>> ways; // by the scenes that are far from them
+    for (std::size_t first = 0; first < kStride; ++first)
+        for (std::size_t i = first; i < folder.scenes.size(); i += kStride)
+            order_.push_back(i);
+    // Draw each right way, and begin with the one that is far from the fewest scenes
+    std::vector<DrawnWay> ways;
     for (const RightWay& way : right_ways()) {
-        BN_TRY(draw_way(way, none));
-        ways.emplace_back(std::count_if(none.scenes.begin(), none.scenes.end(), [](const SceneJudgement& s) { return s.to_usual > kLeastRight; }), &way);
+        Result<DrawnWay> drawn = draw_way(way);
+        BN_TRY(drawn);
+        ways.push_back(std::move(*drawn));
     }
-    std::vector<double> distances;
-    for (std::size_t i = 0; i < none.scenes.size(); ++i)
-        if (usable(i))
-            distances.push_back(none.scenes[i].to_right);
-    std::sort(distances.begin(), distances.end());
-    if (!distances.empty())
-        none.right_up_to = std::clamp(kRightOfMedian * distances[distances.size() / 2], kLeastRight, kMostRight);
-    for (std::size_t i = 0; i < none.scenes.size(); ++i)
-        if (usable(i))
-            none.scenes[i].outcome = none.scenes[i].to_right <= none.right_up_to ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
-    std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    // Look for mistakes in the nearest way, and in others while most is left unexplained
+    std::vector<std::size_t> order(ways.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ways[a].far < ways[b].far; });
+    // Look for mistakes in that way, and in others while most is left unexplained
     std::optional<Judgement> best;
-    for (const auto& [far_scenes, way] : ways) {
+    for (const std::size_t at : order) {
         Judgement judgement = none;
-        BN_TRY(draw_way(*way, judgement));
+        judge_by(ways, at, truths, judgement);
         const double before = unexplained_distance(judgement);
-        if (before > 0.0)
-            BN_TRY(find_mistakes(judgement));
-        for (std::size_t i = 0; i < judgement.scenes.size(); ++i)
-            if (usable(i))
-                judgement.scenes[i].usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
+        BN_TRY(find_mistakes(judgement));
         const double left = unexplained_distance(judgement);
         if (!best || left < unexplained_distance(*best))
             best = std::move(judgement);
@@ -323,10 +364,13 @@ bool Judgement::all_right() const
     return std::all_of(scenes.begin(), scenes.end(), [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::right; });
 }
 
-bool Judgement::unexplained() const
+std::vector<std::string> Judgement::unexplained() const
 {
-    return mistakes.empty() &&
-           std::any_of(scenes.begin(), scenes.end(), [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
+    std::vector<std::string> names;
+    for (const SceneJudgement& s : scenes)
+        if (s.outcome == SceneJudgement::Outcome::wrong && s.explained > right_up_to && s.explained > kExplains * s.to_usual)
+            names.push_back(s.name);
+    return names;
 }
 
 Image shown_picture(const Image& linear)

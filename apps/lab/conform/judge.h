@@ -12,10 +12,10 @@
 namespace burnish {
 
 struct EnginePicture {
-    std::string file;           // as read; empty: there is none
-    std::string fault;          // why it cannot be compared; empty: it can
+    std::string file;  // as read; empty: there is none
+    std::string fault; // why it cannot be compared; empty: it can
     bool not_finite = false;
-    Image shown;                // as displays show it: u8 RGB at kConformEv
+    Image shown; // as displays show it: u8 RGB at kConformEv
     bool from_eight_bits = false;
 };
 
@@ -27,31 +27,32 @@ struct SceneJudgement {
     enum class Outcome { right, wrong, unusable, missing };
     std::string name;
     Outcome outcome = Outcome::missing;
-    std::string reason;      // for unusable and missing ones
-    bool not_finite = false; // the picture holds NaN or infinities
-    double to_truth = 0.0;   // mean LDR-FLIP of the picture to the truth
-    double usual = 0.0;      // of Judgement::way to the truth
-    double to_right = 0.0;   // of the picture to the truth or to a right way, the least
-    double to_usual = 0.0;   // of the picture to Judgement::way
+    std::string reason;       // for unusable and missing ones
+    bool not_finite = false;  // the picture holds NaN or infinities
+    double to_truth = 0.0;    // mean LDR-FLIP of the picture to the truth
+    double usual = 0.0;       // of Judgement::way to the truth
+    double to_right = 0.0;    // of the picture to the truth or to Judgement::way, the least
+    double to_usual = 0.0;    // of the picture to Judgement::way
     int nearest = kNoMistake; // none is nearer than Judgement::way
-    double to_nearest = 0.0; // of the picture to that one
-    double explained = 0.0;  // of the picture to the one with the mistakes found; to_usual without any
+    double to_nearest = 0.0;  // of the picture to that one
+    double explained = 0.0;   // of the picture to the one with the mistakes found; to_usual without any
 };
 
 struct FoundMistake {
     int mutant = kNoMistake;
-    std::vector<std::string> scenes; // that it changes
+    std::vector<std::string> scenes;  // that it changes
     double before = 0.0, after = 0.0; // mean FLIP of their pictures to those without and with it
 };
 
 struct Judgement {
     const RightWay* way = &right_ways().front(); // without a mistake, nearest to the pictures
     std::vector<SceneJudgement> scenes;
-    double right_up_to = 0.0; // mean FLIP to the truth or to a right way
+    double noise = 0.0;                 // mean FLIP of the engine's right pictures to its way: it filters light in a way of its own
+    double right_up_to = 0.0;           // mean FLIP to the truth or to the engine's way
     std::vector<FoundMistake> mistakes; // the one that explains most comes first
     double exposure_ev = 0.0;           // of the pictures against what is right, where that is a mistake; else 0
     bool all_right() const;
-    bool unexplained() const; // wrong pictures, and no mistake found
+    std::vector<std::string> unexplained() const; // scenes that are wrong, and look like no known mistake
 };
 
 // Judges the pictures, one for each of the folder's scenes. told: called before each mutant.

@@ -110,9 +110,7 @@ bool directions_averaged(Scene& scene)
     if (u.size() == 0 || *std::max_element(u.begin(), u.end()) < kOften)
         return false;
     float sum[3] = {}, count = 0.0f;
-    const auto add = [&](const float* t) {
-        sum[0] += t[0] * 2.0f - 1.0f, sum[1] += t[1] * 2.0f - 1.0f, sum[2] += t[2], count += 1.0f;
-    };
+    const auto add = [&](const float* t) { sum[0] += t[0] * 2.0f - 1.0f, sum[1] += t[1] * 2.0f - 1.0f, sum[2] += t[2], count += 1.0f; };
     if (!each_direction(scene, [&](float* t) { add(t); }) || count == 0.0f)
         return false;
     const float length = std::hypot(sum[0], sum[1]);
@@ -126,9 +124,8 @@ bool first_coordinates(Scene& scene)
 }
 bool no_texture_transform(Scene& scene)
 {
-    return each_material(scene, [](Material& m) {
-        return std::exchange(m.anisotropy_tex.uv_transform, glm::mat3x2(1.0f)) != glm::mat3x2(1.0f);
-    });
+    return each_material(scene,
+                         [](Material& m) { return std::exchange(m.anisotropy_tex.uv_transform, glm::mat3x2(1.0f)) != glm::mat3x2(1.0f); });
 }
 bool no_normal_map(Scene& scene)
 {
@@ -220,16 +217,16 @@ void other_hand(Scene& scene)
 }
 bool made_tangents_left_handed(Scene& scene)
 {
-    const bool made = std::none_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) { return p.has_file_tangents; });
+    const bool made =
+        std::none_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) { return p.has_file_tangents; });
     if (made)
         other_hand(scene);
     return made;
 }
 bool mirroring_node_ignored(Scene& scene)
 {
-    const bool mirrors = std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) {
-        return node.mesh != kNone && glm::determinant(glm::mat3(node.world)) < 0.0f;
-    });
+    const bool mirrors = std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                                     [](const Node& node) { return node.mesh != kNone && glm::determinant(glm::mat3(node.world)) < 0.0f; });
     if (mirrors)
         other_hand(scene);
     return mirrors;
@@ -303,10 +300,12 @@ void left_for_right(Image& image)
 {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width / 2; ++x)
-            std::swap_ranges(image.f32() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3,
-                             image.f32() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3 + 3,
-                             image.f32() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                            static_cast<std::size_t>(image.width - 1 - x)) * 3);
+            std::swap_ranges(
+                image.f32() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3,
+                image.f32() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3 + 3,
+                image.f32() +
+                    (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(image.width - 1 - x)) *
+                        3);
 }
 void encoded(Image& image)
 {
@@ -365,7 +364,8 @@ const std::vector<Mutant>& mutants()
         {"first_coordinates", "the second texture coordinates are ignored", 0, first_coordinates},
         {"transform_ignored", "KHR_texture_transform is ignored", 0, no_texture_transform},
         {"normal_map_ignored", "the normal map is ignored", 0, no_normal_map},
-        {"axes_not_turned", "the normal map turns the normal, but not the lobe's axes", 0, has_normal_map, MutantSky::right, axes_not_turned},
+        {"axes_not_turned", "the normal map turns the normal, but not the lobe's axes", 0, has_normal_map, MutantSky::right,
+         axes_not_turned},
         {"normal_green_down", "the normal map has green down", 0, normal_green_down},
         {"coat_ignored", "the clear coat is ignored", 0, no_coat},
         {"backs_culled", "the backs of double-sided surfaces are not drawn", 0, faces_culled},
@@ -399,13 +399,26 @@ Image changed_sky(const Image& environment, MutantSky sky)
         for (int x = 0; x < w; ++x) {
             int from_x = x, from_y = y;
             switch (sky) { // azimuth runs from +X over +Z, and +X is in the middle
-            case MutantSky::mirrored_x: from_x = (w + w / 2 - 1 - x) % w; break;
-            case MutantSky::mirrored_y: from_y = h - 1 - y; break;
-            case MutantSky::mirrored_z: from_x = w - 1 - x; break;
-            case MutantSky::turned_quarter: from_x = (x + w / 4) % w; break;
-            case MutantSky::turned_half: from_x = (x + w / 2) % w; break;
-            case MutantSky::turned_back: from_x = (x + w - w / 4) % w; break;
-            default: break;
+            case MutantSky::mirrored_x:
+                from_x = (w + w / 2 - 1 - x) % w;
+                break;
+            case MutantSky::mirrored_y:
+                from_y = h - 1 - y;
+                break;
+            case MutantSky::mirrored_z:
+                from_x = w - 1 - x;
+                break;
+            case MutantSky::turned_quarter:
+                from_x = (x + w / 4) % w;
+                break;
+            case MutantSky::turned_half:
+                from_x = (x + w / 2) % w;
+                break;
+            case MutantSky::turned_back:
+                from_x = (x + w - w / 4) % w;
+                break;
+            default:
+                break;
             }
             for (int c = 0; c < 3; ++c)
                 out.f32()[(y * w + x) * 3 + c] = environment.f32()[(from_y * w + from_x) * 3 + c];

@@ -13,13 +13,13 @@ namespace burnish {
 enum class MutantSky : std::uint8_t { right, mirrored_x, mirrored_y, mirrored_z, turned_quarter, turned_half, turned_back };
 
 struct Mutant {
-    const char* name;                                // in reports
-    const char* words;                               // the mistake, a sentence without its full stop
-    std::uint32_t kernels = 0;                       // bits of KernelMutant
-    bool (*scene)(Scene& scene) = nullptr;           // edits the scene; false: it has nothing to edit
-    MutantSky sky = MutantSky::right;                // of scenes under the environment
-    void (*frame)(FrameDesc& desc) = nullptr;        // edits what is drawn
-    void (*picture)(Image& linear) = nullptr;        // edits the finished picture, f32 RGB
+    const char* name;                         // in reports
+    const char* words;                        // the mistake, a sentence without its full stop
+    std::uint32_t kernels = 0;                // bits of KernelMutant
+    bool (*scene)(Scene& scene) = nullptr;    // edits the scene; false: it has nothing to edit
+    MutantSky sky = MutantSky::right;         // of scenes under the environment
+    void (*frame)(FrameDesc& desc) = nullptr; // edits what is drawn
+    void (*picture)(Image& linear) = nullptr; // edits the finished picture, f32 RGB
 };
 const std::vector<Mutant>& mutants();
 

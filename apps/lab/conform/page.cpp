@@ -30,7 +30,7 @@ std::string fault_of(const SceneJudgement& s, double exposure_ev)
 {
     if (!is_compared(s))
         return s.reason;
-    std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to the nearest right way", s.to_truth, s.to_right);
+    std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right", s.to_truth, s.to_right);
     if (s.nearest != kNoMistake)
         text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, exposure_ev), s.to_nearest);
     return text;
@@ -110,7 +110,7 @@ std::string conform_json(const Judgement& judgement)
             row["reason"] = s.reason;
         else
             row.update({{"flip_to_truth", s.to_truth},
-                        {"flip_to_nearest_right_way", s.to_right},
+                        {"flip_to_right", s.to_right},
                         {"flip_of_usual_way_to_truth", s.usual},
                         {"flip_to_usual_way", s.to_usual},
                         {"flip_with_mistakes", s.explained},
@@ -127,6 +127,8 @@ std::string conform_json(const Judgement& judgement)
     const Json json = {{"right", judgement.all_right()},
                        {"way", judgement.way->name},
                        {"unexplained", judgement.unexplained()},
+                       {"noise", judgement.noise},
+                       {"right_up_to", judgement.right_up_to},
                        {"mistakes", mistakes},
                        {"scenes", scenes}};
     return json_text(json, 1) + "\n";
@@ -144,48 +146,59 @@ std::string conform_junit(const Judgement& judgement)
     return junit_text("burnish conform", "conform", cases);
 }
 
-Result<std::string> conform_page(const Judgement& judgement, const ConformFolder& folder, const ConformPictures& pictures, ConformDrawer& drawer,
-                                 const Jobs& jobs)
+Result<std::string> conform_page(const Judgement& judgement, const ConformFolder& folder, const ConformPictures& pictures,
+                                 ConformDrawer& drawer, const Jobs& jobs)
 {
     std::string mistakes, rows, walls;
     for (const FoundMistake& m : judgement.mistakes)
-        mistakes += fmt::format("<li><strong>{}</strong>. Seen in {}: mean FLIP {:.3f} to burnish's pictures with the mistake, {:.3f} to those without.</li>\n",
-                                escaped(mistake_words(m.mutant, judgement.exposure_ev)), escaped(join(m.scenes)), m.after, m.before);
-    if (judgement.unexplained())
-        mistakes += "<li><strong>None of ours</strong>: no mistake that burnish knows looks like the wrong pictures.</li>\n";
+        mistakes += fmt::format(
+            "<li><strong>{}</strong>. Seen in {}: mean FLIP {:.3f} to burnish's pictures with the mistake, {:.3f} to those without.</li>\n",
+            escaped(mistake_words(m.mutant, judgement.exposure_ev)), escaped(join(m.scenes)), m.after, m.before);
+    if (const std::vector<std::string> names = judgement.unexplained(); !names.empty())
+        mistakes += fmt::format("<li><strong>None of ours</strong> looks like {}.</li>\n", escaped(join(names)));
     for (std::size_t i = 0; i < judgement.scenes.size(); ++i) {
         const SceneJudgement& s = judgement.scenes[i];
-        rows += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td><strong class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td></tr>\n",
-                            escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
-                            is_compared(s) ? fmt::format("{:.3f}", s.to_truth) : "",
-                            is_compared(s) ? fmt::format("{:.3f}", s.usual) : "");
+        rows += fmt::format(
+            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td><strong class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td></tr>\n",
+            escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
+            is_compared(s) ? fmt::format("{:.3f}", s.to_truth) : "", is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "");
         const Result<std::string> shown = pictures_of(s, i, judgement, pictures, drawer, jobs);
         BN_TRY(shown);
-        walls += fmt::format("<section id=\"{}\"><h2>{}: <span class=\"{}\">{}</span></h2><p>{}.{}</p>\n<div class=\"pictures\">\n{}</div></section>\n",
-                             escaped(s.name), escaped(s.name), outcome_name(s.outcome), outcome_name(s.outcome), escaped(folder.scenes[i].about),
-                             s.outcome == Outcome::right ? "" : " " + escaped(fault_of(s, judgement.exposure_ev)) + ".", *shown);
+        walls += fmt::format(
+            "<section id=\"{}\"><h2>{}: <span class=\"{}\">{}</span></h2><p>{}.{}</p>\n<div class=\"pictures\">\n{}</div></section>\n",
+            escaped(s.name), escaped(s.name), outcome_name(s.outcome), outcome_name(s.outcome), escaped(folder.scenes[i].about),
+            s.outcome == Outcome::right ? "" : " " + escaped(fault_of(s, judgement.exposure_ev)) + ".", *shown);
     }
     const std::string title = heading(judgement);
-    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
-                       "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
-                       "<p>An engine's pictures against the reference's. The engine's way to draw image light is like {6}, as burnish draws it. A picture is "
-                       "right where it looks like the truth or like such a way.</p>\n"
-                       "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP</th><th>of the way</th></tr>\n{4}</table>\n{5}"
-                       "</main>\n</body>\n</html>\n",
-                       title, kChartPageStyle.bytes, kConformStyle.bytes,
-                       mistakes.empty() ? "" : "<h2>Mistakes found</h2>\n<ol>\n" + mistakes + "</ol>\n", rows, walls, judgement.way->words);
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
+        "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
+        "<p>An engine's pictures against the reference's. The engine's way to draw image light is like {6}, as burnish draws it. A picture "
+        "is "
+        "right where it looks like the truth or like such a way.</p>\n"
+        "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP to the truth</th><th>to what is "
+        "right</th></tr>\n{4}</table>\n{5}"
+        "</main>\n</body>\n</html>\n",
+        title, kChartPageStyle.bytes, kConformStyle.bytes, mistakes.empty() ? "" : "<h2>Mistakes found</h2>\n<ol>\n" + mistakes + "</ol>\n",
+        rows, walls, judgement.way->words);
 }
 
 Error conform_error(const Judgement& judgement)
 {
     for (const SceneJudgement& s : judgement.scenes)
         if (s.outcome == Outcome::missing || s.outcome == Outcome::unusable)
-            return Error{s.not_finite ? ExitCode::not_finite : s.outcome == Outcome::missing ? ExitCode::differ : ExitCode::bad_input, s.name, "",
-                         s.reason};
-    const auto wrong = std::count_if(judgement.scenes.begin(), judgement.scenes.end(), [](const SceneJudgement& s) { return s.outcome == Outcome::wrong; });
-    const std::string found = judgement.mistakes.empty() ? "no known mistake explains it"
-                                                         : mistake_words(judgement.mistakes.front().mutant, judgement.exposure_ev);
+            return Error{s.not_finite                    ? ExitCode::not_finite
+                         : s.outcome == Outcome::missing ? ExitCode::differ
+                                                         : ExitCode::bad_input,
+                         s.name, "", s.reason};
+    const auto wrong = std::count_if(judgement.scenes.begin(), judgement.scenes.end(),
+                                     [](const SceneJudgement& s) { return s.outcome == Outcome::wrong; });
+    std::string found = "no known mistake explains it";
+    if (!judgement.mistakes.empty())
+        found = mistake_words(judgement.mistakes.front().mutant, judgement.exposure_ev);
+    if (judgement.mistakes.size() > 1)
+        found += fmt::format(" (and {})", counted(judgement.mistakes.size() - 1, "more mistake"));
     return Error{ExitCode::differ, "", "", fmt::format("{} of {} pictures are wrong: {}", wrong, judgement.scenes.size(), found)};
 }
 

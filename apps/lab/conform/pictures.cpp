@@ -24,7 +24,8 @@ Image three_channels(const Image& image)
     if (image.channels == 3)
         return image;
     Image out = make_image(image.width, image.height, 3, image.type);
-    const std::size_t size = pixel_type_bytes(image.type), pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const std::size_t size = pixel_type_bytes(image.type),
+                      pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (std::size_t i = 0; i < pixels; ++i)
         for (std::size_t c = 0; c < 3; ++c) {
             const std::byte* from = &image.bytes[(i * static_cast<std::size_t>(image.channels) + (image.channels < 3 ? 0 : c)) * size];
@@ -77,7 +78,8 @@ EnginePicture read_engine_picture(const std::string& folder, const std::string& 
 
 } // namespace
 
-Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits, Report& report)
+Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits,
+                                              Report& report)
 {
     ConformPictures out;
     bool one = false;
@@ -86,7 +88,8 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
         Result<Image> truth = read_image(folder.truth_of(scene.name), limits);
         BN_TRY(truth);
         if (truth->width != kConformWidth || truth->height != kConformHeight || truth->type != PixelType::f32 || truth->channels != 3)
-            return Error{ExitCode::bad_input, folder.truth_of(scene.name), "", "is no truth of a conformance folder: write the folder anew"};
+            return Error{ExitCode::bad_input, folder.truth_of(scene.name), "",
+                         "is no truth of a conformance folder: write the folder anew"};
         out.truths.push_back(std::move(*truth));
         out.engine.push_back(read_engine_picture(pictures, scene.name, limits));
         one = one || !out.engine.back().file.empty();
@@ -94,9 +97,11 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
     }
     if (!one)
         return Error{ExitCode::bad_input, pictures, "",
-                     fmt::format("holds no picture of a scene: {}.exr, .hdr, .pfm or .png and so on", folder.scenes.empty() ? "" : folder.scenes[0].name)};
+                     fmt::format("holds no picture of a scene: {}.exr, .hdr, .pfm or .png and so on",
+                                 folder.scenes.empty() ? "" : folder.scenes[0].name)};
     if (eight_bits != 0)
-        report.warning(fmt::format("{} 8-bit pictures: taken for sRGB at an exposure of {} stops, without a tone curve", eight_bits, kConformEv));
+        report.warning(
+            fmt::format("{} 8-bit pictures: taken for sRGB at an exposure of {} stops, without a tone curve", eight_bits, kConformEv));
     return out;
 }
 

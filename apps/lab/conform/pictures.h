@@ -17,6 +17,7 @@ struct ConformPictures {
 
 // Looks for NAME.exr, .hdr, .pfm and .png in this order. Errors: those of truths, and a folder without one picture. A picture that cannot
 // be read or compared has a fault.
-Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits, Report& report);
+Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits,
+                                              Report& report);
 
 } // namespace burnish

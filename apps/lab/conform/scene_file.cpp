@@ -111,9 +111,12 @@ Result<std::string> scene_file_text(const std::string& name, const SceneFile& sc
     }
     file["scenes"] = Json::array({{{"name", name}, {"nodes", roots}}});
     file["nodes"] = std::move(nodes);
-    file["cameras"] = Json::array(
-        {{{"type", "perspective"},
-          {"perspective", {{"yfov", shortest_decimal(scene.fov_y_rad)}, {"aspectRatio", shortest_decimal(scene.aspect)}, {"znear", 0.1}, {"zfar", 100.0}}}}});
+    file["cameras"] = Json::array({{{"type", "perspective"},
+                                    {"perspective",
+                                     {{"yfov", shortest_decimal(scene.fov_y_rad)},
+                                      {"aspectRatio", shortest_decimal(scene.aspect)},
+                                      {"znear", 0.1},
+                                      {"zfar", 100.0}}}}});
     file["meshes"] = Json::array({{{"primitives", Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", 0}}})}}});
 
     // The material and its textures

@@ -21,9 +21,9 @@ struct FileVertex {
 struct SceneFile {
     std::vector<FileVertex> vertices;
     std::vector<std::uint32_t> triangles;
-    bool tangents = true;                       // in the file
-    Json material = Json::object();             // as glTF has it; texture indices count `textures`
-    std::vector<Image> textures;                // u8 RGB
+    bool tangents = true;                             // in the file
+    Json material = Json::object();                   // as glTF has it; texture indices count `textures`
+    std::vector<Image> textures;                      // u8 RGB
     std::vector<glm::mat4> nodes = {glm::mat4(1.0f)}; // from the mesh's own node to the root
     glm::vec3 eye{0.0f, 0.6f, 4.2f}, target{0.0f};
     float fov_y_rad = 0.5235988f, aspect = 4.0f / 3.0f;

@@ -68,9 +68,8 @@ SceneFile plate(float repeats)
 Json metal(float roughness)
 {
     Json m = Json::object();
-    m["pbrMetallicRoughness"] = {{"baseColorFactor", {0.82, 0.76, 0.66, 1.0}},
-                                 {"metallicFactor", 1.0},
-                                 {"roughnessFactor", shortest_decimal(roughness)}};
+    m["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {0.82, 0.76, 0.66, 1.0}}, {"metallicFactor", 1.0}, {"roughnessFactor", shortest_decimal(roughness)}};
     return m;
 }
 Json brushed(float roughness, float strength, float rotation_deg)
@@ -295,7 +294,8 @@ const std::vector<ConformScene>& conform_scenes()
     static const std::vector<ConformScene> scenes = {
         {"mirror", "a smooth ball: environment, view and exposure", true, false, mirror},
         {"round", "a round lobe: prefiltered light", true, false, round_lobe},
-        {"rotation_0", "no rotation: the highlight stretches along the tangent", true, false, [] { return brushed_sphere(0.28f, 0.9f, 0.0f); }},
+        {"rotation_0", "no rotation: the highlight stretches along the tangent", true, false,
+         [] { return brushed_sphere(0.28f, 0.9f, 0.0f); }},
         {"rotation_30", "30 degrees, counter-clockwise", true, false, [] { return brushed_sphere(0.28f, 0.9f, 30.0f); }},
         {"rotation_90", "90 degrees: the highlight stretches along the bitangent", true, false,
          [] { return brushed_sphere(0.28f, 0.9f, 90.0f); }},
@@ -364,12 +364,12 @@ Image conform_environment()
             const auto add = [&](const glm::dvec3& radiance, double at, double height, double half_width, double half_height) {
                 light += radiance * panel(azimuth, elevation, at, height, half_width, half_height);
             };
-            add({5.0, 4.2, 3.2}, 55.0, 38.0, 12.0, 22.0);   // before and to the right
-            add({1.4, 2.4, 3.8}, 165.0, 12.0, 9.0, 36.0);   // to the left
-            add({2.2, 2.4, 2.0}, -80.0, 22.0, 46.0, 8.0);   // behind
-            add({2.6, 0.5, 0.3}, 105.0, -34.0, 14.0, 9.0);  // below
-            add({0.5, 2.2, 0.7}, 20.0, -14.0, 7.0, 16.0);   // at the right, low
-            add({4.0, 4.0, 4.0}, -20.0, 74.0, 8.0, 8.0);    // overhead
+            add({5.0, 4.2, 3.2}, 55.0, 38.0, 12.0, 22.0);  // before and to the right
+            add({1.4, 2.4, 3.8}, 165.0, 12.0, 9.0, 36.0);  // to the left
+            add({2.2, 2.4, 2.0}, -80.0, 22.0, 46.0, 8.0);  // behind
+            add({2.6, 0.5, 0.3}, 105.0, -34.0, 14.0, 9.0); // below
+            add({0.5, 2.2, 0.7}, 20.0, -14.0, 7.0, 16.0);  // at the right, low
+            add({4.0, 4.0, 4.0}, -20.0, 74.0, 8.0, 8.0);   // overhead
             for (int c = 0; c < 3; ++c)
                 image.f32()[(y * kWidth + x) * 3 + c] = static_cast<float>(light[c]);
         }

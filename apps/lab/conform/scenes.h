@@ -10,14 +10,14 @@
 
 namespace burnish {
 
-inline constexpr int kConformVersion = 1;    // of the folder: scenes, environment and views
+inline constexpr int kConformVersion = 1;                       // of the folder: scenes, environment and views
 inline constexpr int kConformWidth = 256, kConformHeight = 192; // of its pictures
-inline constexpr float kConformEv = -1.0f;   // exposure at which pictures are compared, stops
+inline constexpr float kConformEv = -1.0f;                      // exposure at which pictures are compared, stops
 
 struct ConformScene {
     std::string name, about;
-    bool environment = true;                     // lit by the folder's environment; else black
-    bool area_light = false;                     // lit by conform_area_light()
+    bool environment = true; // lit by the folder's environment; else black
+    bool area_light = false; // lit by conform_area_light()
     std::function<SceneFile()> make;
 };
 const std::vector<ConformScene>& conform_scenes();

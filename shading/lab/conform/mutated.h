@@ -37,5 +37,4 @@ inline constexpr std::uint32_t mutant_bit(KernelMutant mutant)
 
 // Techniques that they draw by; others take long to compile.
 #define BN_COMPILES_TECHNIQUE(id) (Technique::id == Technique::bent_normal || Technique::id == Technique::lobe_line)
-#define BN_MUTANT(name, right, wrong)                                                                                                      \
-    ((burnish::drawn_mutants & burnish::mutant_bit(burnish::KernelMutant::name)) != 0 ? (wrong) : (right))
+#define BN_MUTANT(name, right, wrong) ((burnish::drawn_mutants & burnish::mutant_bit(burnish::KernelMutant::name)) != 0 ? (wrong) : (right))
