@@ -51,7 +51,7 @@
 // BN_MUTANT(name, right, wrong) is `right`. The laboratory's copy of the kernels can take `wrong`, a mistake that engines make:
 // shading/lab/conform/mutated.h lists the names.
 #ifndef BN_MUTANT
-#define BN_MUTANT(name, right, wrong) (right)
+#define BN_MUTANT(name, right, wrong) right
 #endif
 
 #ifdef __cplusplus

@@ -14,8 +14,7 @@ BN_FN real3 bent_normal_specular(frame_ref f, BN_IN(shaded_point) x)
     cube_desc cube = prefiltered_env(f);
     bent_ray ray = BN_MUTANT(gltf_bend, bent_normal_ray(x.s.n, x.s.v, x.lobe), gltf_bent_ray(x.s.n, x.s.v, x.lobe));
     real lod = ray.lod * to_real(int_lit(cube.levels - 1));
-    real3 albedo = BN_MUTANT(gltf_bend, x.energy.albedo, gltf_albedo(f, x));
-    return cube_sample(cube, ray.direction, lod) * albedo;
+    return cube_sample(cube, ray.direction, lod) * BN_MUTANT(gltf_bend, x.energy.albedo, gltf_albedo(f, x));
 }
 
 BN_KERNELS_END

@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 from browser import Browser
 from chart_cases import needs_embree
-from harness import case, check
+from harness import case, check, scratch
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ("mirror", "round", "rotation_0", "rotation_30", "rotation_90", "strength_half", "rough", "smooth", "direction_map", "strength_map", "linear_map",
@@ -52,11 +52,22 @@ def requests(bench):
     bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", "--technique", "mc").expect(2).expect_one_line("--technique", "mc", "gltf")
     bench.run("conform", "a", "b", "--without", "nothing").expect(2).expect_one_line("nothing")
     bench.run("conform", "a", "b").expect(4).expect_one_line("a/conform.json", "--write")
+    bench.run("conform", "a", "b", "--without", ",".join(SCENES)).expect(2).expect_one_line("--without", "no scene")
+    bench.run("conform", "a", "a/truth", "--draw").expect(2).expect_one_line("PICTURES", "truths")
+    bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", "--technique", "hdrp").expect(2).expect_one_line("no_bend", "gltf")
+    bench.run("conform", "a", "b", "--html", "a/conform.json").expect(2)
+    (bench.folder / "mine").mkdir()
+    scratch(bench, "mine/README.md", "mine")
+    bench.run("conform", "--write", "mine").expect(2).expect_one_line("mine", "holds other files")
+    check((bench.folder / "mine/README.md").read_text() == "mine", "a user's file is lost")
     bench.run("conform", "a", "b", "--html", "nowhere/a.html").expect(7).expect_one_line("nowhere")
     folder = bench.folder / "a"
     folder.mkdir()
     (folder / "conform.json").write_text('{"burnish_conform": 99}')
     bench.run("conform", "a", "b").expect(4).expect_one_line("/burnish_conform", "99", "write the folder anew")
+    for version in ("[" * 400000 + "]" * 400000, '"1"', "1.5", "null"):
+        (folder / "conform.json").write_text('{"burnish_conform":' + version + "}")
+        bench.run("conform", "a", "b").expect(4).expect_one_line("conform.json")
     (folder / "conform.json").write_text('[]')
     bench.run("conform", "a", "b").expect(4).expect_one_line("describes no conformance folder")
 
@@ -118,15 +129,34 @@ def named(bench, folder, *mistakes, kept=SCENES):
 @case("conform.names_a_mistake_and_two", budget=60)
 def names(bench):
     written(bench)
-    for mistakes in (("rotation_clockwise",), ("handedness_ignored", "sky_turned_half")):
+    for mistakes in (("rotation_clockwise",), ("handedness_ignored", "sky_turned_half"), ("upside_down", "sky_turned_half")):
         found = named(bench, "folder", *mistakes, kept=FEW)
         check(sorted(found) == sorted(mistakes), f"{mistakes}: {found}")
+
+
+@case("conform.measures_an_exposure", budget=60)
+def exposure(bench):
+    written(bench)
+    for stops in (0.5, -1.2):
+        (bench.folder / "exposed").mkdir(exist_ok=True)
+        lit = [name for name in FEW if name != "lamp"]
+        for name in lit:
+            bench.run("render", f"folder/scenes/{name}.gltf", "--env", "folder/environment.exr", "--env-exposure", str(stops), "--env-size", "256", "--key-lights",
+                      "off", "--technique", "bent_normal", "--size", "256x192", "--no-background", "-o", f"exposed/{name}.pfm", "-q").expect(0)
+        result = judged(bench, "folder", "exposed", *without(*lit), code=1)
+        check([m["name"] for m in result["mistakes"]] == ["exposure"] and abs(result["exposure_ev"] - stops) < 0.1, f"{stops}: {result}")
 
 
 @case("conform.the_manual_names_every_mistake", tier="quick")
 def manual_names_all(bench):
     page = (ROOT / "apps/manual/conform.md").read_text()
     known = known_mistakes(bench)
+    # Each mistake of the kernels is in their text and in the list
+    header = (ROOT / "shading/lab/conform/mutated.h").read_text()
+    texts = "".join(path.read_text() for path in (ROOT / "shading").rglob("*.[kt].h"))
+    listed = (ROOT / "apps/lab/conform/mutants.cpp").read_text()
+    for name in re.findall(r"^    X\((\w+)\)", header, re.M):
+        check(f"BN_MUTANT({name}," in texts and (name == "gltf_bend" or f"K::{name}" in listed), name)
     check(len(known) > 40 and all(f"`{name}`" in page for name in known), f"{[name for name in known if f'`{name}`' not in page]}")
 
 
@@ -153,7 +183,7 @@ def unusable(bench):
     check([s["outcome"] for s in result["scenes"]] == ["right", "missing", "right"], f"{result}")
     suite = xml.etree.ElementTree.parse(bench.folder / "j.xml").getroot()
     check(len(suite.findall(".//testcase")) == 3 and len(suite.findall(".//error")) == 1, "JUnit")
-    bench.run("conform", "folder", "pictures", *kept, "-q").expect(1).expect_one_line("rotation_0", "no picture")
+    bench.run("conform", "folder", "pictures", *kept, "-q").expect(1).expect_one_line("1 of 3 pictures are missing: rotation_0")
     # NaN, and another size
     (pictures / "rotation_0.pfm").write_bytes(b"PF\n256 192\n-1.0\n" + b"\0\0\xc0\x7f" * (256 * 192 * 3))
     bench.run("conform", "folder", "pictures", *kept, "-q").expect(6).expect_one_line("rotation_0", "NaN")

@@ -1,9 +1,7 @@
 // `burnish conform`: writes a conformance folder, or judges an engine's pictures of its scenes.
 #include <algorithm>
-#include <filesystem>
 #include <fmt/core.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
@@ -18,6 +16,7 @@
 #include "apps/lab/conform/pictures.h"
 #include "apps/lab/conform/scenes.h"
 #include "core/image/io/image_io.h"
+#include "shading/lab/conform/mutated.h"
 
 namespace burnish {
 namespace {
@@ -26,7 +25,8 @@ constexpr const char* kFooter =
     R"(conform --write DIR makes scenes as glTF files, their environment and the reference's pictures of them. DIR/README.md says how an engine
 draws them. conform DIR PICTURES then compares the engine's pictures with the reference's, and names the mistakes that explain the difference.
 
-Exit codes: 0 every picture is right; 1 a picture is wrong or missing; 6 one holds NaN or infinities.
+Exit codes: 0 every picture is right; 1 a picture is wrong or missing; 4 one cannot be read, or has another size; 6 one holds NaN or
+infinities.
 
 Examples:
   burnish conform --write conform
@@ -64,6 +64,15 @@ const std::vector<std::string>& drawing_names()
     return names;
 }
 
+// Mistakes of the bent normal of KHR_materials_anisotropy.
+constexpr std::uint32_t kOfGltfBend = mutant_bit(KernelMutant::bend_factor) | mutant_bit(KernelMutant::bend_across) |
+                                      mutant_bit(KernelMutant::no_bend) | mutant_bit(KernelMutant::mean_width);
+
+bool is_gltf(const std::string& way)
+{
+    return way.rfind("gltf", 0) == 0;
+}
+
 std::string ways_in_words()
 {
     std::vector<std::string> names;
@@ -79,7 +88,7 @@ OptionTable conform_option_table(ConformArguments& to)
         "", {{"DIR", "", "Conformance folder", text(to.folder), "none"},
              {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"}});
     table.add("Write", {{"--write", "DIR", "Write a conformance folder", folder(to.write)},
-                        {"--samples", "N", "Samples a pixel of the reference's pictures, {}", integer(to.samples, 64, 1 << 20)}});
+                        {"--samples", "N", "Samples a pixel of the reference's pictures, {}", integer(to.samples, 64, 65536)}});
     table.add("Judge", {{"--without", "NAME,...", "Leave out scenes, which the engine cannot draw", choices(to.without, scene_names())},
                         {"--html", "FILE", "Page with pictures, error maps and mistakes", file(to.html)},
                         {"--json", "FILE", "Results as JSON; - for standard output", file(to.json)},
@@ -112,10 +121,21 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     if (!a.mistakes.empty() && find_technique(a.technique))
         return usage_error("--technique",
                            fmt::format("{} is drawn without mistakes alone; {} are drawn with them", a.technique, ways_in_words()));
+    if (a.without.size() >= conform_scenes().size())
+        return usage_error("--without", "leaves no scene");
+    if (same_file(a.pictures, a.folder + "/truth"))
+        return usage_error("PICTURES", "is the folder of truths");
+    for (const std::string& name : a.mistakes)
+        for (const Mutant& mutant : mutants())
+            if (mutant.name == name && mutant.kernels != 0 && (mutant.kernels & kOfGltfBend) != 0 && !is_gltf(a.technique))
+                return usage_error("--mistake", fmt::format("{} is a mistake of --technique gltf", name));
     for (const char* option : {"--without", "--html", "--json", "--junit"})
         if (a.draw && given.given(option))
             return usage_error(option, "does not go with --draw");
-    return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, {});
+    std::vector<std::string> inputs = {a.folder + "/conform.json", a.folder + "/environment.exr", a.folder + "/environment.hdr"};
+    for (const FolderScene& scene : conform_folder(a.folder).scenes)
+        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).truth_of(scene.name)});
+    return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, inputs);
 }
 
 int write_folder(const ConformArguments& a, Report& report)
@@ -125,25 +145,25 @@ int write_folder(const ConformArguments& a, Report& report)
     const std::atomic<bool>& stop = watch_stop_signals();
     if (const Status written = write_conform_files(a.write); !written)
         return fail(written.error());
-    const Result<ConformFolder> folder = read_conform_folder(a.write);
-    if (!folder)
-        return fail(folder.error());
-    Result<ConformDrawer> drawer = ConformDrawer::open(*folder, a.limits, std::make_shared<const Jobs>(a.threads));
+    const ConformFolder folder = conform_folder(a.write);
+    Result<ConformDrawer> drawer = ConformDrawer::open(folder, a.limits, std::make_shared<const Jobs>(a.threads));
     if (!drawer)
         return fail(drawer.error());
     report.release();
-    for (std::size_t i = 0; i < folder->scenes.size(); ++i) {
-        const FolderScene& scene = folder->scenes[i];
+    for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
+        const FolderScene& scene = folder.scenes[i];
         const Result<ConformDrawer::Truth> truth = drawer->truth(i, static_cast<std::uint64_t>(a.samples), &stop);
         if (!truth)
             return fail(truth.error());
         for (const auto& [path, image] :
-             {std::pair{folder->truth_of(scene.name), &truth->color}, {folder->variance_of(scene.name), &truth->variance}})
+             {std::pair{folder.truth_of(scene.name), &truth->color}, {folder.variance_of(scene.name), &truth->variance}})
             if (const Status written = write_image(path, *image); !written)
                 return fail(written.error());
         report.detail("scene", scene.name + ": " + scene.about);
     }
-    report.event("wrote", fmt::format("{}: {}; README.md says how an engine draws them", a.write, counted(folder->scenes.size(), "scene")));
+    if (const Status written = write_conform_list(a.write); !written)
+        return fail(written.error());
+    report.event("wrote", fmt::format("{}: {}; README.md says how an engine draws them", a.write, counted(folder.scenes.size(), "scene")));
     return 0;
 }
 
@@ -157,10 +177,11 @@ void tell(const Judgement& judgement, Report& report)
         std::string line =
             fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
-            line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, judgement.exposure_ev), s.to_nearest);
+            line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
         report.figure(s.name, line);
     }
-    report.figure("way", std::string("like ") + judgement.way->words);
+    if (judgement.way_is_known())
+        report.figure("way", std::string("like ") + judgement.way->words);
     for (const FoundMistake& m : judgement.mistakes)
         report.figure("mistake", fmt::format("{} ({}; FLIP {:.3f} with it, {:.3f} without)", mistake_words(m.mutant, judgement.exposure_ev),
                                              counted(m.scenes.size(), "scene"), m.after, m.before));

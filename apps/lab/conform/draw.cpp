@@ -1,6 +1,7 @@
 #include "apps/lab/conform/draw.h"
 
-#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "apps/lab/conform/scenes.h"
@@ -15,7 +16,6 @@ std::uint32_t drawn_mutants = 0;
 
 namespace {
 
-constexpr int kSkies = static_cast<int>(MutantSky::turned_back) + 1; // and a black one
 constexpr int kMsaa = 8;
 constexpr std::uint32_t kLightSamples = 16; // on the area light
 // Mistakes that show under an environment alone.
@@ -50,8 +50,10 @@ Result<ConformDrawer> ConformDrawer::open(const ConformFolder& folder, const Lim
     BN_TRY(environment);
     if (environment->type != PixelType::f32 || environment->channels != 3)
         return Error{ExitCode::bad_input, folder.path + "/environment.exr", "", "holds no red, green and blue floats"};
+    const std::size_t values = environment->bytes.size() / sizeof(float);
+    if (std::any_of(environment->f32(), environment->f32() + values, [](float v) { return !(v >= 0.0f && std::isfinite(v)); }))
+        return Error{ExitCode::not_finite, folder.path + "/environment.exr", "", "holds values that are negative, NaN or infinite"};
     drawer.environment_ = std::move(*environment);
-    drawer.skies_.resize(kSkies + 1);
     for (const FolderScene& scene : folder.scenes) {
         std::vector<AreaLight> lights;
         if (scene.area_light)
@@ -76,16 +78,19 @@ FrameDesc ConformDrawer::desc_of(const Scene& scene) const
     return desc;
 }
 
-Result<std::shared_ptr<const Environment>> ConformDrawer::sky(bool lit, MutantSky change)
+Result<std::shared_ptr<const Environment>> ConformDrawer::sky(bool lit, const std::vector<MutantSky>& changes)
 {
-    std::shared_ptr<const Environment>& kept = skies_[lit ? static_cast<std::size_t>(change) : kSkies];
+    std::shared_ptr<const Environment>& kept = lit ? skies_[changes] : black_;
     if (kept)
         return kept;
     EnvironmentOptions options;
     options.cube_size = lit ? kCubeSize : 16;
     options.extracted_lights = 0;
     options.samples = kBakeSamples;
-    Image picture = lit ? changed_sky(environment_, change) : make_image(8, 4, 3, PixelType::f32);
+    Image picture = lit ? environment_ : make_image(8, 4, 3, PixelType::f32);
+    if (lit)
+        for (const MutantSky change : changes)
+            picture = changed_sky(picture, change);
     Result<Environment> baked = bake_environment(picture, "environment", options, *jobs_);
     BN_TRY(baked);
     kept = std::make_shared<const Environment>(std::move(*baked));
@@ -101,7 +106,7 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
     bool any = mistakes.empty();
     std::shared_ptr<const SceneData> data = opened.data;
     std::uint32_t kernels = way_->kernels;
-    MutantSky change = MutantSky::right;
+    std::vector<MutantSky> changes;
     if (edits_scene) {
         Scene edited = data->scene;
         for (const int m : mistakes)
@@ -117,14 +122,14 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
         const Mutant& mutant = mutants()[static_cast<std::size_t>(m)];
         kernels |= mutant.kernels;
         if (mutant.sky != MutantSky::right && opened.environment)
-            change = mutant.sky, any = true;
+            changes.push_back(mutant.sky), any = true;
         any =
             any || (mutant.kernels & (opened.environment ? ~0u : ~kOfImageLight)) != 0 || (mutant.frame && !mutant.scene) || mutant.picture;
     }
     if (!any)
         return std::optional<Image>();
     // Draw with those of kernels and frame
-    const Result<std::shared_ptr<const Environment>> environment = sky(opened.environment, change);
+    const Result<std::shared_ptr<const Environment>> environment = sky(opened.environment, changes);
     BN_TRY(environment);
     SessionParts parts;
     parts.scene = data, parts.environment = *environment, parts.jobs = jobs_, parts.dfg = dfg_;
@@ -153,7 +158,7 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
 
 Result<SessionParts> ConformDrawer::parts_of(std::size_t scene)
 {
-    const Result<std::shared_ptr<const Environment>> environment = sky(scenes_[scene].environment, MutantSky::right);
+    const Result<std::shared_ptr<const Environment>> environment = sky(scenes_[scene].environment, {});
     BN_TRY(environment);
     SessionParts parts;
     parts.scene = scenes_[scene].data, parts.environment = *environment, parts.jobs = jobs_, parts.dfg = dfg_;

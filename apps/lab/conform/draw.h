@@ -1,5 +1,7 @@
 // Draws the scenes of a conformance folder: as an engine does that makes no mistake, with mistakes, and by the reference.
 #pragma once
+#include <atomic>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,8 +34,8 @@ class ConformDrawer {
     // Needs burnish-lab's kernels with mistakes. Errors: ExitCode::unavailable without them; bad_input for the folder's files.
     static Result<ConformDrawer> open(const ConformFolder& folder, const Limits& limits, std::shared_ptr<const Jobs> jobs);
 
-    // Draws a scene in the way set, f32 RGB, with these mistakes, by index into mutants(). Empty: one of
-    // the mistakes has nothing to change in the scene.
+    // Draws a scene in the way set, f32 RGB, with these mistakes, by index into mutants(). Empty: no
+    // mistake has anything to change in the scene.
     Result<std::optional<Image>> draw(std::size_t scene, std::span<const int> mistakes);
 
     // Draws a scene without a mistake by any technique of burnish, f32 RGB.
@@ -52,7 +54,7 @@ class ConformDrawer {
     };
     FrameDesc desc_of(const Scene& scene) const;
     Result<SessionParts> parts_of(std::size_t scene);
-    Result<std::shared_ptr<const Environment>> sky(bool lit, MutantSky change);
+    Result<std::shared_ptr<const Environment>> sky(bool lit, const std::vector<MutantSky>& changes);
 
     const RightWay* way_ = &right_ways().front();
     Limits limits_;
@@ -60,7 +62,8 @@ class ConformDrawer {
     std::shared_ptr<const DfgTable> dfg_;
     Image environment_;
     std::vector<Opened> scenes_;
-    std::vector<std::shared_ptr<const Environment>> skies_; // by MutantSky; the last one is black
+    std::map<std::vector<MutantSky>, std::shared_ptr<const Environment>> skies_;
+    std::shared_ptr<const Environment> black_;
 };
 
 } // namespace burnish

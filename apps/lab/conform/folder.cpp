@@ -1,5 +1,6 @@
 #include "apps/lab/conform/folder.h"
 
+#include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,15 @@ Error bad_folder(const std::string& file, const std::string& place, const std::s
 
 } // namespace
 
+ConformFolder conform_folder(const std::string& path)
+{
+    ConformFolder folder;
+    folder.path = path;
+    for (const ConformScene& known : conform_scenes())
+        folder.scenes.push_back({known.name, known.about, "scenes/" + known.name + ".gltf", known.environment, known.area_light});
+    return folder;
+}
+
 Result<ConformFolder> read_conform_folder(const std::string& path)
 {
     constexpr std::uint64_t kMostBytes = 1u << 20;
@@ -60,23 +70,28 @@ Result<ConformFolder> read_conform_folder(const std::string& path)
     const Json json = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("burnish_conform"))
         return bad_folder(file, "", "describes no conformance folder");
-    if (json["burnish_conform"] != kConformVersion)
+    const Json& version = json["burnish_conform"];
+    if (!version.is_number_integer())
+        return bad_folder(file, "/burnish_conform", "is no version");
+    if (version != kConformVersion)
         return bad_folder(file, "/burnish_conform",
                           fmt::format("version {} of conformance folders; this program reads version {}: write the folder anew",
-                                      json["burnish_conform"].dump(), kConformVersion));
+                                      version.get<std::int64_t>(), kConformVersion));
     if (json.value("width", Json()) != kConformWidth || json.value("height", Json()) != kConformHeight)
         return bad_folder(file, "/width", fmt::format("pictures are not {}x{}: write the folder anew", kConformWidth, kConformHeight));
-    ConformFolder folder;
-    folder.path = path;
-    for (const ConformScene& known : conform_scenes()) // the program's own: what is drawn must be what is known
-        folder.scenes.push_back({known.name, known.about, "scenes/" + known.name + ".gltf", known.environment, known.area_light});
-    return folder;
+    return conform_folder(path);
 }
 
 Status write_conform_files(const std::string& path)
 {
+    // Take an empty folder, or one of ours
+    std::error_code failed;
+    const std::string list = path + "/conform.json";
+    if (std::filesystem::exists(path, failed) && !std::filesystem::is_empty(path, failed) && !std::filesystem::exists(list, failed))
+        return Error{ExitCode::usage, path, "", "holds other files, and no conformance folder: name a new folder"};
     for (const char* part : {"", "/scenes", "/truth", "/pages"})
         BN_TRY(make_output_folder(path + part));
+    std::filesystem::remove(list, failed); // it comes last: a folder without it is not whole
     for (const ConformScene& scene : conform_scenes()) {
         const Result<std::string> text = scene_file_text(scene.name, scene.make());
         BN_TRY(text);
@@ -89,7 +104,11 @@ Status write_conform_files(const std::string& path)
     BN_TRY(write_text(path + "/README.md", text_of(kConformReadme)));
     BN_TRY(write_text(path + "/pages/three.html", text_of(kConformThree)));
     BN_TRY(write_text(path + "/pages/babylon.html", text_of(kConformBabylon)));
-    BN_TRY(write_text(path + "/pages/pictures.js", text_of(kConformPictures)));
+    return write_text(path + "/pages/pictures.js", text_of(kConformPictures));
+}
+
+Status write_conform_list(const std::string& path)
+{
     return write_text(path + "/conform.json", json_text(folder_json(), 1) + "\n");
 }
 

@@ -4,11 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/report.h"
-#include "core/base/limits.h"
 #include "core/base/result.h"
-#include "core/image/image.h"
-#include "core/jobs/jobs.h"
 
 namespace burnish {
 
@@ -24,10 +20,16 @@ struct ConformFolder {
     std::string variance_of(const std::string& scene) const { return path + "/truth/" + scene + ".variance.exr"; }
 };
 
+// Returns the folder's parts, whether they are there or not.
+ConformFolder conform_folder(const std::string& path);
+
 // Reads conform.json. Errors: ExitCode::bad_input, also for a folder of another version.
 Result<ConformFolder> read_conform_folder(const std::string& path);
 
-// Writes everything but the truths.
+// Writes scenes, environment and pages. Removes an old conform.json. Errors: ExitCode::usage for a folder of other files.
 Status write_conform_files(const std::string& path);
+
+// Writes conform.json, after everything else.
+Status write_conform_list(const std::string& path);
 
 } // namespace burnish

@@ -16,9 +16,10 @@ namespace burnish {
 namespace {
 
 constexpr std::size_t kMostMistakes = 6;
-constexpr double kSeen = 0.01;       // mean FLIP from which a mistake shows in a scene
-constexpr double kExplains = 0.7;    // of the distance before that a mistake may leave
-constexpr double kLeastGain = 0.012; // mean FLIP a scene that a mistake must take away
+constexpr double kSeen = 0.01;         // mean FLIP from which a mistake shows in a scene
+constexpr double kExplainsWhole = 0.5; // the same for a mistake of whole pictures, which may hide in an engine's noise
+constexpr double kExplains = 0.7;      // of the distance before that a mistake may leave
+constexpr double kLeastGain = 0.012;   // mean FLIP a scene that a mistake must take away
 // A picture is right up to this mean FLIP to the truth or to the engine's way, a factor on the engine's noise, within bounds. The noise is
 // the median of that FLIP over all scenes.
 constexpr double kRightOfNoise = 2.0, kLeastRight = 0.06, kMostRight = 0.12, kLeastNoise = 0.03;
@@ -52,9 +53,17 @@ std::optional<double> exposure_between(const Image& of, const Image& to)
     return *middle;
 }
 
-// The distances of one set of mistakes to the pictures, by scene; negative: it changes nothing there.
-struct Distances {
-    std::vector<double> of;
+// What a set of mistakes does in a scene: how much it changes there, and the distance that it leaves. size 0: nothing.
+struct Effect {
+    double size = 0.0, distance = 0.0; // mean FLIP
+};
+
+// A set of mistakes that may explain pictures.
+struct Candidate {
+    std::vector<int> set;
+    double gain = 0.0; // what it takes away, a sum of FLIP over scenes
+    FoundMistake found;
+    std::vector<double> left; // by scene
 };
 
 // Returns true where a scene may hold a mistake that is not found yet. left: its distance to what is known.
@@ -71,6 +80,14 @@ struct DrawnWay {
     int far; // scenes that are not like it
 };
 
+bool changes_whole_pictures(int mutant)
+{
+    if (mutant == kExposure)
+        return true;
+    const Mutant& m = mutants()[static_cast<std::size_t>(mutant)];
+    return m.picture || m.sky != MutantSky::right || (m.frame && !m.scene);
+}
+
 class Judge {
   public:
     Judge(ConformDrawer& drawer, const std::vector<EnginePicture>& pictures, const Jobs& jobs)
@@ -82,10 +99,13 @@ class Judge {
   private:
     bool usable(std::size_t scene) const { return !pictures_[scene].file.empty() && pictures_[scene].fault.empty(); }
     Result<std::optional<Image>> shown_with(std::size_t scene, const std::vector<int>& mistakes);
-    Status find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
-                          const std::vector<double>& left, Distances& to);
-    Result<Distances> distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
-                                   const Judgement& judgement);
+    Status find_effects(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
+                        const std::vector<double>& left, bool hopeful, std::vector<Effect>& to);
+    Result<std::vector<Effect>> effects_of(const std::vector<int>& mistakes, bool whole, const std::vector<Image>& without,
+                                           const std::vector<double>& left, const Judgement& judgement);
+    std::vector<std::vector<int>> candidates(const std::vector<int>& known, bool pairs) const;
+    Result<Candidate> best_candidate(const std::vector<int>& known, bool pairs, const std::vector<Image>& without,
+                                     const std::vector<double>& left, Judgement& to);
     Result<DrawnWay> draw_way(const RightWay& way);
     void judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to);
     double exposure_against(const std::vector<Image>& without) const;
@@ -109,15 +129,17 @@ Result<std::optional<Image>> Judge::shown_with(std::size_t scene, const std::vec
         else
             drawn_ones.push_back(m);
     Result<std::optional<Image>> drawn = drawer_.draw(scene, drawn_ones);
+    if (drawn && !*drawn && drawn_ones.size() < mistakes.size()) // the exposure changes every scene
+        drawn = drawer_.draw(scene, {});
     BN_TRY(drawn);
     if (!*drawn)
         return std::optional<Image>();
     return std::optional<Image>(tonemap_to_srgb8(**drawn, Tonemap::none, stops));
 }
 
-// Fills the distances of the scenes that `of` asks for. Returns early where the first scenes come no nearer by the mistakes.
-Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
-                             const std::vector<double>& left, Distances& to)
+// Draws a set of mistakes in the scenes that `of` asks for. hopeful: ends where the first scenes come no nearer by the mistakes.
+Status Judge::find_effects(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<bool>& of,
+                           const std::vector<double>& left, bool hopeful, std::vector<Effect>& to)
 {
     double before = 0.0, after = 0.0;
     int probed = 0;
@@ -126,32 +148,32 @@ Status Judge::find_distances(const std::vector<int>& mistakes, const std::vector
             continue;
         Result<std::optional<Image>> drawn = shown_with(i, mistakes);
         BN_TRY(drawn);
-        if (!*drawn || mean_flip(without[i], **drawn, jobs_) < kSeen)
+        const double size = *drawn ? mean_flip(without[i], **drawn, jobs_) : 0.0;
+        if (size < kSeen)
             continue;
-        to.of[i] = mean_flip(**drawn, pictures_[i].shown, jobs_);
-        before += left[i], after += to.of[i];
-        if (++probed == kProbes && after > kHopeful * before)
+        to[i] = {size, mean_flip(**drawn, pictures_[i].shown, jobs_)};
+        before += left[i], after += to[i].distance;
+        if (++probed == kProbes && hopeful && after > kHopeful * before)
             return {};
     }
     return {};
 }
 
-// Returns the distances of a set of mistakes. Draws scenes that are not suspect only where the mistakes explain others.
-Result<Distances> Judge::distances_of(const std::vector<int>& mistakes, const std::vector<Image>& without, const std::vector<double>& left,
-                                      const Judgement& judgement)
+// Returns the effects of a set of mistakes by scene. Draws scenes that are not suspect only where the mistakes explain others.
+Result<std::vector<Effect>> Judge::effects_of(const std::vector<int>& mistakes, bool whole, const std::vector<Image>& without,
+                                              const std::vector<double>& left, const Judgement& judgement)
 {
-    const std::vector<SceneJudgement>& scenes = judgement.scenes;
-    Distances found{std::vector<double>(pictures_.size(), -1.0)};
-    std::vector<bool> faulty(pictures_.size());
-    for (std::size_t i = 0; i < faulty.size(); ++i)
-        faulty[i] = usable(i) && is_suspect(scenes[i], judgement, left[i]);
-    BN_TRY(find_distances(mistakes, without, faulty, left, found));
+    std::vector<Effect> found(pictures_.size());
+    std::vector<bool> suspect(pictures_.size());
+    for (std::size_t i = 0; i < suspect.size(); ++i)
+        suspect[i] = usable(i) && (whole || is_suspect(judgement.scenes[i], judgement, left[i]));
+    BN_TRY(find_effects(mistakes, without, suspect, left, true, found));
     bool explains = false;
-    for (std::size_t i = 0; i < faulty.size(); ++i)
-        explains = explains || (found.of[i] >= 0.0 && found.of[i] <= kExplains * left[i]);
+    for (std::size_t i = 0; i < suspect.size(); ++i)
+        explains = explains || (found[i].size > 0.0 && found[i].distance <= kExplains * left[i]);
     if (explains) {
-        faulty.flip();
-        BN_TRY(find_distances(mistakes, without, faulty, left, found));
+        suspect.flip();
+        BN_TRY(find_effects(mistakes, without, suspect, left, false, found));
     }
     return found;
 }
@@ -171,6 +193,63 @@ double Judge::exposure_against(const std::vector<Image>& without) const
     return std::abs(stops) < kLeastExposure ? 0.0 : stops;
 }
 
+// Returns the sets of mistakes that may come next: one each, or two where one of them changes whole pictures.
+std::vector<std::vector<int>> Judge::candidates(const std::vector<int>& known, bool pairs) const
+{
+    std::vector<int> single;
+    for (int m = kExposure; m < static_cast<int>(mutants().size()); ++m)
+        if (std::find(known.begin(), known.end(), m) == known.end() && (m != kExposure || exposure_ev_ != 0.0))
+            single.push_back(m);
+    std::vector<std::vector<int>> sets;
+    for (const int a : single) {
+        if (!pairs)
+            sets.push_back({a});
+        for (const int b : single)
+            if (pairs && changes_whole_pictures(a) && b != a && (!changes_whole_pictures(b) || b > a))
+                sets.push_back({a, b});
+    }
+    return sets;
+}
+
+// Returns the candidate that takes away most of what is left; empty: none explains enough.
+Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pairs, const std::vector<Image>& without,
+                                        const std::vector<double>& left, Judgement& to)
+{
+    Candidate best;
+    for (const std::vector<int>& set : candidates(known, pairs)) {
+        const Activity activity("drawing mistake " + mistake_words(set.front(), exposure_ev_));
+        std::vector<int> mistakes = known;
+        mistakes.insert(mistakes.end(), set.begin(), set.end());
+        const bool whole = changes_whole_pictures(set.front());
+        const Result<std::vector<Effect>> effects = effects_of(mistakes, whole, without, left, to);
+        BN_TRY(effects);
+        // Sum what it takes away, weighted by what it changes
+        Candidate now{set, 0.0, {}, left};
+        double before = 0.0, after = 0.0, weight = 0.0;
+        bool accepted = whole;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            const Effect& e = (*effects)[i];
+            if (e.size == 0.0)
+                continue;
+            SceneJudgement& scene = to.scenes[i];
+            before += e.size * left[i], after += e.size * e.distance, weight += e.size;
+            now.gain += left[i] - e.distance;
+            now.left[i] = e.distance;
+            now.found.scenes.push_back(scene.name);
+            now.found.before += left[i], now.found.after += e.distance;
+            const bool suspect = is_suspect(scene, to, left[i]) && e.distance <= kExplains * left[i];
+            accepted = accepted || (suspect && (left[i] > to.right_up_to || e.distance <= kNear * to.noise));
+            if (known.empty() && set.size() == 1 && e.distance < std::min(scene.to_usual, scene.to_nearest))
+                scene.nearest = set.front(), scene.to_nearest = e.distance, scene.nearest_ev = exposure_ev_;
+        }
+        const double share = whole ? kExplainsWhole : kExplains;
+        if (accepted && now.gain > best.gain && after <= share * before && before - after >= kLeastGain * weight)
+            best = std::move(now);
+    }
+    return best;
+}
+
+// Finds mistakes one after the other. Tries two at once where no single one explains pictures that are mostly wrong.
 Status Judge::find_mistakes(Judgement& to)
 {
     std::vector<Image> without = usual_;
@@ -179,63 +258,43 @@ Status Judge::find_mistakes(Judgement& to)
         left[i] = to.scenes[i].explained;
     std::vector<int> known;
     while (known.size() < kMostMistakes) {
-        // Look for the mistake that takes away most
-        int best = -1;
-        double best_gain = 0.0;
-        FoundMistake found;
-        std::vector<double> best_left;
-        const bool exposed = std::find(known.begin(), known.end(), kExposure) != known.end();
-        if (!exposed)
+        if (std::find(known.begin(), known.end(), kExposure) == known.end())
             exposure_ev_ = exposure_against(without);
-        for (int m = kExposure; m < static_cast<int>(mutants().size()); ++m) {
-            if (std::find(known.begin(), known.end(), m) != known.end() || (m == kExposure && exposure_ev_ == 0.0))
-                continue;
-            const Activity activity("drawing mistake " + mistake_words(m, exposure_ev_));
-            std::vector<int> mistakes = known;
-            mistakes.push_back(m);
-            const Result<Distances> distances = distances_of(mistakes, without, left, to);
-            BN_TRY(distances);
-            double before = 0.0, after = 0.0;
-            bool wrong = false, near = false;
-            std::vector<std::string> seen_in;
-            std::vector<double> rest = left;
-            for (std::size_t i = 0; i < left.size(); ++i) {
-                if (distances->of[i] < 0.0)
-                    continue;
-                before += left[i], after += distances->of[i];
-                rest[i] = distances->of[i];
-                wrong = wrong || (to.scenes[i].outcome == SceneJudgement::Outcome::wrong && left[i] > to.right_up_to);
-                near = near || (is_suspect(to.scenes[i], to, left[i]) && distances->of[i] <= kNear * to.noise);
-                seen_in.push_back(to.scenes[i].name);
-                if (known.empty() && distances->of[i] < to.scenes[i].to_usual &&
-                    (to.scenes[i].nearest == kNoMistake || distances->of[i] < to.scenes[i].to_nearest))
-                    to.scenes[i].nearest = m, to.scenes[i].to_nearest = distances->of[i];
-            }
-            const double count = static_cast<double>(seen_in.size());
-            if ((wrong || near) && before - after > best_gain && after <= kExplains * before && before - after >= kLeastGain * count)
-                best = m, best_gain = before - after, best_left = rest, found = {m, seen_in, before / count, after / count};
+        Result<Candidate> best = best_candidate(known, false, without, left, to);
+        BN_TRY(best);
+        const auto wrong = std::count_if(to.scenes.begin(), to.scenes.end(),
+                                         [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
+        if (best->set.empty() && known.empty() && 2 * wrong > static_cast<std::ptrdiff_t>(to.scenes.size())) {
+            best = best_candidate(known, true, without, left, to);
+            BN_TRY(best);
         }
-        if (best < 0)
+        if (best->set.empty())
             return {};
         // Take it for known, and look at what it leaves
-        known.push_back(best);
-        if (best == kExposure)
-            to.exposure_ev = exposure_ev_;
-        to.mistakes.push_back(std::move(found));
-        left = best_left;
+        const double count = static_cast<double>(best->found.scenes.size());
+        best->found.before /= count, best->found.after /= count;
+        for (const int m : best->set) {
+            known.push_back(m);
+            to.mistakes.push_back(best->found);
+            to.mistakes.back().mutant = m;
+            if (m == kExposure)
+                to.exposure_ev = exposure_ev_;
+        }
         for (std::size_t i = 0; i < left.size(); ++i) {
-            if (known.size() == 1 && left[i] < to.scenes[i].explained)
-                to.scenes[i].nearest = best, to.scenes[i].to_nearest = left[i];
-            if (usable(i) && is_suspect(to.scenes[i], to, to.scenes[i].explained) && left[i] <= kExplains * to.scenes[i].explained)
-                to.scenes[i].outcome = SceneJudgement::Outcome::wrong;
-            to.scenes[i].explained = left[i];
             if (!usable(i))
                 continue;
+            SceneJudgement& scene = to.scenes[i];
+            if (best->left[i] <= kExplains * left[i])
+                scene.outcome = SceneJudgement::Outcome::wrong;
+            if (best->set.size() == 1 && to.mistakes.size() == 1 && best->left[i] < left[i] && best->left[i] <= scene.to_nearest)
+                scene.nearest = best->set.front(), scene.to_nearest = best->left[i], scene.nearest_ev = exposure_ev_;
+            scene.explained = best->left[i];
             Result<std::optional<Image>> drawn = shown_with(i, known);
             BN_TRY(drawn);
             if (*drawn)
                 without[i] = std::move(**drawn);
         }
+        left = best->left;
     }
     return {};
 }
@@ -357,6 +416,14 @@ std::string mistake_words(int mutant, double exposure_ev)
     if (mutant == kExposure)
         return fmt::format("the exposure is off by {:+.2f} stops, a factor of {:.3g}", exposure_ev, std::exp2(exposure_ev));
     return mutants()[static_cast<std::size_t>(mutant)].words;
+}
+
+bool Judgement::way_is_known() const
+{
+    const auto known = std::count_if(scenes.begin(), scenes.end(), [&](const SceneJudgement& s) {
+        return s.outcome == SceneJudgement::Outcome::right || (s.outcome == SceneJudgement::Outcome::wrong && s.explained <= right_up_to);
+    });
+    return 2 * known > static_cast<std::ptrdiff_t>(scenes.size());
 }
 
 bool Judgement::all_right() const

@@ -1,6 +1,5 @@
 // Compares an engine's pictures with truths, and finds the mistakes that explain them.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +33,8 @@ struct SceneJudgement {
     double to_right = 0.0;    // of the picture to the truth or to Judgement::way, the least
     double to_usual = 0.0;    // of the picture to Judgement::way
     int nearest = kNoMistake; // none is nearer than Judgement::way
-    double to_nearest = 0.0;  // of the picture to that one
+    double to_nearest = 2.0;  // of the picture to that one
+    double nearest_ev = 0.0;  // its exposure, if it is kExposure
     double explained = 0.0;   // of the picture to the one with the mistakes found; to_usual without any
 };
 
@@ -52,10 +52,11 @@ struct Judgement {
     std::vector<FoundMistake> mistakes; // the one that explains most comes first
     double exposure_ev = 0.0;           // of the pictures against what is right, where that is a mistake; else 0
     bool all_right() const;
+    bool way_is_known() const;                    // most scenes are right, or explained
     std::vector<std::string> unexplained() const; // scenes that are wrong, and look like no known mistake
 };
 
-// Judges the pictures, one for each of the folder's scenes. told: called before each mutant.
+// Judges the pictures, one for each of the folder's scenes.
 Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
                                  const std::vector<EnginePicture>& pictures, const Jobs& jobs);
 

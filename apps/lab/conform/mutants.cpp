@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+#include <set>
 #include <utility>
 
 #include "core/image/colour.h"
@@ -22,14 +22,16 @@ template <class Edit> bool each_material(Scene& scene, const Edit& edit)
     return changed;
 }
 
-// Edits each texel of the direction maps: red, green and blue, [0,1].
-template <class Edit> bool each_direction(Scene& scene, const Edit& edit)
+// Edits each texel of the maps that materials name: red, green and blue, [0,1]. Maps of other types than 8 bits stay.
+template <class Edit> bool each_texel(Scene& scene, TextureRef Material::*map, const Edit& edit)
 {
+    std::set<std::int32_t> images;
+    for (const Material& m : scene.materials)
+        if ((m.*map).used())
+            images.insert(scene.textures[static_cast<std::size_t>((m.*map).texture)].image);
     bool changed = false;
-    for (const Material& m : scene.materials) {
-        if (!m.anisotropy_tex.used())
-            continue;
-        Image& image = scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(m.anisotropy_tex.texture)].image)];
+    for (const std::int32_t index : images) {
+        Image& image = scene.images[static_cast<std::size_t>(index)];
         if (image.type != PixelType::u8 || image.channels < 3)
             continue;
         changed = true;
@@ -44,6 +46,10 @@ template <class Edit> bool each_direction(Scene& scene, const Edit& edit)
         }
     }
     return changed;
+}
+template <class Edit> bool each_direction(Scene& scene, const Edit& edit)
+{
+    return each_texel(scene, &Material::anisotropy_tex, edit);
 }
 
 bool no_anisotropy(Scene& scene)
@@ -62,25 +68,34 @@ bool degrees_for_radians(Scene& scene)
         return had;
     });
 }
+bool negative_rotation(Scene& scene)
+{
+    return each_material(scene, [](Material& m) {
+        const bool had = m.anisotropy_rotation != 0.0f;
+        m.anisotropy_rotation = -m.anisotropy_rotation;
+        return had;
+    });
+}
 bool no_rotation(Scene& scene)
 {
     return each_material(scene, [](Material& m) { return std::exchange(m.anisotropy_rotation, 0.0f) != 0.0f; });
 }
-bool strength_squared_twice(Scene& scene)
+// Changes the strength, a factor times a texture's blue.
+template <class Change> bool other_strength(Scene& scene, const Change& change)
 {
-    return each_material(scene, [](Material& m) {
-        const float before = m.anisotropy_strength;
-        m.anisotropy_strength = before * before;
+    const bool factors = each_material(scene, [&](Material& m) {
+        const float before = std::exchange(m.anisotropy_strength, change(m.anisotropy_strength));
         return m.anisotropy_strength != before;
     });
+    return each_direction(scene, [&](float* t) { t[2] = change(t[2]); }) || factors;
+}
+bool strength_squared_twice(Scene& scene)
+{
+    return other_strength(scene, [](float s) { return s * s; });
 }
 bool strength_not_squared(Scene& scene)
 {
-    return each_material(scene, [](Material& m) {
-        const float before = m.anisotropy_strength;
-        m.anisotropy_strength = std::sqrt(before);
-        return m.anisotropy_strength != before;
-    });
+    return other_strength(scene, [](float s) { return std::sqrt(s); });
 }
 bool no_direction_map(Scene& scene)
 {
@@ -137,16 +152,7 @@ bool has_normal_map(Scene& scene)
 }
 bool normal_green_down(Scene& scene)
 {
-    bool changed = false;
-    for (const Material& m : scene.materials) {
-        if (!m.normal_tex.used())
-            continue;
-        Image& image = scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(m.normal_tex.texture)].image)];
-        for (std::size_t at = 1; at < image.bytes.size(); at += static_cast<std::size_t>(image.channels))
-            image.bytes[at] = static_cast<std::byte>(255 - static_cast<int>(image.bytes[at]));
-        changed = true;
-    }
-    return changed;
+    return each_texel(scene, &Material::normal_tex, [](float* t) { t[1] = 1.0f - t[1]; });
 }
 bool no_coat(Scene& scene)
 {
@@ -327,6 +333,18 @@ void toned_aces(Image& image)
     toned(image, Tonemap::aces);
 }
 
+void toned_reinhard(Image& image)
+{
+    each_value(image, [](float v) { return std::max(v, 0.0f) / (1.0f + std::max(v, 0.0f)); });
+}
+void toned_aces_fit(Image& image) // Narkowicz 2015, "ACES Filmic Tone Mapping Curve"
+{
+    each_value(image, [](float v) {
+        const float x = std::max(v, 0.0f);
+        return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
+    });
+}
+
 constexpr std::uint32_t bit(KernelMutant mutant)
 {
     return mutant_bit(mutant);
@@ -340,6 +358,7 @@ const std::vector<Mutant>& mutants()
     static const std::vector<Mutant> all = {
         {"anisotropy_ignored", "anisotropy is ignored", 0, no_anisotropy},
         {"rotation_clockwise", "rotations and directions turn clockwise", bit(K::rotation_clockwise)},
+        {"rotation_negated", "the rotation turns clockwise, directions of textures do not", 0, negative_rotation},
         {"rotation_in_degrees", "the rotation's radians are taken for degrees", 0, degrees_for_radians},
         {"rotation_ignored", "the rotation is ignored", 0, no_rotation},
         {"axes_swapped", "tangent and bitangent are swapped", bit(K::axes_swapped)},
@@ -386,6 +405,9 @@ const std::vector<Mutant>& mutants()
         {"mirrored", "the picture is mirrored", 0, nullptr, MutantSky::right, nullptr, left_for_right},
         {"encoded", "the picture is encoded as sRGB, where linear values are asked for", 0, nullptr, MutantSky::right, nullptr, encoded},
         {"tonemapped_neutral", "the picture is tone mapped (PBR Neutral)", 0, nullptr, MutantSky::right, nullptr, toned_neutral},
+        {"tonemapped_reinhard", "the picture is tone mapped (Reinhard)", 0, nullptr, MutantSky::right, nullptr, toned_reinhard},
+        {"tonemapped_aces_fit", "the picture is tone mapped (Narkowicz's fit of ACES)", 0, nullptr, MutantSky::right, nullptr,
+         toned_aces_fit},
         {"tonemapped_aces", "the picture is tone mapped (ACES)", 0, nullptr, MutantSky::right, nullptr, toned_aces},
     };
     return all;

@@ -26,13 +26,13 @@ bool is_compared(const SceneJudgement& s)
 }
 
 // Returns a sentence on a scene that is not right.
-std::string fault_of(const SceneJudgement& s, double exposure_ev)
+std::string fault_of(const SceneJudgement& s)
 {
     if (!is_compared(s))
         return s.reason;
     std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right", s.to_truth, s.to_right);
     if (s.nearest != kNoMistake)
-        text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, exposure_ev), s.to_nearest);
+        text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
     return text;
 }
 
@@ -127,6 +127,7 @@ std::string conform_json(const Judgement& judgement)
     const Json json = {{"right", judgement.all_right()},
                        {"way", judgement.way->name},
                        {"unexplained", judgement.unexplained()},
+                       {"exposure_ev", judgement.exposure_ev},
                        {"noise", judgement.noise},
                        {"right_up_to", judgement.right_up_to},
                        {"mistakes", mistakes},
@@ -141,7 +142,7 @@ std::string conform_junit(const Judgement& judgement)
         const auto outcome = s.outcome == Outcome::right   ? JunitCase::Outcome::passed
                              : s.outcome == Outcome::wrong ? JunitCase::Outcome::failure
                                                            : JunitCase::Outcome::error;
-        cases.push_back({s.name, outcome, s.outcome == Outcome::right ? "" : fault_of(s, judgement.exposure_ev)});
+        cases.push_back({s.name, outcome, s.outcome == Outcome::right ? "" : fault_of(s)});
     }
     return junit_text("burnish conform", "conform", cases);
 }
@@ -167,39 +168,51 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
         walls += fmt::format(
             "<section id=\"{}\"><h2>{}: <span class=\"{}\">{}</span></h2><p>{}.{}</p>\n<div class=\"pictures\">\n{}</div></section>\n",
             escaped(s.name), escaped(s.name), outcome_name(s.outcome), outcome_name(s.outcome), escaped(folder.scenes[i].about),
-            s.outcome == Outcome::right ? "" : " " + escaped(fault_of(s, judgement.exposure_ev)) + ".", *shown);
+            s.outcome == Outcome::right ? "" : " " + escaped(fault_of(s)) + ".", *shown);
     }
+    const std::string way =
+        judgement.way_is_known() ? fmt::format("The engine draws image light like {}. ", escaped(judgement.way->words)) : std::string();
     const std::string title = heading(judgement);
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
         "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
-        "<p>An engine's pictures against the reference's. The engine's way to draw image light is like {6}, as burnish draws it. A picture "
-        "is "
-        "right where it looks like the truth or like such a way.</p>\n"
+        "<p>An engine's pictures against the reference's. {6}A picture is right where it looks like the truth, or like the engine's way of "
+        "drawing image light without a mistake.</p>\n"
         "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP to the truth</th><th>to what is "
         "right</th></tr>\n{4}</table>\n{5}"
         "</main>\n</body>\n</html>\n",
         title, kChartPageStyle.bytes, kConformStyle.bytes, mistakes.empty() ? "" : "<h2>Mistakes found</h2>\n<ol>\n" + mistakes + "</ol>\n",
-        rows, walls, judgement.way->words);
+        rows, walls, way);
 }
 
 Error conform_error(const Judgement& judgement)
 {
+    const auto count_of = [&](Outcome outcome) {
+        return std::count_if(judgement.scenes.begin(), judgement.scenes.end(),
+                             [&](const SceneJudgement& s) { return s.outcome == outcome; });
+    };
+    // NaN and pictures that cannot be read come first
+    for (const bool finite : {false, true})
+        for (const SceneJudgement& s : judgement.scenes)
+            if (s.outcome == Outcome::unusable && s.not_finite != finite)
+                return Error{finite ? ExitCode::bad_input : ExitCode::not_finite, s.name, "", s.reason};
+    // Then wrong ones and missing ones
+    std::string text;
+    if (const auto wrong = count_of(Outcome::wrong); wrong != 0) {
+        text = fmt::format("{} of {} pictures are wrong: ", wrong, judgement.scenes.size());
+        text += judgement.mistakes.empty() ? "no known mistake explains it"
+                                           : mistake_words(judgement.mistakes.front().mutant, judgement.exposure_ev);
+        if (judgement.mistakes.size() > 1)
+            text += fmt::format(" (and {})", counted(judgement.mistakes.size() - 1, "more mistake"));
+    }
+    std::vector<std::string> missing;
     for (const SceneJudgement& s : judgement.scenes)
-        if (s.outcome == Outcome::missing || s.outcome == Outcome::unusable)
-            return Error{s.not_finite                    ? ExitCode::not_finite
-                         : s.outcome == Outcome::missing ? ExitCode::differ
-                                                         : ExitCode::bad_input,
-                         s.name, "", s.reason};
-    const auto wrong = std::count_if(judgement.scenes.begin(), judgement.scenes.end(),
-                                     [](const SceneJudgement& s) { return s.outcome == Outcome::wrong; });
-    std::string found = "no known mistake explains it";
-    if (!judgement.mistakes.empty())
-        found = mistake_words(judgement.mistakes.front().mutant, judgement.exposure_ev);
-    if (judgement.mistakes.size() > 1)
-        found += fmt::format(" (and {})", counted(judgement.mistakes.size() - 1, "more mistake"));
-    return Error{ExitCode::differ, "", "", fmt::format("{} of {} pictures are wrong: {}", wrong, judgement.scenes.size(), found)};
+        if (s.outcome == Outcome::missing)
+            missing.push_back(s.name);
+    if (!missing.empty())
+        text += fmt::format("{}{} of {} pictures are missing: {}", text.empty() ? "" : "; ", missing.size(), judgement.scenes.size(), join(missing));
+    return Error{ExitCode::differ, "", "", text};
 }
 
 } // namespace burnish

@@ -90,6 +90,9 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
         if (truth->width != kConformWidth || truth->height != kConformHeight || truth->type != PixelType::f32 || truth->channels != 3)
             return Error{ExitCode::bad_input, folder.truth_of(scene.name), "",
                          "is no truth of a conformance folder: write the folder anew"};
+        const std::size_t values = truth->bytes.size() / sizeof(float);
+        if (!std::all_of(truth->f32(), truth->f32() + values, [](float v) { return std::isfinite(v); }))
+            return Error{ExitCode::not_finite, folder.truth_of(scene.name), "", "holds NaN or infinities: write the folder anew"};
         out.truths.push_back(std::move(*truth));
         out.engine.push_back(read_engine_picture(pictures, scene.name, limits));
         one = one || !out.engine.back().file.empty();

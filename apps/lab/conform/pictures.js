@@ -4,7 +4,10 @@ const folder = new URL('..', import.meta.url);
 
 // Returns conform.json.
 export async function read_conform() {
-  return (await fetch(new URL('conform.json', folder))).json();
+  const answer = await fetch(new URL('conform.json', folder));
+  if (!answer.ok)
+    throw new Error(`conform.json: ${answer.status}`);
+  return answer.json();
 }
 
 // Returns the address of a file of the folder.
@@ -41,27 +44,34 @@ function tar_of(files) {
 }
 
 // Draws all scenes with draw(scene, conform), which returns floats as pfm_of() takes them, or null where the engine cannot draw the
-// scene. Offers the pictures as a file. Shows progress in the page's element #state.
+// scene. Offers the pictures as a file. Shows progress and faults in the page's element #state.
 export async function draw_all(draw) {
-  const state = document.getElementById('state'), conform = await read_conform(), files = [], left_out = [];
+  const state = document.getElementById('state'), files = [], left_out = [], faults = [];
+  let conform;
+  try {
+    conform = await read_conform();
+  } catch (error) {
+    state.textContent = String(error);
+    return;
+  }
   for (const scene of conform.scenes) {
     state.textContent = `drawing ${scene.name} ...`;
     try {
       const floats = await draw(scene, conform);
-      if (floats)
+      if (floats) {
         files.push([scene.name + '.pfm', pfm_of(conform.width, conform.height, floats)]);
-      else
-        left_out.push(scene.name);
+        continue;
+      }
     } catch (error) {
-      state.textContent = `${scene.name}: ${error}`;
-      throw error;
+      faults.push(`${scene.name}: ${error}`);
     }
+    left_out.push(scene.name);
   }
   const link = document.createElement('a');
   link.href = URL.createObjectURL(tar_of(files));
   link.download = 'pictures.tar';
   link.textContent = 'pictures.tar';
-  state.textContent = `${files.length} scenes drawn${left_out.length ? `, without ${left_out.join(', ')}` : ''}: `;
-  state.append(link);
+  state.textContent = `${files.length} scenes drawn${left_out.length ? `; judge them --without ${left_out.join(',')}` : ''}: `;
+  state.append(link, ...faults.map(text => Object.assign(document.createElement('p'), { textContent: text })));
   globalThis.drawn_pictures = files; // for programs that drive this page
 }

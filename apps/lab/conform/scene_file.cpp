@@ -1,6 +1,6 @@
 #include "apps/lab/conform/scene_file.h"
 
-#include <cstring>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 

@@ -203,6 +203,7 @@ SceneFile dielectric()
 SceneFile coated()
 {
     SceneFile s = brushed_sphere(0.35f, 0.9f, 0.0f);
+    s.material["pbrMetallicRoughness"]["baseColorFactor"] = {0.25, 0.24, 0.22, 1.0};
     s.material["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1.0}, {"clearcoatRoughnessFactor", 0.05}};
     return s;
 }
