@@ -174,6 +174,8 @@ Result<Image> ConformDrawer::by_technique(std::size_t scene, const TechniqueInfo
     FrameDesc desc = desc_of(scenes_[scene].data->scene);
     desc.technique = technique.name;
     desc.samples = technique.default_samples;
+    desc.area_way = kAreaWay_mc; // exact for every technique
+    desc.light_samples = 4 * kLightSamples;
     Result<Frame> frame = session->render(desc);
     BN_TRY(frame);
     return std::move(frame->color);

@@ -27,7 +27,7 @@ constexpr double kSuspect = 1.4;        // of the noise, from which a scene may 
 constexpr double kNear = 1.3;           // of the noise, up to which pictures are like those with a mistake
 constexpr int kProbes = 4;              // scenes after which a mistake that takes nothing away is given up
 constexpr std::size_t kStride = 11;     // between scenes tried one after the other
-constexpr double kExplained = 0.5;      // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kExplained = 0.25;     // of what is wrong in a way, which its mistakes may leave before another way is tried
 constexpr double kHopeful = 0.85;       // of the distance before, which it may leave there
 constexpr double kLeastExposure = 0.12; // stops
 
@@ -109,7 +109,7 @@ class Judge {
     Result<DrawnWay> draw_way(const RightWay& way);
     void judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to);
     double exposure_against(const std::vector<Image>& without) const;
-    Status find_mistakes(Judgement& to);
+    Status find_mistakes(bool pairs, Judgement& to);
 
     ConformDrawer& drawer_;
     const std::vector<EnginePicture>& pictures_;
@@ -249,8 +249,8 @@ Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pair
     return best;
 }
 
-// Finds mistakes one after the other. Tries two at once where no single one explains pictures that are mostly wrong.
-Status Judge::find_mistakes(Judgement& to)
+// Finds mistakes one after the other. pairs: begins with two at once where no single one explains enough.
+Status Judge::find_mistakes(bool pairs, Judgement& to)
 {
     std::vector<Image> without = usual_;
     std::vector<double> left(pictures_.size());
@@ -262,9 +262,7 @@ Status Judge::find_mistakes(Judgement& to)
             exposure_ev_ = exposure_against(without);
         Result<Candidate> best = best_candidate(known, false, without, left, to);
         BN_TRY(best);
-        const auto wrong = std::count_if(to.scenes.begin(), to.scenes.end(),
-                                         [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
-        if (best->set.empty() && known.empty() && 2 * wrong > static_cast<std::ptrdiff_t>(to.scenes.size())) {
+        if (best->set.empty() && known.empty() && pairs) {
             best = best_candidate(known, true, without, left, to);
             BN_TRY(best);
         }
@@ -305,14 +303,27 @@ Result<DrawnWay> Judge::draw_way(const RightWay& way)
     const Activity activity(std::string("drawing ") + way.words);
     drawer_.set_way(way);
     DrawnWay drawn{&way, std::vector<Image>(pictures_.size()), std::vector<double>(pictures_.size()), 0};
+    std::vector<Image> linear(pictures_.size());
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         if (!usable(i))
             continue;
-        Result<std::optional<Image>> shown = shown_with(i, {});
-        BN_TRY(shown);
-        drawn.shown[i] = std::move(**shown);
+        Result<std::optional<Image>> picture = drawer_.draw(i, {});
+        BN_TRY(picture);
+        linear[i] = std::move(**picture);
+        drawn.shown[i] = shown_picture(linear[i]);
         drawn.distance[i] = mean_flip(drawn.shown[i], pictures_[i].shown, jobs_);
-        drawn.far += drawn.distance[i] > kLeastRight;
+    }
+    // Count the scenes that are far, at any exposure
+    const double stops = exposure_against(drawn.shown);
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        if (!usable(i))
+            continue;
+        double least = drawn.distance[i];
+        if (stops != 0.0) {
+            const Image exposed = tonemap_to_srgb8(linear[i], Tonemap::none, kConformEv + static_cast<float>(stops));
+            least = std::min(least, mean_flip(exposed, pictures_[i].shown, jobs_));
+        }
+        drawn.far += least > kLeastRight;
     }
     return drawn;
 }
@@ -389,17 +400,27 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ways[a].far < ways[b].far; });
     // Look for mistakes in that way, and in others while most is left unexplained
     std::optional<Judgement> best;
-    for (const std::size_t at : order) {
+    const auto look = [&](std::size_t at, bool pairs) -> Result<bool> {
         Judgement judgement = none;
         judge_by(ways, at, truths, judgement);
         const double before = unexplained_distance(judgement);
-        BN_TRY(find_mistakes(judgement));
+        BN_TRY(find_mistakes(pairs, judgement));
         const double left = unexplained_distance(judgement);
         if (!best || left < unexplained_distance(*best))
             best = std::move(judgement);
-        if (left <= kExplained * before)
-            break;
+        return left <= kExplained * before;
+    };
+    bool explained = false;
+    for (std::size_t i = 0; i < order.size() && !explained; ++i) {
+        const Result<bool> enough = look(order[i], false);
+        BN_TRY(enough);
+        explained = *enough;
     }
+    // Look for two at once where no single one explains pictures that are mostly wrong
+    const auto wrong = std::count_if(best->scenes.begin(), best->scenes.end(),
+                                     [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
+    if (best->mistakes.empty() && 2 * wrong > static_cast<std::ptrdiff_t>(best->scenes.size()))
+        BN_TRY(look(order.front(), true));
     drawer_.set_way(*best->way);
     return std::move(*best);
 }

@@ -211,7 +211,8 @@ Error conform_error(const Judgement& judgement)
         if (s.outcome == Outcome::missing)
             missing.push_back(s.name);
     if (!missing.empty())
-        text += fmt::format("{}{} of {} pictures are missing: {}", text.empty() ? "" : "; ", missing.size(), judgement.scenes.size(), join(missing));
+        text += fmt::format("{}{} of {} pictures are missing: {}", text.empty() ? "" : "; ", missing.size(), judgement.scenes.size(),
+                            join(missing));
     return Error{ExitCode::differ, "", "", text};
 }
 
