@@ -1,5 +1,5 @@
-// The tile renderer with other lanes, compiled from the same source text: double ones, ones that count their work, and ones with mistakes
-// in their kernels. All are slow.
+// The tile renderer with other lanes, compiled from the same source text. Some are double, some count their work, some have mistakes in
+// their kernels. All are slow.
 #pragma once
 #include <memory>
 #include <optional>
@@ -13,7 +13,8 @@ namespace burnish {
 // fragment colours) is still float. Null if the program lacks such lanes.
 std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input);
 
-// Makes a renderer whose kernels have the mistakes in drawn_mutants (shading/lab/conform/mutated.h). Null if the program lacks such lanes.
+// Makes a renderer whose kernels have the mistakes in drawn_mutants (shading/lab/conform/mutated.h). It draws by the techniques that this
+// header compiles alone. Null if the program lacks such lanes.
 std::unique_ptr<Renderer> make_mutated_tile_renderer(const RenderInput& input);
 
 struct CountedFrame {
