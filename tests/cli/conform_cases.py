@@ -134,6 +134,25 @@ def names(bench):
         check(sorted(found) == sorted(mistakes), f"{mistakes}: {found}")
 
 
+@case("conform.names_a_mistake_made_in_the_files", budget=40)
+def in_the_files(bench):
+    """The product's kernels draw edited files: the mistake does not come from the kernels that it is compared with."""
+    written(bench)
+    (bench.folder / "pictures").mkdir()
+    kept = ("mirror", "round", "rotation_30", "left_handed")
+    for name in kept:
+        path = bench.folder / f"folder/scenes/{name}.gltf"
+        scene = json.loads(path.read_text())
+        anisotropy = scene["materials"][0].get("extensions", {}).get("KHR_materials_anisotropy", {})
+        if anisotropy:
+            anisotropy["anisotropyRotation"] *= -1
+        (bench.folder / f"{name}.gltf").write_text(json.dumps(scene))
+        bench.run("render", f"{name}.gltf", "--env", "folder/environment.exr", "--env-size", "256", "--key-lights", "off", "--technique", "bent_normal", "--size",
+                  "256x192", "--no-background", "-o", f"pictures/{name}.exr", "-q").expect(0)
+    result = judged(bench, "folder", "pictures", *without(*kept), code=1)
+    check([m["name"] for m in result["mistakes"]] in (["rotation_clockwise"], ["rotation_negated"]) and result["way"] == "hdrp", f"{result}")
+
+
 @case("conform.measures_an_exposure", budget=60)
 def exposure(bench):
     written(bench)
