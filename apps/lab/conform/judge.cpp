@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostMistakes = 6;
 constexpr double kSeen = 0.01;         // mean FLIP from which a mistake shows in a scene
-constexpr double kExplainsWhole = 0.5; // the same for a mistake of whole pictures, which may hide in an engine's noise
 constexpr double kExplains = 0.7;      // of the distance before that a mistake may leave
+constexpr double kExplainsWhole = 0.5; // the same for a mistake of whole pictures, which may hide in an engine's noise
 constexpr double kLeastGain = 0.012;   // mean FLIP a scene that a mistake must take away
 // A picture is right up to this mean FLIP to the truth or to the engine's way, a factor on the engine's noise, within bounds. The noise is
 // the median of that FLIP over all scenes.
