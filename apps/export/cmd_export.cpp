@@ -1,4 +1,5 @@
-// `burnish export`: writes techniques for other engines, and pages with a scene and the renderer inside.
+// `burnish export`: writes techniques for other engines in their languages, and pages with a scene and the renderer inside.
+#include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "apps/cli/values.h"
 #include "apps/export/assets.h"
 #include "apps/export/glsl_text.h"
+#include "apps/export/shader_text.h"
 #include "apps/live/live.h"
 #include "apps/options/options.h"
 #include "core/base/version.h"
@@ -21,8 +23,9 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(glsl: one file for an engine, without includes. Given equal fetches, it computes the same bits as burnish. The file documents its arguments
-and the functions that the engine provides.
+    R"(glsl, essl, hlsl, msl, wgsl: one file for an engine, without includes. Given equal fetches, glsl computes the same bits as burnish. The
+others do where the device divides and takes roots exactly. The file documents its arguments and the functions that the engine provides.
+essl is for OpenGL ES 3.00 and WebGL 2.
 
 page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
 those of this machine. It takes the options of the picture, as `burnish render` does.
@@ -30,18 +33,41 @@ those of this machine. It takes the options of the picture, as `burnish render` 
 Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl
   burnish export page lamp.glb --env workshop.hdr -o lamp.html
-  burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl)";
+  burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl
+  burnish export wgsl --technique lobe_line -o lobe_line.wgsl)";
 
 // Opening comment of the exported file.
 constexpr const char* kHeading = R"(// {0}: {1}
 // Environment light reflected by an anisotropic specular lobe, from burnish {2} (Apache License 2.0).
 //
-//     vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)
+//     {4}
 //
 // returns linear radiance. f: burnish_usual_settings(size, levels, samples) with your changes; x: burnish_point_of(...).
-// You provide burnish_radiance(), below: fetches from your environment. Needs GLSL 4.20, ESSL 3.20 or later. `precise` keeps the bits equal
-// to those of burnish; #define precise leaves it out for speed. --samples was {3}.
+// {5}
+// --samples was {3}.
 )";
+
+// A language: its name on the command line, its 3-vector, and the needs of the file.
+struct ExportLanguage {
+    const char *name, *call, *needs;
+};
+constexpr ExportLanguage kLanguages[] = {
+    {"glsl", "vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
+     "You provide burnish_radiance(), below: fetches from your environment. Needs GLSL 4.20, ESSL 3.20 or later. `precise` keeps the bits\n"
+     "// equal to those of burnish; #define precise leaves it out for speed."},
+    {"essl", "vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
+     "You provide burnish_radiance(), below: fetches from your environment. Needs ESSL 3.00, as in WebGL 2, or later, and floats and\n"
+     "// integers of 32 bits: `precision highp float; precision highp int;`."},
+    {"hlsl", "float3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
+     "You provide burnish_radiance(), below: fetches from your environment. Needs shader model 5 or later. `precise` keeps the bits equal\n"
+     "// to those of burnish; #define precise leaves it out for speed."},
+    {"msl", "float3 burnish_{0}_specular(thread const burnish_environment& burnish_env, burnish_settings f, burnish_shaded_point x)",
+     "Above this file, include <metal_stdlib>, write `using namespace metal;`, and define struct burnish_environment with the fetch from\n"
+     "// your environment: float4 radiance(int cube, float3 direction, float lod) const. Needs Metal 2.0 or later. The bits are those of\n"
+     "// burnish where the compiler keeps -fno-fast-math and -ffp-contract=off."},
+    {"wgsl", "fn burnish_{0}_specular(f: burnish_settings, x: burnish_shaded_point) -> vec3<f32>",
+     "You provide burnish_radiance(), below: fetches from your environment. Names of overloaded functions end with their result's type."},
+};
 
 constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
 
@@ -63,10 +89,20 @@ std::vector<std::string> technique_names()
     return names;
 }
 
+// Returns the languages, and a page.
+std::vector<std::string> kinds_of_export()
+{
+    std::vector<std::string> names;
+    for (const ExportLanguage& language : kLanguages)
+        names.push_back(language.name);
+    names.push_back("page");
+    return names;
+}
+
 OptionTable export_option_table(ExportArguments& to)
 {
     OptionTable table;
-    table.add("", {{"WHAT", "", "{}", choice(to.what, {"glsl", "page"})},
+    table.add("", {{"WHAT", "", "{}", choice(to.what, kinds_of_export())},
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
     table.add("The technique", {{"--technique", "NAME", "Technique to export, or that draws the page: {}",
                                  choice(to.technique, technique_names()), "a page: auto"},
@@ -90,20 +126,23 @@ OptionTable export_option_table(ExportArguments& to)
     return table;
 }
 
-std::string text_of(const TechniqueInfo& technique, int samples)
+std::string text_of(const TechniqueInfo& technique, int samples, const ExportLanguage& language)
 {
     GlslWish wish;
     wish.roots = {std::string(technique.name) + "_specular", "usual_settings", "point_of", "dfg_fit"};
     if (technique.traits & kSharesSamples)
         wish.roots.push_back(std::string(technique.name) + "_shared");
-    wish.heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples);
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
     wish.grid = grid_samples(samples, technique.sampling, technique.traits);
+    wish.blocks = technique.traits & kPhongGrid;
     wish.grid_count = grid_count(wish.grid, technique.traits);
-    return glsl_of(kFlatTechniques.bytes, wish);
+    const std::string glsl = glsl_of(kFlatTechniques.bytes, wish), name = language.name;
+    const std::string heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples,
+                                            fmt::format(fmt::runtime(language.call), technique.name), language.needs);
+    return heading + (name == "glsl" ? glsl : shader_text(glsl, name));
 }
 
-Result<std::string> glsl_text(const ExportArguments& arguments, const OptionTable& given)
+Result<std::string> technique_text(const ExportArguments& arguments, const OptionTable& given)
 {
     if (!given.given("--technique"))
         return usage_error("--technique", "is missing");
@@ -113,7 +152,8 @@ Result<std::string> glsl_text(const ExportArguments& arguments, const OptionTabl
     const int asked = arguments.samples > 0 ? arguments.samples : technique.default_samples;
     if (asked > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
-    return text_of(technique, effective_samples(technique, asked));
+    const auto language = std::find_if(std::begin(kLanguages), std::end(kLanguages), [&](const ExportLanguage& l) { return arguments.what == l.name; });
+    return text_of(technique, effective_samples(technique, asked), *language);
 }
 
 // Returns what a page shows first: the options that were given.
@@ -148,7 +188,7 @@ int run_export(const ExportArguments& arguments, const OptionTable& given)
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
     Report report(arguments.quiet, arguments.verbosity);
-    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given, report) : glsl_text(arguments, given);
+    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given, report) : technique_text(arguments, given);
     if (!text)
         return fail(text.error());
     if (Status written = write_text(arguments.output, *text); !written)

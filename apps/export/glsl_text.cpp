@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -142,7 +143,7 @@ class Reader {
     {
         if (comment_.empty() || !open_.empty())
             return;
-        if (file_.find("/lang/") == std::string::npos) // headings of shading/lang describe burnish
+        if (file_.find("/lang/") == std::string::npos && !ends_with(file_, ".glsl")) // those describe burnish
             out_.headings.emplace(file_, comment_);
         comment_.clear();
     }
@@ -303,12 +304,22 @@ std::string renamed(const std::string& text, const std::set<std::string>& names)
     return out;
 }
 
-std::string grid_text(const std::vector<GridSample>& grid)
+// Returns a line for each sample, or for each set of a block: a fetch then reads one vector.
+std::string grid_text(const GlslWish& wish)
 {
-    std::string values;
-    for (const GridSample& g : grid)
-        values += fmt::format("{}\n    vec3({:#.9g}, {:#.9g}, {:#.9g})", values.empty() ? "" : ",", g.slope_x, g.slope_y, g.density);
-    return fmt::format("const vec3 kGrid[{0}] = vec3[{0}]({1});\n", grid.size(), values);
+    std::vector<std::string> rows;
+    const float* const values = &wish.grid[0].slope_x;
+    if (wish.blocks) {
+        for (std::size_t block = 0; block < wish.grid.size(); block += kPhongBlock)
+            for (std::size_t set = 0; set < 4; ++set) {
+                const float* const at = values + 3 * block + set;
+                rows.push_back(fmt::format("vec4({:#.9g}, {:#.9g}, {:#.9g}, {:#.9g})", at[0], at[4], at[8], at[12]));
+            }
+    } else {
+        for (const GridSample& g : wish.grid)
+            rows.push_back(fmt::format("vec3({:#.9g}, {:#.9g}, {:#.9g})", g.slope_x, g.slope_y, g.density));
+    }
+    return fmt::format("const {0} kGrid[{1}] = {0}[{1}](\n    {2});\n", wish.blocks ? "vec4" : "vec3", rows.size(), fmt::join(rows, ",\n    "));
 }
 
 } // namespace
@@ -321,7 +332,7 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
     pieces.insert(pieces.begin(), {"", fmt::format("const int kGridCount = {};\n", wish.grid_count), "", {"kGridCount"}, false});
     if (!wish.grid.empty())
         pieces.insert(std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.fetches; }),
-                      {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish.grid), "", {"kGrid"}, true});
+                      {"// Slopes of the samples, and the density of normals there.\n", grid_text(wish), "", {"kGrid"}, true});
     // Trim structs to the members in use
     Kept kept = reached(pieces, wish.roots);
     for (const TrimmedStruct& wanted : wish.trimmed) {
@@ -343,7 +354,7 @@ std::string glsl_of(const std::string& flat, const GlslWish& wish)
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (kept[i])
             names.insert(pieces[i].defines.begin(), pieces[i].defines.end());
-    std::string out = wish.heading;
+    std::string out;
     std::set<std::string> headed;
     bool fetches = false;
     for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -13,8 +13,8 @@ struct TrimmedStruct {                 // a struct reduced to the members in use
 
 struct GlslWish {
     std::vector<std::string> roots; // functions to keep, with their callees
-    std::string heading;            // a comment
     std::vector<GridSample> grid;   // for techniques with a sample grid; may be empty
+    bool blocks = false;            // the grid's samples come in blocks with four sets (kPhongGrid)
     int grid_count = 0;             // grid points used by one shading point
     std::vector<TrimmedStruct> trimmed;
 };

@@ -75,7 +75,7 @@ struct cube_terms {
 real3 fetched(cube_desc cube, real3 direction, real lod)
 {
     real4 value = radiance(cube.which, direction, lod);
-    return value.xyz;
+    return vec3(value.x, value.y, value.z);
 }
 real3 fetched_level(cube_desc cube, real3 direction, int level)
 {
@@ -139,14 +139,9 @@ real3 grid_sample(settings f, int i)
 {
     return kGrid[i];
 }
-real grid_value(int at)
-{
-    return kGrid[at / 3][at % 3];
-}
 real4 grid_of_four(settings f, int first, integer set)
 {
-    int at = 3 * first + set;
-    return vec4(grid_value(at), grid_value(at + 4), grid_value(at + 8), grid_value(at + 12));
+    return kGrid[first / kPhongBlock * 4 + set];
 }
 // fetches]
 

@@ -17,7 +17,7 @@ TIMEOUT = 60.0  # seconds for one answer
 
 
 class Browser:
-    """Used as `with Browser(folder) as browser`. The folder holds its profile. webgl: pages draw by WebGL on the CPU."""
+    """Used as `with Browser(folder) as browser`. The folder holds its profile. webgl: pages draw by WebGL and WebGPU on the CPU."""
 
     def __init__(self, folder, webgl=False):
         program = next(filter(None, map(shutil.which, NAMES)), None)
@@ -34,7 +34,7 @@ class Browser:
 
         self.process = subprocess.Popen(
             [program, "--headless=new", "--remote-debugging-pipe", "--no-sandbox",
-             *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist") if webgl else ("--disable-gpu",)), "--hide-scrollbars", "--no-first-run",
+             *(("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader") if webgl else ("--disable-gpu",)), "--hide-scrollbars", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage", f"--user-data-dir={folder}/profile", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False, preexec_fn=place_pipes,
             start_new_session=True, env={**os.environ, "HOME": str(folder)})

@@ -1,0 +1,64 @@
+// The tree of an exported shader: declarations, statements and typed expressions, read from the GLSL that glsl_of() returns.
+// Covers the subset of GLSL that the kernel language uses (shading/lang/lang.h): no matrices, textures, qualifiers or while loops.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+struct ShaderExpression {
+    enum class Kind { number, name, call, member, index, unary, binary, choice };
+    Kind kind = Kind::number;
+    std::string text; // the literal, name, function, type, member or operator
+    std::string type; // in GLSL's words, such as vec3, or a struct's name; arrays end with []
+    std::vector<ShaderExpression> of;
+    int function = -1; // call: index of the called function in the tree; -1: built in, or makes a value of a type
+};
+
+struct ShaderVariable {
+    std::string type, name;
+    int count = 0; // elements of an array; 0: no array
+    bool inout = false;
+    std::vector<ShaderExpression> value; // none or one
+};
+
+struct ShaderStatement {
+    enum class Kind { declare, assign, call, branch, loop, result, block };
+    Kind kind = Kind::block;
+    std::vector<std::string> comments;         // lines above
+    std::string beside;                        // a comment on the same line
+    std::vector<ShaderVariable> variables;     // declare; loop: its counter
+    std::vector<ShaderExpression> expressions; // assign: target and value; branch, loop: condition; call, result: value, or none
+    std::vector<ShaderStatement> body, otherwise;
+};
+
+struct ShaderMember {
+    ShaderVariable variable;
+    std::string comment; // beside
+};
+
+struct ShaderItem { // of the outermost scope
+    enum class Kind { comment, directive, structure, constant, prototype, function };
+    Kind kind = Kind::comment;
+    std::string text;    // the comment's or directive's lines; the name of the rest; a function's comments stand above as items
+    std::string type;    // of a function's result, or of a constant
+    std::string comment; // beside
+    std::vector<ShaderMember> members;
+    std::vector<ShaderVariable> variables; // parameters, or constants of one type
+    std::vector<ShaderStatement> body;
+};
+
+struct ShaderTree {
+    std::vector<ShaderItem> items;
+    std::map<std::string, std::vector<int>> functions; // indices of items by name: overloads
+    std::map<std::string, int> structures;
+};
+
+// Returns the tree of a text of glsl_of(). Ends the program at words outside the subset: the text is our own.
+ShaderTree shader_tree_of(const std::string& glsl);
+
+// Returns the types of the values that a built-in vector holds: 0 for scalars and structs.
+int shader_vector_size(const std::string& type);
+
+} // namespace burnish

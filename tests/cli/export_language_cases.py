@@ -1,0 +1,315 @@
+"""burnish export essl, hlsl, msl, wgsl: each file runs where its language runs, and gives the words of the file in GLSL."""
+
+import json
+import math
+import pathlib
+import random
+import re
+import shutil
+import struct
+import subprocess
+
+from browser import Browser
+from harness import Skipped, case, check
+from export_cases import OF_GRIDS, TECHNIQUES, compiler
+
+NAMES = [name for name, _ in TECHNIQUES]
+POINTS = 48
+FLOATS = 16  # of a point: n, v, tangent, f0, roughness, anisotropy, dfg; the first three become the result
+
+# An environment by sums and products alone, and the call at point `i` of a buffer `at`, in each language.
+GLSL_ENVIRONMENT = """vec4 burnish_radiance(int cube, vec3 direction, float lod)
+{
+    vec3 d = direction * (1.0 / sqrt(direction.x * direction.x + direction.y * direction.y + direction.z * direction.z));
+    float near = 1.0 / (1.0 + lod);
+    return vec4(1.0 + d.x * near, 0.6 + d.y * d.z * near, 0.2 + d.z * d.z, 1.0) * (cube == 2 ? 2.0 : 1.0);
+}
+"""
+GLSL_POINT = """    burnish_settings f = burnish_usual_settings(256, 9, SAMPLES);
+    burnish_shaded_point x = burnish_point_of(f, vec3(AT(0), AT(1), AT(2)), vec3(AT(3), AT(4), AT(5)), vec3(AT(6), AT(7), AT(8)),
+                                              vec3(AT(9), AT(10), AT(11)), vec3(1.0), AT(12), AT(13), vec2(AT(14), AT(15)), i);
+    vec3 light = burnish_NAME_specular(f, x);
+"""
+STORE = "".join(f"    at[16 * i + {k}] = light.{'xyz'[k]};\n" for k in range(3))
+GLSL = f"""#version 450
+layout(local_size_x = 1) in;
+layout(std430, set = 0, binding = 0) buffer Points {{ float at[]; }};
+TEXT
+{GLSL_ENVIRONMENT}
+void main()
+{{
+    int i = int(gl_GlobalInvocationID.x);
+{GLSL_POINT}{STORE}}}
+"""
+
+
+def c_like(text):
+    return text.replace("vec3(1.0)", "float3(1.0, 1.0, 1.0)").replace("vec4", "float4").replace("vec3", "float3").replace("vec2", "float2")
+
+
+HLSL = f"""RWStructuredBuffer<float> at : register(u0);
+TEXT
+{c_like(GLSL_ENVIRONMENT)}
+[numthreads(1, 1, 1)]
+void main(uint3 id : SV_DispatchThreadID)
+{{
+    int i = int(id.x);
+{c_like(GLSL_POINT)}{STORE}}}
+"""
+def with_suffixes(text):
+    """Returns the text with floats that C++ takes for floats."""
+    return re.sub(r"(?<![\w.])(\d+\.\d+)(?!\w)", r"\1f", text)
+
+
+MSL = f"""struct burnish_environment {{
+    float4 radiance(int cube, float3 direction, float lod) const
+    {with_suffixes(c_like(GLSL_ENVIRONMENT)).split(")", 1)[1]}
+}};
+TEXT
+kernel void shade(device float* at [[buffer(0)]], uint i [[thread_position_in_grid]])
+{{
+    burnish_environment env;
+{with_suffixes(c_like(GLSL_POINT)).replace("specular(f", "specular(env, f")}{STORE}}}
+"""
+WGSL = """@group(0) @binding(0) var<storage, read_write> at: array<f32>;
+TEXT
+fn burnish_radiance(cube: i32, direction: vec3<f32>, lod: f32) -> vec4<f32>
+{
+    let d = direction * (1.0 / sqrt(direction.x * direction.x + direction.y * direction.y + direction.z * direction.z));
+    let near = 1.0 / (1.0 + lod);
+    return vec4<f32>(1.0 + d.x * near, 0.6 + d.y * d.z * near, 0.2 + d.z * d.z, 1.0) * select(1.0, 2.0, cube == 2);
+}
+@compute @workgroup_size(1)
+fn main(@builtin(global_invocation_id) id: vec3<u32>)
+{
+    let i = i32(id.x);
+    let f = burnish_usual_settings(256, 9, SAMPLES);
+    let x = burnish_point_of(f, vec3<f32>(AT(0), AT(1), AT(2)), vec3<f32>(AT(3), AT(4), AT(5)), vec3<f32>(AT(6), AT(7), AT(8)),
+                             vec3<f32>(AT(9), AT(10), AT(11)), vec3<f32>(1.0), AT(12), AT(13), vec2<f32>(AT(14), AT(15)), i);
+    let light = burnish_NAME_specular(f, x);
+""" + STORE + "}\n"
+# One point a pixel: WebGL 2 has no buffers to write.
+ESSL = f"""#version 300 es
+precision highp float;
+precision highp int;
+uniform highp sampler2D points;
+out vec4 result;
+TEXT
+{GLSL_ENVIRONMENT}
+void main()
+{{
+    int i = int(gl_FragCoord.x);
+{GLSL_POINT}    result = vec4(light, 1.0);
+}}
+"""
+
+
+def points():
+    """Returns points on a sphere's front, with lobes of all shapes."""
+    of = random.Random(5)
+    unit = lambda v: [c / math.sqrt(sum(d * d for d in v)) for c in v]
+    values = []
+    for _ in range(POINTS):
+        n = unit([of.gauss(0, 1) for _ in range(3)])
+        v = unit([a + 0.9 * b for a, b in zip(n, unit([of.gauss(0, 1) for _ in range(3)]))])
+        side = [of.gauss(0, 1) for _ in range(3)]
+        along = sum(a * b for a, b in zip(n, side))
+        tangent = unit([s - along * a for s, a in zip(side, n)])
+        values += [*n, *v, *tangent, *(of.random() for _ in range(3)), of.uniform(0.05, 1), of.uniform(-0.95, 0.95), of.random(), 0.1 * of.random()]
+    return struct.pack(f"<{len(values)}f", *values)
+
+
+def written(bench, language, names=NAMES):
+    for name in names:
+        bench.run("export", language, "--technique", name, *(("--samples", "9") if name in OF_GRIDS else ()), "-o", f"{name}.{language}").expect(0)
+
+
+def source(bench, template, name, language, place="at[16 * i + {}]"):
+    """Returns a shader that calls the exported file. place: a point's number {} in the language's words."""
+    call = re.sub(r"AT\((\d+)\)", lambda at: place.format(at[1]), template.replace("NAME", name).replace("SAMPLES", "16"))
+    return call.replace("TEXT", (bench.folder / f"{name}.{language}").read_text())
+
+
+def on_lavapipe(bench, text, *compile_words):
+    """Returns the results of a compute shader."""
+    compiler()
+    runner = pathlib.Path(bench.program).resolve().parent / "tests/unit/vulkan/run_compute"
+    if not runner.exists():
+        raise Skipped("built without Vulkan")
+    (bench.folder / "engine.comp").write_text(text)
+    (bench.folder / "points.bin").write_bytes(points())
+    done = subprocess.run(["glslc", "-w", "-fshader-stage=compute", *compile_words, bench.folder / "engine.comp", "-o", bench.folder / "engine.spv"],
+                          capture_output=True, text=True)
+    check(done.returncode == 0, done.stderr[:1500])
+    done = subprocess.run([runner, bench.folder / "engine.spv", bench.folder / "points.bin", str(POINTS), "lavapipe"], capture_output=True, text=True)
+    if done.returncode == 77:
+        raise Skipped(done.stderr)
+    check(done.returncode == 0, done.stderr)
+    return results(struct.unpack(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes()))
+
+
+MSL_PROGRAM = """#include "msl_shim.h"
+#include "engine.metal"
+#include <cstdio>
+int main()
+{
+    static float at[COUNT];
+    std::FILE* file = std::fopen("points.bin", "r+b");
+    if (!file || std::fread(at, 4, COUNT, file) != COUNT)
+        return 1;
+    for (unsigned i = 0; i < COUNT / 16; ++i)
+        shade(at, i);
+    std::rewind(file);
+    return std::fwrite(at, 4, COUNT, file) == COUNT && std::fclose(file) == 0 ? 0 : 1;
+}
+"""
+
+
+def as_cpp(bench, text):
+    """Returns the results of a Metal function, compiled as C++."""
+    builder = next(filter(shutil.which, ("clang++", "c++")), None)
+    if not builder:
+        raise Skipped("no C++ compiler")
+    (bench.folder / "engine.metal").write_text(text)
+    (bench.folder / "engine.cpp").write_text(MSL_PROGRAM.replace("COUNT", str(POINTS * FLOATS)))
+    (bench.folder / "points.bin").write_bytes(points())
+    done = subprocess.run([builder, "-std=c++17", "-O1", "-ffp-contract=off", "-Wno-unknown-attributes", "-Wno-attributes", f"-I{pathlib.Path(__file__).parent}",
+                           "engine.cpp", "-o", "engine"], cwd=bench.folder, capture_output=True, text=True)
+    check(done.returncode == 0, done.stderr[:1500])
+    check(subprocess.run(["./engine"], cwd=bench.folder).returncode == 0, "the program fails")
+    return results(struct.unpack(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes()))
+
+
+def results(values):
+    return [values[FLOATS * i + k] for i in range(POINTS) for k in range(3)]
+
+
+def same_words(name, found, expected):
+    check(all(math.isfinite(v) for v in expected) and len(set(expected)) > POINTS, f"{name}: points that prove nothing")
+    other = [i for i, (a, b) in enumerate(zip(found, expected)) if a != b]
+    check(not other, f"{name}: {len(other)} of {len(expected)} words differ, the first {found[other[0]] if other else 0} for {expected[other[0]] if other else 0}")
+
+
+@case("export.hlsl_gives_the_words_of_glsl", budget=60)
+def hlsl(bench):
+    written(bench, "glsl"), written(bench, "hlsl")
+    for name in NAMES:
+        expected = on_lavapipe(bench, source(bench, GLSL, name, "glsl"))
+        same_words(name, on_lavapipe(bench, source(bench, HLSL, name, "hlsl"), "-x", "hlsl", "-fentry-point=main"), expected)
+
+
+# No Metal compiler runs here: a C++ compiler takes the files, with Metal's words from msl_shim.h.
+@case("export.msl_as_cpp_gives_the_words_of_glsl", budget=60)
+def msl(bench):
+    written(bench, "glsl"), written(bench, "msl")
+    for name in NAMES:
+        expected = on_lavapipe(bench, source(bench, GLSL, name, "glsl"))
+        same_words(name, as_cpp(bench, source(bench, MSL, name, "msl")), expected)
+
+
+# Runs shaders on the points that the page holds. WebGL 2 draws a pixel for each point.
+RUN_WEBGL = """async function run(shader) {
+    const canvas = document.createElement("canvas");
+    const gl = canvas.getContext("webgl2");
+    if (!gl || !gl.getExtension("EXT_color_buffer_float"))
+        return {skipped: "no WebGL 2 with float targets"};
+    const made = (kind, text) => {
+        const one = gl.createShader(kind);
+        gl.shaderSource(one, text);
+        gl.compileShader(one);
+        return one;
+    };
+    const program = gl.createProgram();
+    gl.attachShader(program, made(gl.VERTEX_SHADER, `#version 300 es
+        void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`));
+    const fragment = made(gl.FRAGMENT_SHADER, shader);
+    gl.attachShader(program, fragment);
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS))
+        return {error: gl.getShaderInfoLog(fragment) + gl.getProgramInfoLog(program)};
+    const texture = (width, values) => {
+        const one = gl.createTexture();
+        gl.bindTexture(gl.TEXTURE_2D, one);
+        gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, width, 1);
+        if (values)
+            gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, 1, gl.RGBA, gl.FLOAT, values);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+        return one;
+    };
+    const count = points.length / 16, target = texture(count);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
+    texture(4 * count, points);
+    gl.useProgram(program);
+    gl.viewport(0, 0, count, 1);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    const out = new Float32Array(4 * count);
+    gl.readPixels(0, 0, count, 1, gl.RGBA, gl.FLOAT, out);
+    return {values: Array.from(out).filter((_, i) => i % 4 != 3), error: gl.getError() ? "WebGL failed" : ""};
+}
+"""
+RUN_WEBGPU = """async function run(shader) {
+    const adapter = navigator.gpu && await navigator.gpu.requestAdapter();
+    if (!adapter)
+        return {skipped: "no WebGPU"};
+    const device = await adapter.requestDevice();
+    const module = device.createShaderModule({code: shader});
+    const faults = (await module.getCompilationInfo()).messages.filter(m => m.type == "error");
+    if (faults.length)
+        return {error: faults.map(m => m.lineNum + ": " + m.message).join("\\n")};
+    const pipeline = await device.createComputePipelineAsync({layout: "auto", compute: {module}});
+    const buffer = (usage, mapped) => device.createBuffer({size: points.byteLength, usage, mappedAtCreation: mapped});
+    const values = buffer(GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC, true), out = buffer(GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST);
+    new Float32Array(values.getMappedRange()).set(points);
+    values.unmap();
+    const encoder = device.createCommandEncoder(), pass = encoder.beginComputePass();
+    pass.setPipeline(pipeline);
+    pass.setBindGroup(0, device.createBindGroup({layout: pipeline.getBindGroupLayout(0), entries: [{binding: 0, resource: {buffer: values}}]}));
+    pass.dispatchWorkgroups(points.length / 16);
+    pass.end();
+    encoder.copyBufferToBuffer(values, 0, out, 0, points.byteLength);
+    device.queue.submit([encoder.finish()]);
+    await out.mapAsync(GPUMapMode.READ);
+    return {values: Array.from(new Float32Array(out.getMappedRange())).filter((_, i) => i % 16 < 3)};
+}
+"""
+
+
+def in_browser(bench, browser, script, text):
+    """Returns the results of a shader in a page."""
+    values = list(struct.unpack(f"<{POINTS * FLOATS}f", points()))
+    page = bench.folder / "page.html"
+    page.write_text(f"<!doctype html><title>shader</title><script>const points = new Float32Array({values}), shader = {json.dumps(text)};\n{script}</script>")
+    browser.open(page)
+    found = browser.value("run(shader)")
+    if found.get("skipped"):
+        raise Skipped(found["skipped"])
+    check(not found.get("error"), str(found.get("error"))[:1500])
+    return found["values"]
+
+
+def near(name, found, expected):
+    """Checks results of a device that rounds division and roots in its own way."""
+    far = max(abs(a - b) / max(abs(b), 0.05) for a, b in zip(found, expected))
+    check(len(found) == len(expected) and far < 2e-5, f"{name}: off by {far}")
+    return sum(a != b for a, b in zip(found, expected))
+
+
+@case("export.essl_draws_in_webgl_2", budget=60)
+def essl(bench):
+    with Browser(bench.folder, webgl=True) as browser:
+        written(bench, "glsl"), written(bench, "essl")
+        for name in NAMES:
+            expected = on_lavapipe(bench, source(bench, GLSL, name, "glsl"))
+            place = "texelFetch(points, ivec2(4 * i + {0} / 4, 0), 0)[{0} % 4]"
+            print(name, near(name, in_browser(bench, browser, RUN_WEBGL, source(bench, ESSL, name, "essl", place)), expected))
+
+
+@case("export.wgsl_draws_in_webgpu", budget=60)
+def wgsl(bench):
+    with Browser(bench.folder, webgl=True) as browser:
+        written(bench, "glsl"), written(bench, "wgsl")
+        for name in NAMES:
+            expected = on_lavapipe(bench, source(bench, GLSL, name, "glsl"))
+            print(name, near(name, in_browser(bench, browser, RUN_WEBGPU, source(bench, WGSL, name, "wgsl")), expected))
