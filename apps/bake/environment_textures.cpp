@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/simd/half.h"
+#include "shading/bake/environment/albedo_tiles.h"
 
 namespace burnish {
 namespace {
@@ -47,6 +48,14 @@ TextureData texture_of(const DfgTable& dfg)
     TextureData out;
     out.channels = 2;
     out.levels.push_back({dfg.size, dfg.size, std::vector<float>(dfg.pairs.begin(), dfg.pairs.end())});
+    return out;
+}
+
+TextureData texture_of_albedo_tiles()
+{
+    TextureData out;
+    out.channels = 2;
+    out.levels.push_back({kAlbedoTilesSide, kAlbedoTilesSide, albedo_tiles()});
     return out;
 }
 
@@ -169,6 +178,7 @@ Result<EnvironmentTextures> write_environment_textures(const std::string& folder
     else
         writer.remove("whole");
     BN_TRY(writer.write("dfg", texture_of(dfg)));
+    BN_TRY(writer.write("lobe_albedo", texture_of_albedo_tiles()));
     const std::vector<ExtractedLight> lights = turned_extracted_lights(environment);
     BN_TRY(writer.write("key_lights.json", json_text(extracted_lights_json(lights), 2) + "\n"));
     BN_TRY(writer.write("key_lights.glsl", lights_glsl(lights)));

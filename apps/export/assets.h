@@ -1,9 +1,10 @@
-// techniques.glsl after the C preprocessor, embedded at build time.
+// techniques.glsl after the C preprocessor, and the engines' modules, embedded at build time.
 #pragma once
 #include "core/base/embedded.h"
 
 namespace burnish {
 
 extern const EmbeddedFile kFlatTechniques;
+extern const EmbeddedFile kThreeModule, kBabylonModule; // templates with @PLACES@
 
 } // namespace burnish

@@ -1,5 +1,6 @@
 // `burnish export`: writes techniques for other engines in their languages, and pages with a scene and the renderer inside.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
@@ -15,9 +16,11 @@
 #include "apps/export/shader_text.h"
 #include "apps/live/live.h"
 #include "apps/options/options.h"
+#include "apps/report/html.h"
 #include "core/base/version.h"
 #include "raster/frame/frame.h"
 #include "raster/frame/grid_samples.h"
+#include "shading/bake/environment/albedo_tiles.h"
 
 namespace burnish {
 namespace {
@@ -27,6 +30,8 @@ constexpr const char* kFooter =
 others do where the device divides and takes roots exactly. The file documents its arguments and the functions that the engine provides.
 essl is for OpenGL ES 3.00 and WebGL 2.
 
+three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it.
+
 page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
 those of this machine. It takes the options of the picture, as `burnish render` does.
 
@@ -34,7 +39,8 @@ Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl
   burnish export page lamp.glb --env workshop.hdr -o lamp.html
   burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl
-  burnish export wgsl --technique lobe_line -o lobe_line.wgsl)";
+  burnish export wgsl --technique lobe_line -o lobe_line.wgsl
+  burnish export three --technique lobe_line --samples 16 -o burnish_three.js)";
 
 // Opening comment of the exported file.
 constexpr const char* kHeading = R"(// {0}: {1}
@@ -89,12 +95,21 @@ std::vector<std::string> technique_names()
     return names;
 }
 
-// Returns the languages, and a page.
+// A module for an engine: a template with places for the technique's text.
+struct ExportModule {
+    const char* name;
+    const EmbeddedFile* text;
+};
+constexpr ExportModule kModules[] = {{"three", &kThreeModule}, {"babylon", &kBabylonModule}};
+
+// Returns the languages, the modules, and a page.
 std::vector<std::string> kinds_of_export()
 {
     std::vector<std::string> names;
     for (const ExportLanguage& language : kLanguages)
         names.push_back(language.name);
+    for (const ExportModule& module : kModules)
+        names.push_back(module.name);
     names.push_back("page");
     return names;
 }
@@ -126,20 +141,54 @@ OptionTable export_option_table(ExportArguments& to)
     return table;
 }
 
-std::string text_of(const TechniqueInfo& technique, int samples, const ExportLanguage& language)
+// Returns the technique in GLSL, without a heading.
+std::string glsl_of_technique(const TechniqueInfo& technique, int samples)
 {
     GlslWish wish;
-    wish.roots = {std::string(technique.name) + "_specular", "usual_settings", "point_of", "dfg_fit"};
+    wish.roots = {std::string(technique.name) + "_specular", "usual_settings", "point_of", "dfg_fit", "albedo_place"};
     if (technique.traits & kSharesSamples)
         wish.roots.push_back(std::string(technique.name) + "_shared");
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
     wish.grid = grid_samples(samples, technique.sampling, technique.traits);
     wish.blocks = technique.traits & kPhongGrid;
     wish.grid_count = grid_count(wish.grid, technique.traits);
-    const std::string glsl = glsl_of(kFlatTechniques.bytes, wish), name = language.name;
+    return glsl_of(kFlatTechniques.bytes, wish);
+}
+
+std::string language_text(const TechniqueInfo& technique, int samples, const ExportLanguage& language)
+{
+    const std::string glsl = glsl_of_technique(technique, samples), name = language.name;
     const std::string heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples,
                                             fmt::format(fmt::runtime(language.call), technique.name), language.needs);
     return heading + (name == "glsl" ? glsl : shader_text(glsl, name));
+}
+
+std::string replaced_all(std::string text, const std::string& old, const std::string& by)
+{
+    for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size()))
+        text.replace(at, old.size(), by);
+    return text;
+}
+
+// Returns the albedo of lobes with two widths as texels of two bytes, in Base64.
+std::string albedo_text()
+{
+    std::string bytes;
+    for (const float value : albedo_tiles())
+        bytes += static_cast<char>(static_cast<unsigned char>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))));
+    return base64(bytes);
+}
+
+// Returns the module. Its shader stands in a template string, where a backtick would end it.
+std::string module_text(const TechniqueInfo& technique, int samples, const ExportModule& module)
+{
+    const std::string shader = replaced_all(shader_text(glsl_of_technique(technique, samples), "essl"), "`", "'");
+    std::string text(module.text->bytes);
+    for (const auto& [place, value] : {std::pair<std::string, std::string>{"@TECHNIQUE@", technique.name},
+                                       {"@VERSION@", version()}, {"@SAMPLES@", std::to_string(samples)}, {"@SHADER@", shader},
+                                       {"@ALBEDO@", albedo_text()}})
+        text = replaced_all(text, place, value);
+    return text;
 }
 
 Result<std::string> technique_text(const ExportArguments& arguments, const OptionTable& given)
@@ -152,8 +201,15 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
     const int asked = arguments.samples > 0 ? arguments.samples : technique.default_samples;
     if (asked > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
-    const auto language = std::find_if(std::begin(kLanguages), std::end(kLanguages), [&](const ExportLanguage& l) { return arguments.what == l.name; });
-    return text_of(technique, effective_samples(technique, asked), *language);
+    const int samples = effective_samples(technique, asked);
+    for (const ExportLanguage& language : kLanguages)
+        if (arguments.what == language.name)
+            return language_text(technique, samples, language);
+    const auto module = std::find_if(std::begin(kModules), std::end(kModules), [&](const ExportModule& m) { return arguments.what == m.name; });
+    if (technique.traits & (kReadsBox + kSamplesLobe))
+        return usage_error("--technique", fmt::format("{} reads levels that {} has not; take one that reads prefiltered levels, such as lobe_line",
+                                                      technique.name, module->name));
+    return module_text(technique, samples, *module);
 }
 
 // Returns what a page shows first: the options that were given.

@@ -7,6 +7,7 @@
 #include "shading/lang/records.h"
 #include "shading/kernels/math.k.h"
 #include "shading/surface/dfg.k.h"
+#include "shading/surface/energy.k.h"
 
 #define frame_ref settings
 #define any_frame settings
@@ -150,18 +151,41 @@ real4 grid_of_four(settings f, int first, integer set)
 #define BN_TECHNIQUE_TEXTS
 #include "shading/models.def"
 
-// Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain,
-// perpendicular to n; all unit, world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual,
-// alpha = roughness^2. anisotropy: in [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy)
-// across. dfg: directional albedo of the lobe as f0 x + f90 y, from your table or dfg_fit(). pixel: y * width + x, seed of
-// random numbers. For lobe_line_shared(), set normal_dx and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels
-// around count as alike.
-shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
+// Returns the lobe of point_of()'s arguments.
+aniso_lobe lobe_of_widths(vec3 n, vec3 tangent, float roughness, float anisotropy)
 {
     real alpha = roughness * roughness;
     real root = lit(0.70710678118654752);
     real along = alpha * (1.0 + anisotropy) * root;
     real across = alpha * (1.0 - anisotropy) * root;
+    surface_frame axes = frame_of(n, tangent, 1.0);
+    aniso_lobe lobe;
+    lobe.u_axis = select(along >= across, axes.t, axes.b);
+    lobe.v_axis = select(along >= across, axes.b, -axes.t);
+    lobe.sigma_u = max(along, across);
+    lobe.sigma_v = min(along, across);
+    return lobe;
+}
+
+// Returns the place of a lobe's directional albedo in the texture lobe_albedo of `burnish bake environment --textures`. xy: coordinates of
+// a bilinear fetch; z, w: weights of the tiles to the right and below, 0.1 further. With t() for the fetch, the argument dfg of point_of() is
+//     mix(mix(t(x, y), t(x + 0.1, y), z), mix(t(x, y + 0.1), t(x + 0.1, y + 0.1), z), w)
+vec4 albedo_place(vec3 n, vec3 v, vec3 tangent, float roughness, float anisotropy)
+{
+    lobe_albedo_place at = lobe_albedo_place_of(20, lobe_of_widths(n, tangent, roughness, anisotropy), n, v);
+    real column = min(floor(at.z), lit(8.0));
+    real row = min(floor(at.w), lit(8.0));
+    return vec4((20.0 * column + at.x + 0.5) * 0.005, (20.0 * row + at.y + 0.5) * 0.005, at.z - column, at.w - row);
+}
+
+// Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain,
+// perpendicular to n; all unit, world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual,
+// alpha = roughness^2. anisotropy: in [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy)
+// across. dfg: directional albedo of the lobe as f0 x + f90 y, by albedo_place() or, for round lobes, dfg_fit(). pixel: y * width + x, seed of
+// random numbers. For lobe_line_shared(), set normal_dx and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels
+// around count as alike.
+shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
+{
     surface_frame axes = frame_of(n, tangent, 1.0);
     shaded_point x;
     x.geometric_axes = axes;
@@ -172,10 +196,7 @@ shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f9
     x.refracts = false;
     x.samples_interface = false;
     x.body = false;
-    x.lobe.u_axis = select(along >= across, axes.t, axes.b);
-    x.lobe.v_axis = select(along >= across, axes.b, -axes.t);
-    x.lobe.sigma_u = max(along, across);
-    x.lobe.sigma_v = min(along, across);
+    x.lobe = lobe_of_widths(n, tangent, roughness, anisotropy);
     x.s.n = n;
     x.s.v = v;
     x.s.n_dot_v = clamp(k_dot3(n, v), lit(1e-4), lit(1.0));

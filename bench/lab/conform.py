@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Which mistakes `burnish conform` names: in pictures by three.js and Babylon.js with one mistake each, and by burnish's own techniques.
 
-Usage: conform.py --program build/release/burnish --engines FOLDER [--work FOLDER] [--only NAME,...] [--json FILE]
+Usage: conform.py --program build/release/burnish --engines FOLDER [--work FOLDER] [--only NAME,...] [--modules TECHNIQUE:SAMPLES] [--json FILE]
 
 FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. Each engine draws the scenes of a conformance folder in headless
 Chromium, as its page there does, with a piece of code that makes the mistake. Scenes that the engine draws wrongly by itself are left out.
-Prints a row for each: the mistake made, the mistakes named. Mistakes that begin with "unknown" are none of burnish's: none may be named. Exit code: 0 measured; 2 something could not be run.
+Prints a row for each: the mistake made, the mistakes named. Mistakes that begin with "unknown" are none of burnish's: none may be named. --modules draws with the
+exported modules of burnish in three.js and Babylon.js, and prints each scene's distance to the truth before and after. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
@@ -28,6 +29,7 @@ OWN_FAULTS = {"three": "no_tangents,mirrored_node,normal_map,area_light,minified
 # Places in a page's text, and what code there can see.
 PLACES = {
     "three": {
+        "import": ("import * as THREE from 'three';\n", "after"),
         "shader": ("const renderer = ", "before"),  # THREE
         "sky": ("  picture.mapping = ", "before"),  # picture
         "model": ("  gltf.scene.updateMatrixWorld(true);\n", "after"),  # gltf
@@ -36,6 +38,7 @@ PLACES = {
         "picture": ("  return floats;\n", "before"),  # floats, conform
     },
     "babylon": {
+        "import": ("import { address, draw_all } from './pictures.js';\n", "after"),
         "sky": ("  await new Promise(loaded => texture", "before"),  # texture
         "model": ("  loaded.addAllToScene();\n", "after"),  # loaded
         "picture": ("  return floats;\n", "before"),  # floats, conform
@@ -135,6 +138,11 @@ BABYLON = {
     "sky_turned_half": {"sky": "texture.rotationY += Math.PI;\n"},
     **PICTURES,
 }
+# The exported module in use: `burnish export three` and `burnish export babylon`.
+MODULES = {
+    "three": {"import": "import { improveAnisotropy } from './burnish.js';\n", "model": "improveAnisotropy(gltf.scene);\n"},
+    "babylon": {"import": "import { improveAnisotropy } from './burnish.js';\n", "model": "improveAnisotropy(BABYLON, loaded.materials);\n"},
+}
 OWN = ("gltf", "gltf_compensated", "hdrp", "lobe_line", "filtered_is_ggx", "mc", "major_axis_weighted")
 
 
@@ -153,7 +161,7 @@ class Server:
                 if text is None:
                     return super().do_GET()
                 self.send_response(200)
-                self.send_header("Content-Type", "text/html")
+                self.send_header("Content-Type", "text/javascript" if self.path.endswith(".js") else "text/html")
                 self.end_headers()
                 self.wfile.write(text.encode())
 
@@ -202,12 +210,48 @@ def judge(program, folder, pictures, without):
     return [m["name"] for m in result["mistakes"]], result
 
 
+def picture_of(folder, scene):
+    return next(file for file in folder.glob(f"{scene}.*") if "variance" not in file.name)
+
+
+def distances(program, folder, pictures):
+    """Returns each scene's mean FLIP to its truth."""
+    found = {}
+    for scene in (s["name"] for s in json.loads((folder / "conform.json").read_text())["scenes"]):
+        run = subprocess.run([program, "compare", picture_of(folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
+                             capture_output=True, text=True)
+        if run.returncode:
+            raise RuntimeError(run.stderr.strip())
+        found[scene] = json.loads(run.stdout)["flip_mean"]
+    return found
+
+
+def improve(program, folder, work, engine, technique, samples, server):
+    """Prints each scene's distance to the truth: the engine as it is, and with the exported module."""
+    server.pages["/pages/burnish.js"] = subprocess.run([program, "export", engine, "--technique", technique, "--samples", str(samples), "-o", "-", "--quiet"],
+                                                       check=True, capture_output=True, text=True).stdout
+    text = (folder / "pages" / f"{engine}.html").read_text()
+    found = {}
+    for name, code in (("as_it_is", {}), ("module", MODULES[engine])):
+        pictures = work / f"{engine}-{name}"
+        with tempfile.TemporaryDirectory() as profile, Browser(profile, webgl=True) as browser:
+            server.pages[f"/pages/{engine}-{name}.html"] = page_with(text, engine, code)
+            draw(browser, server.address(f"/pages/{engine}-{name}.html"), pictures)
+        found[name] = distances(program, folder, pictures)
+    for scene, before in found["as_it_is"].items():
+        print(f"{engine:8} {scene:22} {before:.3f} {found['module'][scene]:.3f}", flush=True)
+    means = {name: sum(scenes.values()) / len(scenes) for name, scenes in found.items()}
+    print(f"{engine:8} {'mean':22} {means['as_it_is']:.3f} {means['module']:.3f}", flush=True)
+    return found
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True)
     parser.add_argument("--engines", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--only", default="three,babylon,burnish")
+    parser.add_argument("--modules", metavar="TECHNIQUE:SAMPLES", help="draw with the exported modules instead, and print distances to the truth")
     parser.add_argument("--json")
     given = parser.parse_args()
     temporary = tempfile.TemporaryDirectory()
@@ -228,7 +272,7 @@ def main():
         rows.append({"engine": engine, "made": made, "named": named, "wrong": wrong, "good": good})
         print(f"{'ok ' if good else 'NO '} {engine:8} {made:26} {wrong:2} wrong: {', '.join(named) or '-'}", flush=True)
 
-    if "burnish" in given.only.split(","):
+    if "burnish" in given.only.split(",") and not given.modules:
         for way in OWN:
             pictures = work / f"burnish-{way}"
             subprocess.run([given.program, "conform", folder, pictures, "--draw", "--technique", way, "--quiet"], check=True)
@@ -240,6 +284,10 @@ def main():
         server = Server(folder)
         for engine, faults in (("three", THREE), ("babylon", BABYLON)):
             if engine not in given.only.split(","):
+                continue
+            if given.modules:
+                technique, samples = given.modules.split(":")
+                rows.append({"engine": engine, "flip_to_truth": improve(given.program, folder, work, engine, technique, samples, server)})
                 continue
             text = (folder / "pages" / f"{engine}.html").read_text()
             for made, code in faults.items():
@@ -255,7 +303,8 @@ def main():
                         print(f"--- {engine} {made}: {error}", flush=True)
                         continue
                 tell(engine, made, *judge(given.program, folder, pictures, OWN_FAULTS[engine]))
-    print(f"{sum(row['good'] for row in rows)} of {len(rows)} as made")
+    if not given.modules:
+        print(f"{sum(row['good'] for row in rows)} of {len(rows)} as made")
     if given.json:
         pathlib.Path(given.json).write_text(json.dumps(rows, indent=1) + "\n")
     return 0

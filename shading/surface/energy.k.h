@@ -11,35 +11,47 @@
 
 BN_KERNELS_BEGIN
 
-// Returns directional albedo for two widths from a table with size x size x size/2 x size/2 pairs as in dfg_lookup(). The
+// A place in a table of directional albedo for two widths, with size x size x size/2 x size/2 pairs as in dfg_lookup(). The
 // axes, fastest first, are n.v, roughness, the view's azimuth and anisotropy. They are graded to where the albedo bends:
 // sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between the wide axis and the view's azimuth, and 1 -
-// sqrt(1 - eta). n: the lobe's normal, v: to the eye, both unit, world space. Within 0.02 of the integral for alpha_lin >=
-// 0.1.
+// sqrt(1 - eta).
+struct lobe_albedo_place {
+    real x, y, z, w; // in entries along these axes
+};
+
+// n: the lobe's normal, v: to the eye, both unit, world space.
+BN_FN lobe_albedo_place lobe_albedo_place_of(int size, aniso_lobe lobe, real3 n, real3 v)
+{
+    real one = lit(1.0);
+    real last = to_real(int_lit(size - 1));
+    real half_last = to_real(int_lit(size / 2 - 1));
+    real3 o = to_lobe(lobe, n, v);
+    lobe_albedo_place at;
+    at.x = sqrt(k_saturate(o.z)) * last;
+    at.y = lobe_alpha_lin(lobe) * last;
+    real flat2 = o.x * o.x + o.y * o.y;
+    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
+    at.z = sqrt(cosine) * half_last;
+    at.w = (one - sqrt(max(one - lobe_eta(lobe), lit(0.0)))) * half_last;
+    return at;
+}
+
+// Returns directional albedo from such a table, within 0.02 of the integral for alpha_lin >= 0.1.
 BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real one = lit(1.0);
     integer across = int_lit(size);
     integer half_size = int_lit(size / 2);
-    real last = to_real(int_lit(size - 1));
-    real half_last = to_real(int_lit(size / 2 - 1));
-    // Find the place along each axis
-    real3 o = to_lobe(lobe, n, v);
-    real x = sqrt(k_saturate(o.z)) * last;
-    real y = lobe_alpha_lin(lobe) * last;
-    real flat2 = o.x * o.x + o.y * o.y;
-    real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
-    real z = sqrt(cosine) * half_last;
-    real w = (one - sqrt(max(one - lobe_eta(lobe), lit(0.0)))) * half_last;
+    lobe_albedo_place at = lobe_albedo_place_of(size, lobe, n, v);
     // Find the cell
-    integer ix = min(to_int(x), int_lit(size - 2));
-    integer iy = min(to_int(y), int_lit(size - 2));
-    integer iz = min(to_int(z), int_lit(size / 2 - 2));
-    integer iw = min(to_int(w), int_lit(size / 2 - 2));
-    real fx = x - to_real(ix);
-    real fy = y - to_real(iy);
-    real fz = z - to_real(iz);
-    real fw = w - to_real(iw);
+    integer ix = min(to_int(at.x), int_lit(size - 2));
+    integer iy = min(to_int(at.y), int_lit(size - 2));
+    integer iz = min(to_int(at.z), int_lit(size / 2 - 2));
+    integer iw = min(to_int(at.w), int_lit(size / 2 - 2));
+    real fx = at.x - to_real(ix);
+    real fy = at.y - to_real(iy);
+    real fz = at.z - to_real(iz);
+    real fw = at.w - to_real(iw);
     // Interpolate between azimuths and anisotropies
     dfg_value r;
     r.scale = lit(0.0);

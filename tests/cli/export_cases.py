@@ -85,7 +85,8 @@ def no_more(bench):
             check(struct.startswith("burnish_") and len(re.findall(rf"\b{struct}\b", code)) > 1, f"{name}: {struct} is of no use")
         for function in set(re.findall(r"^(?:precise )?\w+ (burnish_\w+)\(", code, re.MULTILINE)):
             used = len(re.findall(rf"\b{function}\b", code)) > len(re.findall(rf"^(?:precise )?\w+ {function}\(", code, re.MULTILINE))
-            roots = {f"burnish_{name}_specular", f"burnish_{name}_shared", "burnish_usual_settings", "burnish_point_of", "burnish_dfg_fit"}
+            roots = {f"burnish_{name}_specular", f"burnish_{name}_shared", "burnish_usual_settings", "burnish_point_of", "burnish_dfg_fit",
+                     "burnish_albedo_place"}
             check(used or function in roots, f"{name}: nobody calls {function}")
         check(("kGrid[" in text) == (name in OF_GRIDS), f"{name}: a grid or none")
     check("beckmann" not in exported(bench, "major_axis"), "models that it does not know")
@@ -187,7 +188,8 @@ def seen(bench):
 @case("export.wrong_options_say_one_line")
 def wrong(bench):
     for words, code, needle in ((("glsl", "-o", "a.glsl"), 2, "--technique"), (("glsl", "--technique", "mc"), 2, "--output"),
-                                (("glsl", "--technique", "auto", "-o", "a.glsl"), 2, "auto"), (("hlsl", "--technique", "mc", "-o", "a"), 2, "glsl"),
+                                (("glsl", "--technique", "auto", "-o", "a.glsl"), 2, "auto"), (("cg", "--technique", "mc", "-o", "a"), 2, "glsl"), (("three", "--technique", "mc", "-o", "a"), 2, "prefiltered"),
+                                (("babylon", "--technique", "filtered_is", "-o", "a"), 2, "prefiltered"),
                                 (("glsl", "--technique", "major_axis", "--samples", "65", "-o", "a.glsl"), 2, "64"),
                                 (("glsl", "--technique", "mc", "-o", "no/a.glsl"), 7, "no/a.glsl")):
         bench.run("export", *words).expect(code).expect_one_line(needle)

@@ -1,0 +1,127 @@
+// @TECHNIQUE@ in three.js: image light of MeshPhysicalMaterial with anisotropy. From burnish @VERSION@ (Apache License 2.0).
+//
+//     import { improveAnisotropy } from './burnish_three.js';
+//     improveAnisotropy(scene);
+//
+// Takes a material, an array of materials, or an object with all below it. Returns the number of materials changed; call it before the
+// first frame, and again for what you load later. Reads the prefiltered environment that three.js makes (scene.environment), and leaves
+// materials without anisotropy alone. Options:
+//   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
+// Works with WebGLRenderer. Throws where the shaders of your three.js version are not known.
+import { ClampToEdgeWrapping, DataTexture, LinearFilter, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
+
+// Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
+const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
+const albedoTexture = new DataTexture(albedo, 200, 200, RGFormat, UnsignedByteType);
+albedoTexture.minFilter = albedoTexture.magFilter = LinearFilter;
+albedoTexture.wrapS = albedoTexture.wrapT = ClampToEdgeWrapping;
+albedoTexture.needsUpdate = true;
+
+const technique = /* glsl */`
+#if defined( USE_ANISOTROPY ) && defined( USE_ENVMAP )
+@SHADER@
+#endif
+`;
+
+// The engine's fetch, and the technique in the engine's words. All directions are in view space.
+const call = /* glsl */`
+#if defined( USE_ANISOTROPY ) && defined( USE_ENVMAP )
+const int burnish_levels = 9;
+vec4 burnish_radiance(int cube, vec3 direction, float lod)
+{
+    vec3 world = envMapRotation * normalize((vec4(direction, 0.0) * viewMatrix).xyz);
+    float roughness = lod / float(burnish_levels - 1);
+#if defined( ENVMAP_TYPE_PMREM )
+    return textureLod(envMap, world, roughnessToMip(roughness)) * envMapIntensity;
+#elif defined( ENVMAP_TYPE_CUBE_UV )
+    return textureCubeUV(envMap, world, roughness) * envMapIntensity;
+#else
+    return vec4(0.0);
+#endif
+}
+uniform sampler2D burnish_lobe_albedo;
+float burnish_kept = 1.0; // length of the mean double-angle direction within the pixel
+// Returns radiance that the engine will multiply by the reflectance of a round lobe.
+vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
+{
+    float across = max(material.roughness * material.roughness, 1e-4), along = max(material.alphaT, across);
+    // Where a pixel holds many directions, its widths are those of the mean covariance
+    float middle = 0.5 * (along * along + across * across), apart = 0.5 * (along * along - across * across) * burnish_kept;
+    along = sqrt(middle + apart), across = sqrt(middle - apart);
+    float mean = 0.5 * (along + across);
+    float roughness = sqrt(mean), anisotropy = (along - across) / (along + across);
+    vec3 tangent = material.anisotropyT - n * dot(n, material.anisotropyT);
+    tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
+    vec2 dfg = mix(mix(texture2D(burnish_lobe_albedo, at.xy).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0)).rg, at.z),
+                   mix(texture2D(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1)).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1)).rg, at.z), at.w);
+    vec3 f0 = material.SPECULAR, f90 = vec3(material.specularF90);
+    vec2 round_dfg = DFG;
+    burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
+    burnish_shaded_point x = burnish_point_of(f, n, v, tangent, f0, f90, roughness, anisotropy, dfg, 0);
+    return burnish_@TECHNIQUE@_specular(f, x) / max(f0 * round_dfg.x + f90 * round_dfg.y, vec3(1e-4));
+}
+#endif
+`;
+
+function replaced(text, old, by, chunk) {
+  if (!text.includes(old))
+    throw new Error(`burnish: three.js' chunk ${chunk} holds no '${old}'`);
+  return text.replace(old, by);
+}
+
+// A bitangent turns over with a mirroring node, and has the sign that glTF gives it.
+function patchedVertex(text) {
+  const chunk = replaced(ShaderChunk.normal_vertex, '* tangent.w', '* (determinant(mat3(modelViewMatrix)) < 0.0 ? -tangent.w : tangent.w)', 'normal_vertex');
+  return replaced(text, '#include <normal_vertex>', chunk, 'meshphysical_vert');
+}
+
+function patchedFragment(text, glTF) {
+  const specular = ShaderChunk.lights_physical_pars_fragment.includes('specularColorBlended') ? 'specularColorBlended' : 'specularColor';
+  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? 'material.dfg' : 'DFGApprox( n, v, material.roughness )';
+  const maps = replaced(ShaderChunk.lights_fragment_maps,
+    'getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy )',
+    'burnish_image_light( geometryViewDir, geometryNormal, material )', 'lights_fragment_maps');
+  let lobe = replaced(ShaderChunk.lights_physical_fragment, 'material.anisotropy = length( anisotropyV );',
+    `${glTF ? '#ifndef USE_TANGENT\n\tanisotropyV.y = - anisotropyV.y;\n\t#endif\n\t' : ''}material.anisotropy = length( anisotropyV );`, 'lights_physical_fragment');
+  // Mip levels hold mean directions, whose length tells how far the directions of a minified pixel lie apart
+  lobe = replaced(lobe, 'vec2 anisotropyV = anisotropyMat', `vec2 burnish_direction = 2.0 * anisotropyPolar.rg - 1.0;
+	vec2 burnish_step = max( abs( dFdx( vAnisotropyMapUv ) ), abs( dFdy( vAnisotropyMapUv ) ) ) * vec2( textureSize( anisotropyMap, 0 ) );
+	burnish_kept = mix( 1.0, min( pow2( dot( burnish_direction, burnish_direction ) ), 1.0 ), clamp( log2( max( burnish_step.x, burnish_step.y ) ), 0.0, 1.0 ) );
+	vec2 anisotropyV = anisotropyMat`, 'lights_physical_fragment');
+  text = replaced(text, '#include <lights_fragment_maps>', maps, 'meshphysical_frag');
+  text = replaced(text, '#include <lights_physical_fragment>', lobe, 'meshphysical_frag');
+  // The material's struct is declared behind the environment's functions
+  return replaced(text, '#include <lights_physical_pars_fragment>',
+    '#include <lights_physical_pars_fragment>\n' + technique + call.replace('SPECULAR', specular).replace('DFG', dfg), 'meshphysical_frag');
+}
+
+const changed = new WeakSet();
+
+function change(material, glTF) {
+  if (!material.isMeshPhysicalMaterial || !material.anisotropy || changed.has(material))
+    return 0;
+  changed.add(material);
+  const before = material.onBeforeCompile, key = material.customProgramCacheKey;
+  material.onBeforeCompile = function (shader, renderer) {
+    before.call(this, shader, renderer);
+    shader.uniforms.burnish_lobe_albedo = { value: albedoTexture };
+    shader.vertexShader = patchedVertex(shader.vertexShader);
+    shader.fragmentShader = patchedFragment(shader.fragmentShader, glTF);
+  };
+  material.customProgramCacheKey = function () {
+    return `${key.call(this)} burnish @TECHNIQUE@ @SAMPLES@ ${glTF}`;
+  };
+  material.needsUpdate = true;
+  return 1;
+}
+
+export function improveAnisotropy(target, { glTF = true } = {}) {
+  let count = 0;
+  const each = material => count += change(material, glTF);
+  if (target.isObject3D)
+    target.traverse(object => [object.material ?? []].flat().forEach(each));
+  else
+    [target].flat().forEach(each);
+  return count;
+}
