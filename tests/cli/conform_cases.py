@@ -28,7 +28,8 @@ def written(bench, name="folder"):
 
 
 def without(*kept):
-    return ("--without", ",".join(name for name in SCENES if name not in kept))
+    others = [name for name in SCENES if name not in kept]
+    return ("--without", ",".join(others)) if others else ()
 
 
 def judged(bench, folder, pictures, *words, code=None):
@@ -124,14 +125,14 @@ def known_mistakes(bench):
 def named(bench, folder, *mistakes, kept=SCENES):
     """Returns the names found in pictures with mistakes."""
     pictures = "_".join(mistakes)
-    words = without(*kept) if kept != SCENES else ()
-    result = judged(bench, folder, drawn(bench, folder, pictures, "--mistake", ",".join(mistakes)), *words)
+    result = judged(bench, folder, drawn(bench, folder, pictures, "--mistake", ",".join(mistakes)), *without(*kept))
     shutil.rmtree(bench.folder / pictures)
     return [m["name"] for m in result["mistakes"]]
 
 
-@case("conform.names_a_mistake_of_edited_files_two_of_kernels_and_an_exposure", budget=50)
+@case("conform.names_a_mistake_and_two", budget=50)
 def names(bench):
+    """Names one mistake, made in the files, then two, made by kernels and pictures, then an exposure."""
     written(bench)
     check_mistake_in_files(bench)
     # Of two mistakes the second is seen where the first is taken into account
@@ -208,8 +209,9 @@ def names_all(bench):
     check(not lost, f"{lost}")
 
 
-@case("conform.right_pictures_pass_and_missing_unusable_or_unexplained_ones_do_not", budget=60)
+@case("conform.what_is_right_passes", budget=60)
 def passes_and_fails(bench):
+    """Right pictures pass. Those that no known mistake explains, that are missing and that are unusable do not."""
     written(bench)
     drawn(bench, "folder", "pictures")
     check_right(bench, "pictures", "rotation_30", "left_handed", "lamp")
