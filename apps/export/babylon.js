@@ -6,7 +6,8 @@
 // Takes the namespace with MaterialPluginBase, RawTexture and Constants, and a material or an array of materials. Returns the number of
 // materials changed; call it before the first frame, and again for what you load later. Reads the prefiltered cube that Babylon.js keeps
 // (scene.environmentTexture), and leaves materials without anisotropy alone. Works with shaders in GLSL: in WebGL 2 and, by translation,
-// in WebGPU.
+// in WebGPU. Options:
+//   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
 const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
@@ -51,8 +52,8 @@ vec3 burnish_image_light(vec3 v, vec3 n, vec3 grain, vec2 widths, float kept, ve
     vec3 tangent = grain - n * dot(n, grain);
     tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
-    vec2 dfg = mix(mix(texture2D(burnish_lobe_albedo, at.xy).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0)).rg, at.z),
-                   mix(texture2D(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1)).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1)).rg, at.z), at.w);
+    vec2 dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
+                   mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     burnish_shaded_point x = burnish_point_of(f, n, v, tangent, f0, f90, roughness, anisotropy, dfg, 0);
     return burnish_@TECHNIQUE@_specular(f, x) / max(reflectance, vec3(1e-4));
@@ -81,6 +82,19 @@ vec3 finalRadiance = reflectionOut.environmentRadiance.rgb;
 #endif
 `;
 
+// Tangents made from texture coordinates get the handedness that glTF gives them. A bump map brings its own signs.
+const tangents = 'anisotropicOut=anisotropicBlock\\(([^;]*)\\);';
+const flipped = /* glsl */`
+anisotropicOut=anisotropicBlock($1);
+#if !defined(TANGENT) && !defined(BUMP)
+{
+    vec3 burnishAlong = normalize(TBN[0]);
+    anisotropicOut.anisotropicTangent = 2.0 * dot(anisotropicOut.anisotropicTangent, burnishAlong) * burnishAlong - anisotropicOut.anisotropicTangent;
+    anisotropicOut.anisotropicBitangent = normalize(cross(normalize(TBN[2]), anisotropicOut.anisotropicTangent));
+}
+#endif
+`;
+
 const textures = new WeakMap(); // by scene
 
 function albedoTexture(BABYLON, scene) {
@@ -93,7 +107,8 @@ function albedoTexture(BABYLON, scene) {
   return textures.get(scene);
 }
 
-function pluginClass(BABYLON) {
+// The base class asks for code before the constructor ends.
+function pluginClass(BABYLON, glTF) {
   return class BurnishAnisotropy extends BABYLON.MaterialPluginBase {
     constructor(material) {
       super(material, 'BurnishAnisotropy', 200, {}, true, true);
@@ -112,13 +127,15 @@ function pluginClass(BABYLON) {
       return this.texture.isReady();
     }
     getCustomCode(kind) {
-      return kind === 'fragment' ? { CUSTOM_FRAGMENT_DEFINITIONS: technique, ['!' + place]: call } : null;
+      if (kind !== 'fragment')
+        return null;
+      return { CUSTOM_FRAGMENT_DEFINITIONS: technique, ['!' + place]: call, ...(glTF ? { ['!' + tangents]: flipped } : {}) };
     }
   };
 }
 
-export function improveAnisotropy(BABYLON, materials) {
-  const Plugin = pluginClass(BABYLON);
+export function improveAnisotropy(BABYLON, materials, { glTF = true } = {}) {
+  const Plugin = pluginClass(BABYLON, glTF);
   let count = 0;
   for (const material of [materials].flat()) {
     if (!material.anisotropy?.isEnabled || material.pluginManager?.getPlugin('BurnishAnisotropy'))

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <sstream>
 
 #include "apps/cli/command.h"
 #include "apps/cli/field_options.h"
@@ -40,7 +41,7 @@ Examples:
   burnish export page lamp.glb --env workshop.hdr -o lamp.html
   burnish export glsl --technique filtered_is --samples 36 -o filtered_is.glsl
   burnish export wgsl --technique lobe_line -o lobe_line.wgsl
-  burnish export three --technique lobe_line --samples 16 -o burnish_three.js)";
+  burnish export three --technique lobe_line -o burnish_three.js)";
 
 // Opening comment of the exported file.
 constexpr const char* kHeading = R"(// {0}: {1}
@@ -102,6 +103,11 @@ struct ExportModule {
 };
 constexpr ExportModule kModules[] = {{"three", &kThreeModule}, {"babylon", &kBabylonModule}};
 
+bool is_module(const std::string& what)
+{
+    return std::any_of(std::begin(kModules), std::end(kModules), [&](const ExportModule& module) { return what == module.name; });
+}
+
 // Returns the languages, the modules, and a page.
 std::vector<std::string> kinds_of_export()
 {
@@ -119,10 +125,11 @@ OptionTable export_option_table(ExportArguments& to)
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, kinds_of_export())},
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
-    table.add("The technique", {{"--technique", "NAME", "Technique to export, or that draws the page: {}",
-                                 choice(to.technique, technique_names()), "a page: auto"},
-                                {"--samples", "N", "Samples in the file's default settings, or of the page, {}",
-                                 integer(to.samples, 1, 65536), "the technique's default"}});
+    table.add("The technique",
+              {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()),
+                "a page: auto"},
+               {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
+                "the technique's default; three, babylon: where pixels would share samples, the most"}});
     table.add_needing(
         "WHAT", "page",
         {{"--size", "WxH", "Size of the picture whose bits the page compares", picture_size(to.size)},
@@ -179,13 +186,27 @@ std::string albedo_text()
     return base64(bytes);
 }
 
-// Returns the module. Its shader stands in a template string, where a backtick would end it.
+// Returns the text without comments and empty lines. Babylon.js takes a semicolon in a comment for the end of a statement.
+std::string without_comments(const std::string& text)
+{
+    std::string out;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t end = line.substr(0, line.find("//")).find_last_not_of(" \t");
+        if (end != std::string::npos)
+            out += line.substr(0, end + 1) + "\n";
+    }
+    return out;
+}
+
 std::string module_text(const TechniqueInfo& technique, int samples, const ExportModule& module)
 {
-    const std::string shader = replaced_all(shader_text(glsl_of_technique(technique, samples), "essl"), "`", "'");
+    const std::string shader = without_comments(shader_text(glsl_of_technique(technique, samples), "essl"));
     std::string text(module.text->bytes);
     for (const auto& [place, value] : {std::pair<std::string, std::string>{"@TECHNIQUE@", technique.name},
-                                       {"@VERSION@", version()}, {"@SAMPLES@", std::to_string(samples)}, {"@SHADER@", shader},
+                                       {"@VERSION@", version()},
+                                       {"@SAMPLES@", std::to_string(samples)},
+                                       {"@SHADER@", shader},
                                        {"@ALBEDO@", albedo_text()}})
         text = replaced_all(text, place, value);
     return text;
@@ -198,17 +219,20 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
     if (!arguments.scene.empty())
         return usage_error("SCENE", "is for a page");
     const TechniqueInfo& technique = *find_technique(arguments.technique);
-    const int asked = arguments.samples > 0 ? arguments.samples : technique.default_samples;
+    const bool alone = is_module(arguments.what) && (technique.traits & kSharesSamples); // an engine's pixels do not share samples
+    const int asked = arguments.samples > 0 ? arguments.samples : alone ? technique.most_samples : technique.default_samples;
     if (asked > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
     const int samples = effective_samples(technique, asked);
     for (const ExportLanguage& language : kLanguages)
         if (arguments.what == language.name)
             return language_text(technique, samples, language);
-    const auto module = std::find_if(std::begin(kModules), std::end(kModules), [&](const ExportModule& m) { return arguments.what == m.name; });
+    const auto module =
+        std::find_if(std::begin(kModules), std::end(kModules), [&](const ExportModule& m) { return arguments.what == m.name; });
     if (technique.traits & (kReadsBox + kSamplesLobe))
-        return usage_error("--technique", fmt::format("{} reads levels that {} has not; take one that reads prefiltered levels, such as lobe_line",
-                                                      technique.name, module->name));
+        return usage_error("--technique",
+                           fmt::format("{} reads levels that {} has not; take one that reads prefiltered levels, such as lobe_line",
+                                       technique.name, module->name));
     return module_text(technique, samples, *module);
 }
 

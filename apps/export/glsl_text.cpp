@@ -319,7 +319,8 @@ std::string grid_text(const GlslWish& wish)
         for (const GridSample& g : wish.grid)
             rows.push_back(fmt::format("vec3({:#.9g}, {:#.9g}, {:#.9g})", g.slope_x, g.slope_y, g.density));
     }
-    return fmt::format("const {0} kGrid[{1}] = {0}[{1}](\n    {2});\n", wish.blocks ? "vec4" : "vec3", rows.size(), fmt::join(rows, ",\n    "));
+    return fmt::format("const {0} kGrid[{1}] = {0}[{1}](\n    {2});\n", wish.blocks ? "vec4" : "vec3", rows.size(),
+                       fmt::join(rows, ",\n    "));
 }
 
 } // namespace

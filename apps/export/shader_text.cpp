@@ -39,25 +39,29 @@ constexpr ShaderWords kWords[] = {
 using ReservedWords = std::set<std::string, std::less<>>;
 const ReservedWords& reserved_words(ShaderLanguage language)
 {
-    static const ReservedWords kHlsl = {"centroid", "class", "compile", "compute", "export", "extern", "groupshared", "half", "inline", "interface",
-                                        "line", "lineadj", "linear", "matrix", "namespace", "pass", "pixelshader", "point", "register", "row_major",
-                                        "sample", "sampler", "shared", "snorm", "static", "string", "technique", "template", "texture", "this",
-                                        "triangle", "triangleadj", "typedef", "unorm", "unsigned", "vector", "vertexshader", "volatile"};
-    static const ReservedWords kMsl = {"and", "auto", "char", "class", "constant", "default", "delete", "device", "enum", "explicit", "extern",
-                                       "fragment", "friend", "goto", "half", "inline", "kernel", "long", "mutable", "namespace", "new", "not",
-                                       "operator", "or", "private", "protected", "public", "register", "sampler", "short", "signed", "sizeof",
-                                       "static", "template", "this", "thread", "threadgroup", "typedef", "typename", "union", "unsigned", "using",
-                                       "vertex", "virtual", "volatile", "xor"};
-    static const ReservedWords kWgsl = {"abstract", "active", "alias", "as", "async", "attribute", "auto", "become", "cast", "catch", "class",
-                                        "coherent", "common", "compile", "concept", "crate", "debugger", "default", "delete", "demote", "diagnostic",
-                                        "do", "enable", "enum", "explicit", "export", "extends", "extern", "external", "filter", "final", "finally",
-                                        "fn", "friend", "from", "get", "goto", "impl", "implements", "import", "inline", "interface", "layout", "let",
-                                        "loop", "macro", "match", "meta", "mod", "module", "move", "mut", "mutable", "namespace", "new", "nil",
-                                        "null", "of", "operator", "override", "package", "partial", "pass", "patch", "priv", "protected", "pub",
-                                        "public", "readonly", "ref", "regardless", "register", "require", "requires", "resource", "restrict",
-                                        "self", "set", "shared", "sizeof", "smooth", "snorm", "static", "std", "super", "target", "template",
-                                        "this", "throw", "trait", "try", "type", "typedef", "union", "unless", "unorm", "unsafe", "use", "using",
-                                        "var", "varying", "virtual", "volatile", "where", "with", "yield"};
+    static const ReservedWords kHlsl = {
+        "centroid", "class",       "compile", "compute", "export",    "extern", "groupshared",  "half",     "inline",   "interface",
+        "line",     "lineadj",     "linear",  "matrix",  "namespace", "pass",   "pixelshader",  "point",    "register", "row_major",
+        "sample",   "sampler",     "shared",  "snorm",   "static",    "string", "technique",    "template", "texture",  "this",
+        "triangle", "triangleadj", "typedef", "unorm",   "unsigned",  "vector", "vertexshader", "volatile"};
+    static const ReservedWords kMsl = {"and",      "auto",      "char",    "class",     "constant",    "default", "delete",   "device",
+                                       "enum",     "explicit",  "extern",  "fragment",  "friend",      "goto",    "half",     "inline",
+                                       "kernel",   "long",      "mutable", "namespace", "new",         "not",     "operator", "or",
+                                       "private",  "protected", "public",  "register",  "sampler",     "short",   "signed",   "sizeof",
+                                       "static",   "template",  "this",    "thread",    "threadgroup", "typedef", "typename", "union",
+                                       "unsigned", "using",     "vertex",  "virtual",   "volatile",    "xor"};
+    static const ReservedWords kWgsl = {
+        "abstract",   "active",    "alias",    "as",        "async",    "attribute", "auto",     "become",  "cast",       "catch",
+        "class",      "coherent",  "common",   "compile",   "concept",  "crate",     "debugger", "default", "delete",     "demote",
+        "diagnostic", "do",        "enable",   "enum",      "explicit", "export",    "extends",  "extern",  "external",   "filter",
+        "final",      "finally",   "fn",       "friend",    "from",     "get",       "goto",     "impl",    "implements", "import",
+        "inline",     "interface", "layout",   "let",       "loop",     "macro",     "match",    "meta",    "mod",        "module",
+        "move",       "mut",       "mutable",  "namespace", "new",      "nil",       "null",     "of",      "operator",   "override",
+        "package",    "partial",   "pass",     "patch",     "priv",     "protected", "pub",      "public",  "readonly",   "ref",
+        "regardless", "register",  "require",  "requires",  "resource", "restrict",  "self",     "set",     "shared",     "sizeof",
+        "smooth",     "snorm",     "static",   "std",       "super",    "target",    "template", "this",    "throw",      "trait",
+        "try",        "type",      "typedef",  "union",     "unless",   "unorm",     "unsafe",   "use",     "using",      "var",
+        "varying",    "virtual",   "volatile", "where",     "with",     "yield"};
     return language == ShaderLanguage::hlsl ? kHlsl : language == ShaderLanguage::msl ? kMsl : kWgsl;
 }
 
@@ -106,16 +110,14 @@ class ShaderPrinter {
 
     // Which functions fetch
 
-    template <class Visit>
-    static void each_expression(const Expression& e, const Visit& visit)
+    template <class Visit> static void each_expression(const Expression& e, const Visit& visit)
     {
         visit(e);
         for (const Expression& part : e.of)
             each_expression(part, visit);
     }
 
-    template <class Visit>
-    static void each_expression(const std::vector<Statement>& list, const Visit& visit)
+    template <class Visit> static void each_expression(const std::vector<Statement>& list, const Visit& visit)
     {
         for (const Statement& s : list) {
             for (const ShaderVariable& variable : s.variables)
@@ -128,8 +130,7 @@ class ShaderPrinter {
         }
     }
 
-    template <class Visit>
-    static void each_expression(const Item& item, const Visit& visit)
+    template <class Visit> static void each_expression(const Item& item, const Visit& visit)
     {
         for (const ShaderVariable& variable : item.variables)
             for (const Expression& e : variable.value)
@@ -206,10 +207,7 @@ class ShaderPrinter {
     }
 
     // Operators of a kind may stand beside each other without parentheses in every language.
-    static int kind_of(const std::string& mark)
-    {
-        return mark == "+" || mark == "-" ? 1 : mark == "*" || mark == "/" ? 2 : 0;
-    }
+    static int kind_of(const std::string& mark) { return mark == "+" || mark == "-" ? 1 : mark == "*" || mark == "/" ? 2 : 0; }
 
     std::string operand(const Expression& e, const Expression& outer, bool right)
     {
@@ -217,8 +215,8 @@ class ShaderPrinter {
         const int inside = e.kind == Expression::Kind::binary ? kind_of(e.text) : 0, outside = kind_of(outer.text);
         const bool comparison = !inside || !loose ? false : outer.type == "bool" && outer.text != "&&" && outer.text != "||";
         const bool same = outer.text == e.text && (e.text == "&&" || e.text == "||" || e.text == "^");
-        const bool compared = e.kind == Expression::Kind::binary && e.type == "bool" && e.text != "&&" && e.text != "||" && outer.type == "bool" &&
-                              (outer.text == "&&" || outer.text == "||");
+        const bool compared = e.kind == Expression::Kind::binary && e.type == "bool" && e.text != "&&" && e.text != "||" &&
+                              outer.type == "bool" && (outer.text == "&&" || outer.text == "||");
         const bool bare = !loose || comparison || same || compared || (inside && outside && (right ? inside > outside : inside >= outside));
         return bare ? print(e) : "(" + print(e) + ")";
     }
@@ -321,8 +319,8 @@ class ShaderPrinter {
             return line("}");
         case Statement::Kind::loop: {
             const ShaderVariable& counter = s.variables[0];
-            line(fmt::format("for ({}{} = {}; {}; {}++) {{", wgsl() ? "var " : "", declared(counter, false), print(counter.value[0]), print(s.expressions[0]),
-                             own(counter.name)),
+            line(fmt::format("for ({}{} = {}; {}; {}++) {{", wgsl() ? "var " : "", declared(counter, false), print(counter.value[0]),
+                             print(s.expressions[0]), own(counter.name)),
                  s.beside);
             print_body(s.body);
             return line("}");
@@ -358,7 +356,8 @@ class ShaderPrinter {
             if (hlsl())
                 line(fmt::format("{} {}({});", word(item.type), item.text, parameters(item, index)));
             else
-                line(fmt::format("// {}: in {}", signature(item, index), msl() ? "struct burnish_environment, which you define above this file" : "your shader"));
+                line(fmt::format("// {}: in {}", signature(item, index),
+                                 msl() ? "struct burnish_environment, which you define above this file" : "your shader"));
             break;
         case Item::Kind::function:
             gap(), print_function(item, index);
@@ -400,7 +399,7 @@ class ShaderPrinter {
                 p.name += "_given";
             std::string one = declared(p, false);
             if (p.inout)
-                one = wgsl() ? fmt::format("{}: ptr<function, {}>", own(p.name), word(p.type))
+                one = wgsl()  ? fmt::format("{}: ptr<function, {}>", own(p.name), word(p.type))
                       : msl() ? fmt::format("thread {}& {}", word(p.type), own(p.name))
                               : "inout " + one;
             text += (text.empty() ? "" : ", ") + one;
@@ -411,12 +410,12 @@ class ShaderPrinter {
     std::string signature(const Item& item, int index)
     {
         if (wgsl())
-            return fmt::format("fn {}({}){}", item.kind == Item::Kind::prototype ? item.text : function_name(index), parameters(item, index),
-                               item.type == "void" ? "" : " -> " + word(item.type));
+            return fmt::format("fn {}({}){}", item.kind == Item::Kind::prototype ? item.text : function_name(index),
+                               parameters(item, index), item.type == "void" ? "" : " -> " + word(item.type));
         const bool precise = hlsl() && (item.type == "float" || is_vector(item.type));
         const std::string name = item.kind == Item::Kind::prototype && msl() ? "radiance" : item.text;
-        return fmt::format("{}{}{} {}({}){}", msl() && item.kind != Item::Kind::prototype ? "inline " : "", precise ? "precise " : "", word(item.type), name,
-                           parameters(item, index), msl() && item.kind == Item::Kind::prototype ? " const" : "");
+        return fmt::format("{}{}{} {}({}){}", msl() && item.kind != Item::Kind::prototype ? "inline " : "", precise ? "precise " : "",
+                           word(item.type), name, parameters(item, index), msl() && item.kind == Item::Kind::prototype ? " const" : "");
     }
 
     // Finds parameters that the function assigns, which WGSL forbids.
@@ -433,7 +432,10 @@ class ShaderPrinter {
         }
     }
 
-    static std::string root_of(const Expression& e) { return e.kind == Expression::Kind::name ? e.text : e.of.empty() ? "" : root_of(e.of[0]); }
+    static std::string root_of(const Expression& e)
+    {
+        return e.kind == Expression::Kind::name ? e.text : e.of.empty() ? "" : root_of(e.of[0]);
+    }
 
     void find_targets(const std::vector<Statement>& list, std::set<std::string>& targets) const
     {
@@ -466,10 +468,10 @@ class ShaderPrinter {
 
     const ShaderTree& tree_;
     ShaderLanguage language_;
-    std::set<int> fetching_;                     // functions that call the engine's, themselves or by others
-    std::set<std::string> made_;                 // structs made from their members' values
-    std::set<std::string> assigned_, pointers_;  // parameters of the function in hand
-    std::vector<std::string> before_, after_;    // copies around the statement in hand
+    std::set<int> fetching_;                    // functions that call the engine's, themselves or by others
+    std::set<std::string> made_;                // structs made from their members' values
+    std::set<std::string> assigned_, pointers_; // parameters of the function in hand
+    std::vector<std::string> before_, after_;   // copies around the statement in hand
     int copies_ = 0;
     std::size_t depth_ = 0;
     std::string out_;

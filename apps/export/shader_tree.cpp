@@ -68,7 +68,8 @@ std::vector<ShaderToken> shader_tokens(const std::string& text)
             length = std::min(text.find('\n', at), text.size()) - at;
             kind = c == '#' ? Kind::directive : Kind::comment;
         } else if (starts_word(c)) {
-            while (at + length < text.size() && (starts_word(text[at + length]) || std::isdigit(static_cast<unsigned char>(text[at + length]))))
+            while (at + length < text.size() &&
+                   (starts_word(text[at + length]) || std::isdigit(static_cast<unsigned char>(text[at + length]))))
                 ++length;
             kind = Kind::word;
         } else if (std::isdigit(static_cast<unsigned char>(c))) {
@@ -89,8 +90,9 @@ std::vector<ShaderToken> shader_tokens(const std::string& text)
 // Returns the binding strength of a binary operator, 0 for other marks: C's order.
 int strength_of(const std::string& mark)
 {
-    static const std::map<std::string, int> kStrengths = {{"||", 1}, {"&&", 2}, {"|", 3},  {"^", 4},  {"&", 5},  {"==", 6}, {"!=", 6}, {"<", 7}, {">", 7},
-                                                          {"<=", 7}, {">=", 7}, {"<<", 8}, {">>", 8}, {"+", 9}, {"-", 9},  {"*", 10}, {"/", 10}, {"%", 10}};
+    static const std::map<std::string, int> kStrengths = {{"||", 1}, {"&&", 2}, {"|", 3}, {"^", 4},  {"&", 5},  {"==", 6},
+                                                          {"!=", 6}, {"<", 7},  {">", 7}, {"<=", 7}, {">=", 7}, {"<<", 8},
+                                                          {">>", 8}, {"+", 9},  {"-", 9}, {"*", 10}, {"/", 10}, {"%", 10}};
     const auto at = kStrengths.find(mark);
     return at == kStrengths.end() ? 0 : at->second;
 }
@@ -136,10 +138,7 @@ class ShaderParser {
     }
 
     // Takes a comment on the line of the token before.
-    std::string beside()
-    {
-        return now().kind == Kind::comment && at_ > 0 && tokens_[at_ - 1].line == now().line ? next().text : "";
-    }
+    std::string beside() { return now().kind == Kind::comment && at_ > 0 && tokens_[at_ - 1].line == now().line ? next().text : ""; }
 
     std::string type_name()
     {
@@ -374,7 +373,9 @@ class ShaderParser {
             Expression e;
             e.kind = Expression::Kind::binary, e.text = mark;
             e.of = {std::move(left), binary(strength + 1)};
-            e.type = strength <= 2 || strength == 6 || strength == 7 ? "bool" : shader_vector_size(e.of[1].type) > 0 ? e.of[1].type : e.of[0].type;
+            e.type = strength <= 2 || strength == 6 || strength == 7 ? "bool"
+                     : shader_vector_size(e.of[1].type) > 0          ? e.of[1].type
+                                                                     : e.of[0].type;
             left = std::move(e);
         }
     }
@@ -477,7 +478,8 @@ class ShaderParser {
     // Finds the function that a call means, and its type.
     void resolve(Expression& e) const
     {
-        static const std::map<std::string, std::string> kBuiltIn = {{"intBitsToFloat", "float"}, {"floatBitsToInt", "int"}, {"dot", "float"}};
+        static const std::map<std::string, std::string> kBuiltIn = {
+            {"intBitsToFloat", "float"}, {"floatBitsToInt", "int"}, {"dot", "float"}};
         if (const auto named = tree_.functions.find(e.text); named != tree_.functions.end()) {
             for (const int index : named->second) {
                 const auto& [type, parameters] = signatures_.at(index);
@@ -505,8 +507,8 @@ class ShaderParser {
     std::vector<ShaderToken> tokens_;
     std::size_t at_ = 0;
     ShaderTree tree_;
-    std::map<int, Signature> signatures_;                         // by item
-    std::vector<std::map<std::string, std::string>> types_{1};    // of names, by scope
+    std::map<int, Signature> signatures_;                      // by item
+    std::vector<std::map<std::string, std::string>> types_{1}; // of names, by scope
 };
 
 } // namespace

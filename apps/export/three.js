@@ -53,8 +53,8 @@ vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
     vec3 tangent = material.anisotropyT - n * dot(n, material.anisotropyT);
     tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
-    vec2 dfg = mix(mix(texture2D(burnish_lobe_albedo, at.xy).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0)).rg, at.z),
-                   mix(texture2D(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1)).rg, texture2D(burnish_lobe_albedo, at.xy + vec2(0.1)).rg, at.z), at.w);
+    vec2 dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
+                   mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
     vec3 f0 = material.SPECULAR, f90 = vec3(material.specularF90);
     vec2 round_dfg = DFG;
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);

@@ -292,9 +292,17 @@ def page(bench):
             browser.value(f"(() => {{ document.body.dataset.done = ''; document.querySelector('[data-show={mode}]').click(); }})()")
             done(mode)
             browser.screenshot(bench.folder / f"{mode}.png")
-            for side, code in (("a", "command"), ("b", "command_b")):
-                command = browser.value(f"document.getElementById('{code}').textContent")
-                check(("bent_normal" in command) == (side == "b") and browser.value(f"shown.{side}.hash") == hash_of_command(bench, command), command)
+            # Read what belongs together at once: a delayed frame may begin another picture
+            read = f"document.body.dataset.done === '{mode}' && [shown.a.hash, shown.b.hash, ...['command', 'command_b'].map(id => document.getElementById(id).textContent)]"
+            browser.until(read, 60)
+            seen = browser.value(read)
+            while not seen:
+                browser.until(read, 60)
+                seen = browser.value(read)
+            for side, drawn_hash, command in zip("ab", seen[:2], seen[2:]):
+                check(("bent_normal" in command) == (side == "b"), command)
+                expected = hash_of_command(bench, command)
+                check(drawn_hash == expected, f"side {side}: the page shows {drawn_hash}, its command draws {expected}: {command}")
             # A page at rest draws nothing, whatever its size
             for width, height in ((1000, 700), (1280, 720)):
                 browser.size(width, height)
