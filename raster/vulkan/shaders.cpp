@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "core/base/file.h"
+#include "raster/vulkan/vulkan_renderer.h"
 
 namespace burnish {
 namespace {
@@ -39,12 +41,13 @@ std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
 
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder, const std::vector<EmbeddedShader>& more)
 {
-    if (folder.empty()) {
+    const std::string path = folder + "/" + name + ".spv";
+    std::error_code unreadable;
+    if (folder.empty() || (!std::filesystem::exists(path, unreadable) && !unreadable)) {
         if (const EmbeddedFile* const file = embedded(name, more))
             return words_of(file->bytes, file->size);
         return Error{ExitCode::internal, "", "", "no shader '" + name + "' in the program"};
     }
-    const std::string path = folder + "/" + name + ".spv";
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, 16u << 20);
     BN_TRY(bytes);
     constexpr std::uint32_t kSpirvMagic = 0x07230203;
@@ -52,6 +55,11 @@ Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const s
     if (words.size() < 5 || words[0] != kSpirvMagic || bytes->size() % sizeof(std::uint32_t))
         return Error{ExitCode::bad_input, path, "", "is no SPIR-V"};
     return words;
+}
+
+Result<std::string> shade_stage_source()
+{
+    return std::string(kShadeStage.bytes, kShadeStage.size);
 }
 
 } // namespace burnish

@@ -14,12 +14,14 @@ namespace burnish {
 BN_STAGES(BN_DECLARE_STAGE)
 #undef BN_DECLARE_STAGE
 
+extern const EmbeddedFile kShadeStage; // the source of stage `shade`, preprocessed
+
 struct EmbeddedShader {
     const char* name;
     const EmbeddedFile* file;
 };
 
-// Returns a stage's words. name: as in stages.txt, or of `more`. folder: empty for built-in stages.
+// Returns a stage's words. name: as in stages.txt, or of `more`. folder: its NAME.spv, if it is there, replaces the built-in stage.
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder,
                                                 const std::vector<EmbeddedShader>& more = {});
 

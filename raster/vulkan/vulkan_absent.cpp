@@ -20,6 +20,11 @@ Error not_built()
 }
 } // namespace
 
+Result<std::string> shade_stage_source()
+{
+    return not_built();
+}
+
 Result<std::shared_ptr<VulkanDevice>> open_vulkan_device(const VulkanOptions&)
 {
     return not_built();

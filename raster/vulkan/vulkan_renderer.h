@@ -37,6 +37,10 @@ struct VulkanDeviceInfo {     // the driver's names
 };
 
 bool vulkan_built(); // false: built without Vulkan; the functions below give ExitCode::unavailable
+// Returns the GLSL of the stage that shades, without includes, for compilers to SPIR-V of Vulkan 1.3. Error: ExitCode::unavailable in a
+// build without Vulkan.
+Result<std::string> shade_stage_source();
+
 // Lists all usable devices; empty if there is no driver. Also looks for SwiftShader at the place of Debian's chromium.
 std::vector<VulkanDeviceInfo> vulkan_devices();
 

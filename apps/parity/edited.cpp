@@ -1,0 +1,129 @@
+#include "apps/parity/edited.h"
+
+#include <filesystem>
+#include <fmt/core.h>
+#include <regex>
+
+#include "apps/cli/outputs.h"
+#include "apps/export/shader_tree.h"
+#include "apps/golden/child.h"
+#include "core/base/check.h"
+#include "core/base/file.h"
+#include "raster/vulkan/vulkan_renderer.h"
+
+namespace burnish {
+namespace {
+
+constexpr std::size_t kMostBytes = 4u << 20;
+constexpr const char* kPlace = "precise vec3 technique_specular("; // of the stage: the first function behind all techniques
+
+// Fetches of the stage that replace the file's, by name.
+constexpr const char* kFetches[] = {"cube_desc",      "cube_sum",          "cube_sum_levels", "cube_terms",      "cube_sum_begin",       "cube_sum_levels_at",
+                                    "cube_sum_add",   "cube_sum_value",    "cube_terms_begin", "cube_terms_add", "cube_terms_add_level", "cube_terms_value"};
+
+// Returns the declarations of the file's structs alone, which the tree can read whatever the functions hold.
+std::string structs_of(const std::string& text)
+{
+    static const std::regex kStruct(R"(struct\s+burnish_\w+\s*\{[^}]*\}\s*;)");
+    std::string structs;
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), kStruct); at != std::sregex_iterator(); ++at)
+        structs += at->str() + "\n";
+    return structs;
+}
+
+// Appends statements that fill a struct of the file from the program's.
+void add_members(const ShaderTree& tree, const std::string& name, const std::string& to, const std::string& from, std::string& out)
+{
+    for (const ShaderMember& member : tree.items[static_cast<std::size_t>(tree.structures.at(name))].members) {
+        const ShaderVariable& variable = member.variable;
+        const std::string field = "." + variable.name;
+        if (name == "burnish_settings" && variable.name == "samples")
+            continue; // for point_of() alone: the program's points have theirs
+        if (tree.structures.count(variable.type)) {
+            add_members(tree, variable.type, to + field, from + field, out);
+            continue;
+        }
+        for (int i = 0; i < std::max(variable.count, 1); ++i) {
+            const std::string element = variable.count ? fmt::format("[{}]", i) : "";
+            out += fmt::format("    {0}{2}{3} = {1}{2}{3};\n", to, from, field, element);
+        }
+    }
+}
+
+// Returns a function that makes a struct of one side from the other's. from: a parameter's declaration, or none.
+std::string maker(const ShaderTree& tree, const std::string& function, const std::string& result, const std::string& members, const std::string& parameter,
+                  const std::string& from)
+{
+    std::string body;
+    add_members(tree, members, "r", from, body);
+    return fmt::format("{0} {1}({2})\n{{\n    {0} r;\n{3}    return r;\n}}\n", result, function, parameter, body);
+}
+
+// Returns the compiler's first message about the technique, by the line of the user's file.
+std::string first_message(const std::string& output, const std::string& file)
+{
+    static const std::regex kError(R"((\w+):(\d+): error: ([^\n]*))");
+    std::smatch found;
+    if (!std::regex_search(output, found, kError))
+        return output.empty() ? "glslc does not compile it" : output.substr(0, output.find('\n'));
+    return found[1] == "technique" ? fmt::format("line {}: {}", found[2].str(), found[3].str()) : fmt::format("{} (in the stage, with {})", found[3].str(), file);
+}
+
+} // namespace
+
+Result<std::string> stage_with_technique(const std::string& stage, const std::string& text, const std::string& file, const std::string& technique)
+{
+    const std::size_t place = stage.find(kPlace);
+    BN_CHECK(place != std::string::npos);
+    const std::string specular = fmt::format("burnish_{}_specular", technique), shared = fmt::format("burnish_{}_shared", technique);
+    if (!std::regex_search(text, std::regex(fmt::format(R"(\b{}\s*\()", specular))))
+        return Error{ExitCode::bad_input, file, "", fmt::format("holds no function {}; see burnish export glsl --technique {}", specular, technique)};
+    std::string hooks = "#define BURNISH_OWN_FETCHES\n";
+    for (const char* const fetch : kFetches)
+        hooks += fmt::format("#define burnish_{0} {0}\n", fetch);
+    for (const char* const cube : {"prefiltered_env", "mip_env", "full_env"})
+        hooks += fmt::format("#define burnish_{0}(f) {0}(0)\n", cube);
+    hooks += "#define burnish_grid_sample(f, i) grid_sample(0, i)\n#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)\n"
+             "#define burnish_fetched cube_sample\n#define burnish_fetched_level cube_sample_level\n";
+    std::string calls;
+    try {
+        const ShaderTree tree = shader_tree_of(structs_of(text));
+        for (const char* const needed : {"burnish_settings", "burnish_shaded_point"})
+            if (!tree.structures.count(needed))
+                return Error{ExitCode::bad_input, file, "", fmt::format("declares no struct {}", needed)};
+        calls = maker(tree, "burnish_program_settings", "burnish_settings", "burnish_settings", "", "frame") +
+                maker(tree, "burnish_program_point", "burnish_shaded_point", "burnish_shaded_point", "shaded_point x", "x") +
+                fmt::format("#define {0}_specular(f, x) burnish_{0}_specular(burnish_program_settings(), burnish_program_point(x))\n", technique);
+        if (text.find(shared + "(") != std::string::npos && tree.structures.count("burnish_shared_sample_record"))
+            calls += maker(tree, "burnish_program_record", "shared_sample_record", "burnish_shared_sample_record", "burnish_shared_sample_record x", "x") +
+                     fmt::format("#define {0}_shared(f, x, o) burnish_program_record(burnish_{0}_shared(burnish_program_settings(), "
+                                 "burnish_program_point(x), o))\n",
+                                 technique);
+    } catch (const CheckFailed& failed) {
+        return Error{ExitCode::bad_input, file, "", fmt::format("has a struct that is not understood: {}", failed.what())};
+    }
+    return stage.substr(0, place) + "\n" + hooks + "#line 1 \"technique\"\n" + text + "\n#line 1 \"stage\"\n" + calls + stage.substr(place);
+}
+
+Status compile_technique(const std::string& file, const std::string& technique, const std::string& folder)
+{
+    const Result<std::string> stage = shade_stage_source();
+    BN_TRY(stage);
+    const Result<std::vector<std::uint8_t>> bytes = read_file(file, kMostBytes);
+    BN_TRY(bytes);
+    const Result<std::string> source = stage_with_technique(*stage, std::string(bytes->begin(), bytes->end()), file, technique);
+    BN_TRY(source);
+    BN_TRY(write_text(folder + "/shade.comp", *source));
+    ChildRun run;
+    run.words = {"glslc", "-w", "--target-env=vulkan1.3", "shade.comp", "-o", "shade.spv"};
+    run.folder = folder, run.output = folder + "/glslc.txt";
+    if (run_child(run))
+        return {};
+    const Result<std::vector<std::uint8_t>> said = read_file(run.output, kMostBytes);
+    const std::string output = said ? std::string(said->begin(), said->end()) : "";
+    if (output.empty())
+        return Error{ExitCode::unavailable, "", "", "--glsl needs glslc, of Debian's package glslc, in PATH"};
+    return Error{ExitCode::bad_input, file, "", first_message(output, file)};
+}
+
+} // namespace burnish
