@@ -11,6 +11,7 @@
 #include "core/image/io/image_io.h"
 #include "core/simd/half.h"
 #include "shading/bake/environment/albedo_tiles.h"
+#include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
 namespace {
@@ -56,6 +57,16 @@ TextureData texture_of_albedo_tiles()
     TextureData out;
     out.channels = 2;
     out.levels.push_back({kAlbedoTilesSide, kAlbedoTilesSide, albedo_tiles()});
+    return out;
+}
+
+TextureData texture_of_ltc()
+{
+    TextureData out;
+    TextureLevel level = {ltc::kTextureWidth, ltc::kTextureHeight, {}};
+    for (const std::uint16_t half : ltc::shipped_texture())
+        level.texels.push_back(half_to_float(half));
+    out.levels.push_back(std::move(level));
     return out;
 }
 
@@ -179,6 +190,7 @@ Result<EnvironmentTextures> write_environment_textures(const std::string& folder
         writer.remove("whole");
     BN_TRY(writer.write("dfg", texture_of(dfg)));
     BN_TRY(writer.write("lobe_albedo", texture_of_albedo_tiles()));
+    BN_TRY(writer.write("ltc", texture_of_ltc()));
     const std::vector<ExtractedLight> lights = turned_extracted_lights(environment);
     BN_TRY(writer.write("key_lights.json", json_text(extracted_lights_json(lights), 2) + "\n"));
     BN_TRY(writer.write("key_lights.glsl", lights_glsl(lights)));

@@ -22,6 +22,7 @@
 #include "raster/frame/frame.h"
 #include "raster/frame/grid_samples.h"
 #include "shading/bake/environment/albedo_tiles.h"
+#include "shading/bake/ltc/shipped.h"
 
 namespace burnish {
 namespace {
@@ -31,7 +32,7 @@ constexpr const char* kFooter =
 others do where the device divides and takes roots exactly. The file documents its arguments and the functions that the engine provides.
 essl is for OpenGL ES 3.00 and WebGL 2.
 
-three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it.
+three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too.
 
 page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
 those of this machine. It takes the options of the picture, as `burnish render` does.
@@ -70,8 +71,8 @@ constexpr ExportLanguage kLanguages[] = {
      "// to those of burnish; #define precise leaves it out for speed."},
     {"msl", "float3 burnish_{0}_specular(thread const burnish_environment& burnish_env, burnish_settings f, burnish_shaded_point x)",
      "Above this file, include <metal_stdlib>, write `using namespace metal;`, and define struct burnish_environment with the fetch from\n"
-     "// your environment: float4 radiance(int cube, float3 direction, float lod) const. Needs Metal 2.0 or later. The bits are those of\n"
-     "// burnish where the compiler keeps -fno-fast-math and -ffp-contract=off."},
+     "// your environment: float4 radiance(int cube, float3 direction, float lod) const; with --ltc, float4 ltc_texel(int at) const too.\n"
+     "// Needs Metal 2.0 or later. The bits are those of burnish where the compiler keeps -fno-fast-math and -ffp-contract=off."},
     {"wgsl", "fn burnish_{0}_specular(f: burnish_settings, x: burnish_shaded_point) -> vec3<f32>",
      "You provide burnish_radiance(), below: fetches from your environment. Names of overloaded functions end with their result's type."},
 };
@@ -81,6 +82,7 @@ constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes 
 struct ExportArguments {
     std::string what = "glsl", technique = "major_axis", output;
     int samples = 0; // 0: the technique's default
+    bool ltc = false;
     std::string scene, renderer;
     PictureSize size = {640, 360};
     RenderArguments render; // of a page's picture
@@ -125,11 +127,13 @@ OptionTable export_option_table(ExportArguments& to)
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, kinds_of_export())},
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
-    table.add("The technique",
-              {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()),
-                "a page: auto"},
-               {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
-                "the technique's default; three, babylon: where pixels would share samples, the most"}});
+    table.add(
+        "The technique",
+        {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()),
+          "a page: auto"},
+         {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
+          "the technique's default; three, babylon: where pixels would share samples, the most"},
+         {"--ltc", "", "Add burnish_quad_light() to glsl, essl, hlsl, msl or wgsl: area lights by transformed cosines", flag(to.ltc)}});
     table.add_needing(
         "WHAT", "page",
         {{"--size", "WxH", "Size of the picture whose bits the page compares", picture_size(to.size)},
@@ -149,12 +153,14 @@ OptionTable export_option_table(ExportArguments& to)
 }
 
 // Returns the technique in GLSL, without a heading.
-std::string glsl_of_technique(const TechniqueInfo& technique, int samples)
+std::string glsl_of_technique(const TechniqueInfo& technique, int samples, bool ltc)
 {
     GlslWish wish;
     wish.roots = {std::string(technique.name) + "_specular", "usual_settings", "point_of", "dfg_fit", "albedo_place"};
     if (technique.traits & kSharesSamples)
         wish.roots.push_back(std::string(technique.name) + "_shared");
+    if (ltc)
+        wish.roots.push_back("quad_light");
     wish.trimmed = {{"settings", "f", "usual_settings"}, {"shaded_point", "x", "point_of"}};
     wish.grid = grid_samples(samples, technique.sampling, technique.traits);
     wish.blocks = technique.traits & kPhongGrid;
@@ -162,9 +168,9 @@ std::string glsl_of_technique(const TechniqueInfo& technique, int samples)
     return glsl_of(kFlatTechniques.bytes, wish);
 }
 
-std::string language_text(const TechniqueInfo& technique, int samples, const ExportLanguage& language)
+std::string language_text(const TechniqueInfo& technique, int samples, bool ltc, const ExportLanguage& language)
 {
-    const std::string glsl = glsl_of_technique(technique, samples), name = language.name;
+    const std::string glsl = glsl_of_technique(technique, samples, ltc), name = language.name;
     const std::string heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples,
                                             fmt::format(fmt::runtime(language.call), technique.name), language.needs);
     return heading + (name == "glsl" ? glsl : shader_text(glsl, name));
@@ -186,6 +192,17 @@ std::string albedo_text()
     return base64(bytes);
 }
 
+// Returns the texture of transformed cosines as halves, in Base64.
+std::string ltc_text()
+{
+    std::string bytes;
+    for (const std::uint16_t half : ltc::shipped_texture()) {
+        bytes += static_cast<char>(half & 0xff);
+        bytes += static_cast<char>(half >> 8);
+    }
+    return base64(bytes);
+}
+
 // Returns the text without comments and empty lines. Babylon.js takes a semicolon in a comment for the end of a statement.
 std::string without_comments(const std::string& text)
 {
@@ -201,13 +218,15 @@ std::string without_comments(const std::string& text)
 
 std::string module_text(const TechniqueInfo& technique, int samples, const ExportModule& module)
 {
-    const std::string shader = without_comments(shader_text(glsl_of_technique(technique, samples), "essl"));
+    const std::string shader =
+        without_comments(shader_text(glsl_of_technique(technique, samples, std::string(module.name) == "three"), "essl"));
     std::string text(module.text->bytes);
     for (const auto& [place, value] : {std::pair<std::string, std::string>{"@TECHNIQUE@", technique.name},
                                        {"@VERSION@", version()},
                                        {"@SAMPLES@", std::to_string(samples)},
                                        {"@SHADER@", shader},
-                                       {"@ALBEDO@", albedo_text()}})
+                                       {"@ALBEDO@", albedo_text()},
+                                       {"@LTC@", ltc_text()}})
         text = replaced_all(text, place, value);
     return text;
 }
@@ -218,6 +237,8 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
         return usage_error("--technique", "is missing");
     if (!arguments.scene.empty())
         return usage_error("SCENE", "is for a page");
+    if (arguments.ltc && is_module(arguments.what))
+        return usage_error("--ltc", "is for languages; three brings area lights, babylon does not");
     const TechniqueInfo& technique = *find_technique(arguments.technique);
     const bool alone = is_module(arguments.what) && (technique.traits & kSharesSamples); // an engine's pixels do not share samples
     const int asked = arguments.samples > 0 ? arguments.samples : alone ? technique.most_samples : technique.default_samples;
@@ -226,7 +247,7 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
     const int samples = effective_samples(technique, asked);
     for (const ExportLanguage& language : kLanguages)
         if (arguments.what == language.name)
-            return language_text(technique, samples, language);
+            return language_text(technique, samples, arguments.ltc, language);
     const auto module =
         std::find_if(std::begin(kModules), std::end(kModules), [&](const ExportModule& m) { return arguments.what == m.name; });
     if (technique.traits & (kReadsBox + kSamplesLobe))
@@ -252,6 +273,8 @@ DrawRequest request_of(const ExportArguments& arguments, const OptionTable& give
 
 Result<std::string> exported_page(const ExportArguments& arguments, const OptionTable& given, Report& report)
 {
+    if (arguments.ltc)
+        return usage_error("--ltc", "is for languages");
     if (arguments.scene.empty())
         return usage_error("SCENE", "is missing: a .gltf, .glb or .obj file, or builtin:NAME");
     LiveWish wish;

@@ -16,8 +16,6 @@ using Item = ShaderItem;
 
 enum class ShaderLanguage { hlsl, msl, wgsl };
 
-constexpr const char* kFetch = "burnish_radiance"; // the engine's function
-
 // Words of a language for GLSL's words. An empty word: the same.
 struct ShaderWords {
     const char *glsl, *hlsl, *msl, *wgsl;
@@ -74,6 +72,9 @@ class ShaderPrinter {
   public:
     ShaderPrinter(const ShaderTree& tree, ShaderLanguage language) : tree_(tree), language_(language)
     {
+        for (const Item& item : tree.items)
+            if (item.kind == Item::Kind::prototype)
+                engine_.insert(item.text);
         find_fetching();
         for (const Item& item : tree.items) {
             each_expression(item, [&](const Expression& e) {
@@ -143,7 +144,7 @@ class ShaderPrinter {
     {
         for (std::size_t i = 0; i < tree_.items.size(); ++i)
             each_expression(tree_.items[i].body, [&](const Expression& e) {
-                if (e.kind == Expression::Kind::call && (e.text == kFetch || fetching_.count(e.function)))
+                if (e.kind == Expression::Kind::call && (engine_.count(e.text) || fetching_.count(e.function)))
                     fetching_.insert(static_cast<int>(i));
             });
     }
@@ -182,10 +183,13 @@ class ShaderPrinter {
         return fmt::format("{}({})", word(e.text), list(e.of));
     }
 
+    // Returns the name of an engine's function as a member of burnish_environment.
+    static std::string engine_name(const std::string& name) { return name.substr(std::string("burnish_").size()); }
+
     std::string call(const Expression& e)
     {
-        if (e.text == kFetch)
-            return fmt::format("{}({})", msl() ? "burnish_env.radiance" : kFetch, list(e.of));
+        if (engine_.count(e.text))
+            return fmt::format("{}({})", msl() ? "burnish_env." + engine_name(e.text) : e.text, list(e.of));
         if (e.function < 0)
             return made(e);
         const Item& function = tree_.items[static_cast<std::size_t>(e.function)];
@@ -413,7 +417,7 @@ class ShaderPrinter {
             return fmt::format("fn {}({}){}", item.kind == Item::Kind::prototype ? item.text : function_name(index),
                                parameters(item, index), item.type == "void" ? "" : " -> " + word(item.type));
         const bool precise = hlsl() && (item.type == "float" || is_vector(item.type));
-        const std::string name = item.kind == Item::Kind::prototype && msl() ? "radiance" : item.text;
+        const std::string name = item.kind == Item::Kind::prototype && msl() ? engine_name(item.text) : item.text;
         return fmt::format("{}{}{} {}({}){}", msl() && item.kind != Item::Kind::prototype ? "inline " : "", precise ? "precise " : "",
                            word(item.type), name, parameters(item, index), msl() && item.kind == Item::Kind::prototype ? " const" : "");
     }
@@ -468,6 +472,7 @@ class ShaderPrinter {
 
     const ShaderTree& tree_;
     ShaderLanguage language_;
+    std::set<std::string> engine_;              // functions that the engine provides
     std::set<int> fetching_;                    // functions that call the engine's, themselves or by others
     std::set<std::string> made_;                // structs made from their members' values
     std::set<std::string> assigned_, pointers_; // parameters of the function in hand

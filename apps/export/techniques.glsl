@@ -3,10 +3,23 @@
 #define BN_FRAME_H
 #define BN_STAGE_GLSL
 #define BN_CUBE_FILTER_K_H
+#define BN_OWN_TEXELS
+
+// You provide this function: a texel of the texture ltc of `burnish bake environment --textures`, without filtering, such as
+// texelFetch(ltc, ivec2(at % 192, at / 192), 0).
+vec4 ltc_texel(int at);
+
+vec4 bn_texel(int texels, int at)
+{
+    return ltc_texel(at);
+}
+
 #include "shading/lang/lang.h"
 #include "shading/lang/records.h"
 #include "shading/kernels/math.k.h"
 #include "shading/surface/dfg.k.h"
+#include "shading/lights/ltc_polygon.k.h"
+#include "shading/lights/ltc_table.k.h"
 #include "shading/surface/energy.k.h"
 
 #define frame_ref settings
@@ -220,4 +233,28 @@ shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f9
     x.normal_dx = vec3(0.0);
     x.normal_dy = vec3(0.0);
     return x;
+}
+
+// Returns the specular light from a quad of even radiance, by transformed cosines: without shadows, and without the diffuse part. a, b, c,
+// d: its corners, relative to the shaded point, in the same space as the point's normal. It shines to the side from which they run
+// counter-clockwise, or to both.
+vec3 quad_light(shaded_point x, vec3 a, vec3 b, vec3 c, vec3 d, vec3 radiance, bool two_sided)
+{
+    ltc_table table;
+    table.texels = 0;
+    table.root_alpha = 1;
+    table.basis = 1;
+    table.over_alpha = 1;
+    table.inverse = 0;
+    table.alphas = 11;
+    real root2 = lit(1.4142135623730951);
+    ltc_lobe lobe = ltc_lookup(table, to_lobe(x.lobe, x.s.n, x.s.v), x.lobe.sigma_u * root2, x.lobe.sigma_v * root2);
+    ltc_polygon quad;
+    quad.corner[0] = to_lobe(x.lobe, x.s.n, a);
+    quad.corner[1] = to_lobe(x.lobe, x.s.n, b);
+    quad.corner[2] = to_lobe(x.lobe, x.s.n, c);
+    quad.corner[3] = to_lobe(x.lobe, x.s.n, d);
+    ltc_light light = ltc_polygon_light(lobe, quad, 4);
+    real part = ltc_sided(light.part, a, k_cross(b - a, d - a), two_sided ? 1 : 0);
+    return radiance * (x.s.f0 * (lobe.all - lobe.grazing) + x.s.f90 * lobe.grazing) * part;
 }

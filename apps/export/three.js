@@ -1,14 +1,14 @@
-// @TECHNIQUE@ in three.js: image light of MeshPhysicalMaterial with anisotropy. From burnish @VERSION@ (Apache License 2.0).
+// @TECHNIQUE@ in three.js: image light and area lights on MeshPhysicalMaterial with anisotropy. From burnish @VERSION@ (Apache License 2.0).
 //
 //     import { improveAnisotropy } from './burnish_three.js';
 //     improveAnisotropy(scene);
 //
 // Takes a material, an array of materials, or an object with all below it. Returns the number of materials changed; call it before the
-// first frame, and again for what you load later. Reads the prefiltered environment that three.js makes (scene.environment), and leaves
-// materials without anisotropy alone. Options:
+// first frame, and again for what you load later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
+// area lights need RectAreaLightUniformsLib, as ever. Leaves materials without anisotropy alone. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
 // Works with WebGLRenderer. Throws where the shaders of your three.js version are not known.
-import { ClampToEdgeWrapping, DataTexture, LinearFilter, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
+import { ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
 const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
@@ -17,50 +17,83 @@ albedoTexture.minFilter = albedoTexture.magFilter = LinearFilter;
 albedoTexture.wrapS = albedoTexture.wrapT = ClampToEdgeWrapping;
 albedoTexture.needsUpdate = true;
 
+// Transformed cosines of anisotropic lobes: the texture ltc of `burnish bake environment`.
+const ltc = Uint8Array.from(atob('@LTC@'), c => c.charCodeAt(0));
+const ltcTexture = new DataTexture(new Uint16Array(ltc.buffer), 192, 88, RGBAFormat, HalfFloatType);
+ltcTexture.minFilter = ltcTexture.magFilter = NearestFilter;
+ltcTexture.needsUpdate = true;
+
 const technique = /* glsl */`
-#if defined( USE_ANISOTROPY ) && defined( USE_ENVMAP )
+#if defined( USE_ANISOTROPY )
 @SHADER@
 #endif
 `;
 
 // The engine's fetch, and the technique in the engine's words. All directions are in view space.
 const call = /* glsl */`
-#if defined( USE_ANISOTROPY ) && defined( USE_ENVMAP )
+#if defined( USE_ANISOTROPY )
 const int burnish_levels = 9;
 vec4 burnish_radiance(int cube, vec3 direction, float lod)
 {
+#if defined( USE_ENVMAP ) && ( defined( ENVMAP_TYPE_PMREM ) || defined( ENVMAP_TYPE_CUBE_UV ) )
     vec3 world = envMapRotation * normalize((vec4(direction, 0.0) * viewMatrix).xyz);
     float roughness = lod / float(burnish_levels - 1);
 #if defined( ENVMAP_TYPE_PMREM )
     return textureLod(envMap, world, roughnessToMip(roughness)) * envMapIntensity;
-#elif defined( ENVMAP_TYPE_CUBE_UV )
+#else
     return textureCubeUV(envMap, world, roughness) * envMapIntensity;
+#endif
 #else
     return vec4(0.0);
 #endif
 }
 uniform sampler2D burnish_lobe_albedo;
 float burnish_kept = 1.0; // length of the mean double-angle direction within the pixel
-// Returns radiance that the engine will multiply by the reflectance of a round lobe.
-vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
+uniform highp sampler2D burnish_ltc;
+vec4 burnish_ltc_texel(int at)
+{
+    return texelFetch(burnish_ltc, ivec2(at % 192, at / 192), 0);
+}
+// Returns the point of a material, and its lobe's directional albedo.
+burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material)
 {
     float across = max(material.roughness * material.roughness, 1e-4), along = max(material.alphaT, across);
     // Where a pixel holds many directions, its widths are those of the mean covariance
     float middle = 0.5 * (along * along + across * across), apart = 0.5 * (along * along - across * across) * burnish_kept;
     along = sqrt(middle + apart), across = sqrt(middle - apart);
-    float mean = 0.5 * (along + across);
-    float roughness = sqrt(mean), anisotropy = (along - across) / (along + across);
+    float mean = 0.5 * (along + across), roughness = sqrt(mean), anisotropy = (along - across) / (along + across);
     vec3 tangent = material.anisotropyT - n * dot(n, material.anisotropyT);
     tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
     vec2 dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
                    mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
-    vec3 f0 = material.SPECULAR, f90 = vec3(material.specularF90);
+    burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
+    return burnish_point_of(f, n, v, tangent, material.SPECULAR, vec3(material.specularF90), roughness, anisotropy, dfg, 0);
+}
+// Returns radiance that the engine will multiply by the reflectance of a round lobe.
+vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
+{
     vec2 round_dfg = DFG;
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
-    burnish_shaded_point x = burnish_point_of(f, n, v, tangent, f0, f90, roughness, anisotropy, dfg, 0);
-    return burnish_@TECHNIQUE@_specular(f, x) / max(f0 * round_dfg.x + f90 * round_dfg.y, vec3(1e-4));
+    burnish_shaded_point x = burnish_point_in_three(v, n, material);
+    return burnish_@TECHNIQUE@_specular(f, x) / max(material.SPECULAR * round_dfg.x + vec3(material.specularF90) * round_dfg.y, vec3(1e-4));
 }
+#if NUM_RECT_AREA_LIGHTS > 0
+// Takes the diffuse part and the coat from the engine.
+void burnish_rect_area(const in RectAreaLight light, const in vec3 position, const in vec3 n, const in vec3 v, const in vec3 coat_normal,
+                       const in PhysicalMaterial material, inout ReflectedLight reflectedLight)
+{
+    ReflectedLight engine = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    RE_Direct_RectArea_Physical(light, position, n, v, coat_normal, material, engine);
+    vec3 middle = light.position - position;
+    reflectedLight.directDiffuse += engine.directDiffuse;
+    reflectedLight.directSpecular += burnish_quad_light(burnish_point_in_three(v, n, material), middle + light.halfWidth - light.halfHeight,
+        middle - light.halfWidth - light.halfHeight, middle - light.halfWidth + light.halfHeight, middle + light.halfWidth + light.halfHeight,
+        light.color, false);
+}
+#undef RE_Direct_RectArea
+#define RE_Direct_RectArea burnish_rect_area
+#endif
 #endif
 `;
 
@@ -93,7 +126,7 @@ function patchedFragment(text, glTF) {
   text = replaced(text, '#include <lights_physical_fragment>', lobe, 'meshphysical_frag');
   // The material's struct is declared behind the environment's functions
   return replaced(text, '#include <lights_physical_pars_fragment>',
-    '#include <lights_physical_pars_fragment>\n' + technique + call.replace('SPECULAR', specular).replace('DFG', dfg), 'meshphysical_frag');
+    '#include <lights_physical_pars_fragment>\n' + technique + call.replaceAll('SPECULAR', specular).replace('DFG', dfg), 'meshphysical_frag');
 }
 
 const changed = new WeakSet();
@@ -106,6 +139,7 @@ function change(material, glTF) {
   material.onBeforeCompile = function (shader, renderer) {
     before.call(this, shader, renderer);
     shader.uniforms.burnish_lobe_albedo = { value: albedoTexture };
+    shader.uniforms.burnish_ltc = { value: ltcTexture };
     shader.vertexShader = patchedVertex(shader.vertexShader);
     shader.fragmentShader = patchedFragment(shader.fragmentShader, glTF);
   };

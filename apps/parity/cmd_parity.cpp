@@ -9,6 +9,7 @@
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/options/scene_with_view.h"
+#include "apps/parity/edited.h"
 #include "apps/parity/options.h"
 #include "apps/parity/report.h"
 #include "core/base/text.h"
@@ -35,6 +36,9 @@ Examples:
   burnish parity lamp.glb --env workshop.hdr --technique major_axis,mc --msaa 1,4 -v
   burnish parity --suite default --models models --junit parity.xml --json parity.json --html parity.html
   burnish parity --pipeline forward --sampler native --msaa 4
+  burnish parity builtin:teapot --technique major_axis --glsl edited.glsl
+
+--glsl compares an engine's copy of a technique: the device runs the file's functions, the tile renderer its own.
 
 Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan. Another failure of a row ends with its own code.)";
 
@@ -207,7 +211,15 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     const RenderOptions& base = options.sets.front().frames.front();
     Report report(base.quiet, base.verbosity);
     const auto jobs = std::make_shared<const Jobs>(base.threads);
-    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(device_options(options));
+    VulkanOptions vulkan = device_options(options);
+    std::unique_ptr<EditedStage> edited;
+    if (!options.glsl.empty()) {
+        Result<std::unique_ptr<EditedStage>> made = EditedStage::make(options.glsl, base.frame.technique);
+        if (!made)
+            return fail(made.error());
+        edited = std::move(*made), vulkan.shader_folder = edited->folder();
+    }
+    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(vulkan);
     if (!device)
         return fail(device.error());
     const Result<std::shared_ptr<const Environment>> environment = open_environment(base.env, base.environment, base.limits, *jobs);

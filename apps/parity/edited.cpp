@@ -1,5 +1,6 @@
 #include "apps/parity/edited.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
 #include <regex>
@@ -18,8 +19,9 @@ constexpr std::size_t kMostBytes = 4u << 20;
 constexpr const char* kPlace = "precise vec3 technique_specular("; // of the stage: the first function behind all techniques
 
 // Fetches of the stage that replace the file's, by name.
-constexpr const char* kFetches[] = {"cube_desc",      "cube_sum",          "cube_sum_levels", "cube_terms",      "cube_sum_begin",       "cube_sum_levels_at",
-                                    "cube_sum_add",   "cube_sum_value",    "cube_terms_begin", "cube_terms_add", "cube_terms_add_level", "cube_terms_value"};
+constexpr const char* kFetches[] = {"cube_desc",       "cube_sum",       "cube_terms",       "cube_sum_begin", "cube_sum_levels_at",
+                                    "cube_sum_add",    "cube_sum_value", "cube_terms_begin", "cube_terms_add", "cube_terms_add_level",
+                                    "cube_terms_value"};
 
 // Returns the declarations of the file's structs alone, which the tree can read whatever the functions hold.
 std::string structs_of(const std::string& text)
@@ -51,8 +53,8 @@ void add_members(const ShaderTree& tree, const std::string& name, const std::str
 }
 
 // Returns a function that makes a struct of one side from the other's. from: a parameter's declaration, or none.
-std::string maker(const ShaderTree& tree, const std::string& function, const std::string& result, const std::string& members, const std::string& parameter,
-                  const std::string& from)
+std::string maker(const ShaderTree& tree, const std::string& function, const std::string& result, const std::string& members,
+                  const std::string& parameter, const std::string& from)
 {
     std::string body;
     add_members(tree, members, "r", from, body);
@@ -66,21 +68,25 @@ std::string first_message(const std::string& output, const std::string& file)
     std::smatch found;
     if (!std::regex_search(output, found, kError))
         return output.empty() ? "glslc does not compile it" : output.substr(0, output.find('\n'));
-    return found[1] == "technique" ? fmt::format("line {}: {}", found[2].str(), found[3].str()) : fmt::format("{} (in the stage, with {})", found[3].str(), file);
+    return found[1] == "technique" ? fmt::format("line {}: {}", found[2].str(), found[3].str())
+                                   : fmt::format("{} (in the stage, with {})", found[3].str(), file);
 }
 
 } // namespace
 
-Result<std::string> stage_with_technique(const std::string& stage, const std::string& text, const std::string& file, const std::string& technique)
+Result<std::string> stage_with_technique(const std::string& stage, const std::string& text, const std::string& file,
+                                         const std::string& technique)
 {
     const std::size_t place = stage.find(kPlace);
     BN_CHECK(place != std::string::npos);
     const std::string specular = fmt::format("burnish_{}_specular", technique), shared = fmt::format("burnish_{}_shared", technique);
     if (!std::regex_search(text, std::regex(fmt::format(R"(\b{}\s*\()", specular))))
-        return Error{ExitCode::bad_input, file, "", fmt::format("holds no function {}; see burnish export glsl --technique {}", specular, technique)};
+        return Error{ExitCode::bad_input, file, "",
+                     fmt::format("holds no function {}; see burnish export glsl --technique {}", specular, technique)};
     std::string hooks = "#define BURNISH_OWN_FETCHES\n";
     for (const char* const fetch : kFetches)
         hooks += fmt::format("#define burnish_{0} {0}\n", fetch);
+    hooks += "#define burnish_cube_sum_levels cube_levels\n"; // the stage's macro for it is gone
     for (const char* const cube : {"prefiltered_env", "mip_env", "full_env"})
         hooks += fmt::format("#define burnish_{0}(f) {0}(0)\n", cube);
     hooks += "#define burnish_grid_sample(f, i) grid_sample(0, i)\n#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)\n"
@@ -93,9 +99,11 @@ Result<std::string> stage_with_technique(const std::string& stage, const std::st
                 return Error{ExitCode::bad_input, file, "", fmt::format("declares no struct {}", needed)};
         calls = maker(tree, "burnish_program_settings", "burnish_settings", "burnish_settings", "", "frame") +
                 maker(tree, "burnish_program_point", "burnish_shaded_point", "burnish_shaded_point", "shaded_point x", "x") +
-                fmt::format("#define {0}_specular(f, x) burnish_{0}_specular(burnish_program_settings(), burnish_program_point(x))\n", technique);
+                fmt::format("#define {0}_specular(f, x) burnish_{0}_specular(burnish_program_settings(), burnish_program_point(x))\n",
+                            technique);
         if (text.find(shared + "(") != std::string::npos && tree.structures.count("burnish_shared_sample_record"))
-            calls += maker(tree, "burnish_program_record", "shared_sample_record", "burnish_shared_sample_record", "burnish_shared_sample_record x", "x") +
+            calls += maker(tree, "burnish_program_record", "shared_sample_record", "burnish_shared_sample_record",
+                           "burnish_shared_sample_record x", "x") +
                      fmt::format("#define {0}_shared(f, x, o) burnish_program_record(burnish_{0}_shared(burnish_program_settings(), "
                                  "burnish_program_point(x), o))\n",
                                  technique);
@@ -105,6 +113,9 @@ Result<std::string> stage_with_technique(const std::string& stage, const std::st
     return stage.substr(0, place) + "\n" + hooks + "#line 1 \"technique\"\n" + text + "\n#line 1 \"stage\"\n" + calls + stage.substr(place);
 }
 
+namespace {
+
+// Compiles the stage with the file's technique into folder/shade.spv.
 Status compile_technique(const std::string& file, const std::string& technique, const std::string& folder)
 {
     const Result<std::string> stage = shade_stage_source();
@@ -124,6 +135,26 @@ Status compile_technique(const std::string& file, const std::string& technique, 
     if (output.empty())
         return Error{ExitCode::unavailable, "", "", "--glsl needs glslc, of Debian's package glslc, in PATH"};
     return Error{ExitCode::bad_input, file, "", first_message(output, file)};
+}
+
+} // namespace
+
+Result<std::unique_ptr<EditedStage>> EditedStage::make(const std::string& file, const std::string& technique)
+{
+    std::error_code none;
+    std::string pattern = (std::filesystem::temp_directory_path(none) / "burnish-XXXXXX").string();
+    if (none || !mkdtemp(pattern.data()))
+        return Error{ExitCode::output_failed, pattern, "", "cannot be made"};
+    std::unique_ptr<EditedStage> stage(new EditedStage);
+    stage->folder_ = pattern;
+    BN_TRY(compile_technique(file, technique, pattern));
+    return stage;
+}
+
+EditedStage::~EditedStage()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
 }
 
 } // namespace burnish

@@ -133,6 +133,8 @@ OptionTable parity_option_table(ParityArguments& to)
         {{"--suite", "NAME", "Set of scenes: {} (the built-in ones, from afar and from near)", choice(to.suite, {"default"})},
          {"--models", "DIR", "Folder whose .glb and .gltf files are compared too", folder(to.models)},
          {"--technique", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
+         {"--glsl", "FILE", "The technique as GLSL, in place of the program's: a file of burnish export glsl, edited; needs glslc",
+          file(to.glsl)},
          {"--msaa", "N,N", "Samples a pixel, separated by commas: 1, 2, 4, 8 or 16", choices(to.msaa, {1, 2, 4, 8, 16})},
          {"--also", "OPTIONS",
           "Options of materials and techniques for a further round, such as '--tilt 20,-10 --horizon off'; may be given several times",
@@ -178,6 +180,13 @@ OptionTable parity_option_table(ParityArguments& to)
 Result<ParityOptions> check_parity_options(const ParityArguments& in, const OptionTable& given)
 {
     ParityOptions out;
+    out.glsl = in.glsl;
+    if (!in.glsl.empty()) {
+        if (in.techniques.size() != 1 || !given.given("--technique"))
+            return usage_error("--glsl", "takes the place of one technique: give --technique NAME");
+        if (given.given("--shaders") || in.render.plain.vulkan.pipeline == VulkanPipeline::forward)
+            return usage_error("--glsl", "cannot be used with --shaders or --pipeline forward");
+    }
     out.json = in.json, out.csv = in.csv, out.junit = in.junit, out.html = in.html;
     BN_TRY(choose_places(in, out.places));
     for (std::size_t i = 0; i <= in.also.size(); ++i) {
@@ -186,7 +195,7 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
         BN_TRY(frames);
         out.sets.push_back({also, std::move(*frames)});
     }
-    std::vector<std::string> inputs = {in.render.plain.env};
+    std::vector<std::string> inputs = {in.render.plain.env, in.glsl};
     for (const ParityPlace& place : out.places)
         inputs.push_back(place.scene);
     BN_TRY(check_outputs({}, {{"--json", out.json}, {"--csv", out.csv}, {"--junit", out.junit}, {"--html", out.html}}, inputs));

@@ -18,7 +18,7 @@ struct ParityArguments {
     std::vector<std::string> scenes, techniques = technique_names();
     std::vector<int> msaa = {1, 4, 8};
     std::vector<std::string> also;
-    std::string suite, models, json, csv, junit, html;
+    std::string suite, models, glsl, json, csv, junit, html;
 };
 
 struct ParityPlace {         // a scene and a view
@@ -34,6 +34,7 @@ struct ParitySet {                     // one option set for all places
 struct ParityOptions {
     std::vector<ParityPlace> places;
     std::vector<ParitySet> sets;
+    std::string glsl;                   // file with a technique in place of the program's, or empty
     std::string json, csv, junit, html; // files; empty: no file
 };
 

@@ -195,11 +195,13 @@ struct texel_acc {
     real4 left;
     real4 right;
 };
+#ifndef BN_OWN_TEXELS // a stage may define bn_texel() before
 real4 bn_texel(texel_buffer texels, int at)
 {
     uvec2 words = bn_texel_words(texels, at);
     return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
 }
+#endif
 texel_acc texel_zero()
 {
     return texel_acc(vec4(0.0), vec4(0.0));

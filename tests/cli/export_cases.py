@@ -1,18 +1,15 @@
 """burnish export glsl: techniques as files for other engines, compiled alone, and compared word for word in place of the program's text."""
 
-import pathlib
 import re
 import shutil
 import subprocess
 
 from harness import Skipped, case, check
-from parity_cases import ROOT, check_equal, compile_stages, parity
+from parity_cases import ROOT, check_equal, parity
 
 MODELS = (ROOT / "shading/models.def").read_text()
 TECHNIQUES = re.findall(r"^BN_TECHNIQUE\((\w+), (\w+)", MODELS, re.MULTILINE)
 OF_GRIDS = re.findall(r"^BN_TECHNIQUE\((\w+),(?: grid,|[^\n]*kPhongGrid)", MODELS, re.MULTILINE)
-FETCHES = ("cube_desc", "cube_sum", "cube_sum_levels", "cube_terms", "cube_sum_begin", "cube_sum_levels_at", "cube_sum_add", "cube_sum_value",
-           "cube_terms_begin", "cube_terms_add", "cube_terms_add_level", "cube_terms_value")
 
 
 def exported(bench, name, *words):
@@ -100,89 +97,52 @@ def grid(bench):
         check(text.count("vec3(", text.index("burnish_kGrid["), text.index(";", text.index("burnish_kGrid["))) == count, "another number of them")
 
 
-def members(text, struct, to, source):
-    """Returns statements that fill a struct of the file from one of the program."""
-    body = re.search(rf"struct burnish_{struct} \{{(.*?)\n\}};", re.sub(r"//[^\n]*", "", text), re.DOTALL)[1]
-    lines = []
-    for declaration in filter(None, (d.strip() for d in body.split(";"))):
-        *kind, names = declaration.replace("precise ", "").split(maxsplit=1)
-        for name in (n.strip() for n in names.split(",")):
-            field, size = re.fullmatch(r"(\w+)(?:\[(\d+)\])?", name).groups()
-            if (struct, field) == ("settings", "samples"):
-                continue  # for point_of() alone: the program's points have theirs
-            if kind[0].startswith("burnish_"):
-                lines += members(text, kind[0][len("burnish_"):], f"{to}.{field}", f"{source}.{field}")
-            else:
-                lines += [f"{to}.{field}{at} = {source}.{field}{at};" for at in ([f"[{i}]" for i in range(int(size))] if size else [""])]
-    return lines
-
-
-def in_place(text, name):
-    """Returns GLSL that calls the file's functions in place of the program's."""
-    hooks = ["#define BURNISH_OWN_FETCHES"] + [f"#define burnish_{fetch} {fetch}" for fetch in FETCHES]
-    hooks += [f"#define burnish_{cube}(f) {cube}(0)" for cube in ("prefiltered_env", "mip_env", "full_env")]
-    hooks += ["#define burnish_grid_sample(f, i) grid_sample(0, i)", "#define burnish_grid_of_four(f, i, set) grid_of_four(0, i, set)", "#define burnish_fetched cube_sample",
-              "#define burnish_fetched_level cube_sample_level"]
-    code = hooks + [text]
-    for function, result, struct, parameter, source in (("program_settings", "settings", "settings", "", "frame"),
-                                                        ("program_point", "shaded_point", "shaded_point", "shaded_point x", "x")):
-        code += [f"burnish_{result} {function}({parameter})", "{", f"burnish_{result} r;", *members(text, struct, "r", source), "return r;", "}"]
-    code.append(f"#define {name}_specular(f, x) burnish_{name}_specular(program_settings(), program_point(x))")
-    if f"burnish_{name}_shared" in text:
-        code += ["shared_sample_record program_record(burnish_shared_sample_record x)", "{", "shared_sample_record r;", *members(text, "shared_sample_record", "r", "x"), "return r;", "}",
-                 f"#define {name}_shared(f, x, o) program_record(burnish_{name}_shared(program_settings(), program_point(x), o))"]
-    return "\n".join(code) + "\n"
-
-
-def own_names(text, name):
-    """Returns the text with unique function names, so that the files of all techniques fit in one shader."""
-    return re.sub(r"\b(burnish_|program_)", rf"{name}_\1", text)
-
-
-def compare_exported(bench, names, changed=lambda text: text, code=0):
+def in_place(bench, name, *also, changed=lambda text: text, code=0):
+    """Returns the report of parity with the exported file in place of the program's technique."""
     compiler()
-    source, shaders = bench.folder / "source", bench.folder / "shaders"
-    shutil.copytree(ROOT / "shading", source / "shading", ignore=shutil.ignore_patterns("bake"))
-    (source / "core/scene").mkdir(parents=True)
-    for table in (ROOT / "core/scene").glob("*.def"):
-        shutil.copy(table, source / "core/scene")
-    shaders.mkdir()
-    built = list((pathlib.Path(bench.program).resolve().parent / "raster/vulkan").glob("*.spv"))
-    for file in built:
-        shutil.copy(file, shaders)
-    if not built:
-        compile_stages(ROOT, shaders)
-    path = source / "shading/lang/techniques.h"
-    text = path.read_text()
-    place = "real3 technique_specular(frame_ref f, technique_ref technique"
-    check(text.count(place) == 1, f"techniques.h does not hold '{place}' any more")
-    own = "".join(own_names(in_place(changed(exported(bench, name)), name), name) for name in names)
-    path.write_text(text.replace(place, own + place))
-    compile_stages(source, shaders, "shade")
-    words = ("builtin:teapot", "builtin:plate", "--size", "96x64", "--technique", ",".join(names), "--msaa", "1", "--shaders", shaders)
-    also = [("--tilt", "8,4", "--energy-compensation", "--axis-k", "1.5", "--samples", "9")] if code == 0 else []
-    return parity(bench, *words, also=also, code=code, timeout=600.0)
+    (bench.folder / f"{name}.glsl").write_text(changed(exported(bench, name)))
+    return parity(bench, "builtin:teapot", "--size", "96x64", "--technique", name, "--msaa", "1", "--glsl", f"{name}.glsl", also=also, code=code, timeout=600.0)
 
 
-# Uses one shader for all, since a driver takes seconds to compile each.
-@case("export.files_give_the_program_s_words", tier="nightly")
-def gives_the_program_s_words(bench):
-    names = [name for name, _ in TECHNIQUES]
-    report = compare_exported(bench, names)
+def words_of_program(bench, name):
+    report = in_place(bench, name, ("--tilt", "8,4", "--energy-compensation", "--axis-k", "1.5", "--samples", "9"))
     check_equal(report)
-    for also in {row["also"] for row in report["rows"]}:
-        check({row["technique"] for row in report["rows"] if row["also"] == also} == set(names), "a technique is missing")
-    check(len(report["rows"]) == 2 * 2 * len(names), f"{len(report['rows'])} rows")
+    check({row["technique"] for row in report["rows"]} == {name} and len(report["rows"]) == 2, f"{name}: {len(report['rows'])} rows")
 
 
-@case("export.another_word_in_the_file_is_seen", tier="nightly")
-def seen(bench):
-    def wider(text):
-        check("w * ((2.0) * burnish_k_dot3(w, o)) - o" in text, "the mirror is written otherwise")
-        return text.replace("w * ((2.0) * burnish_k_dot3(w, o)) - o", "w * ((2.0000005) * burnish_k_dot3(w, o)) - o")
+# A driver takes a minute or two to compile each.
+for technique, _ in TECHNIQUES:
+    case(f"export.file_gives_the_program_s_words.{technique}", tier="nightly")(lambda bench, name=technique: words_of_program(bench, name))
 
-    report = compare_exported(bench, ["major_axis"], wider, code=1)
+
+def wider(text):
+    check("w * ((2.0) * burnish_k_dot3(w, o)) - o" in text, "the mirror is written otherwise")
+    return text.replace("w * ((2.0) * burnish_k_dot3(w, o)) - o", "w * ((2.0000005) * burnish_k_dot3(w, o)) - o")
+
+
+@case("parity.an_edited_technique_differs_in_the_stage_that_shades", tier="nightly")
+def edited(bench):
+    report = in_place(bench, "major_axis", changed=wider, code=1)
     check({row["first_difference"] for row in report["rows"]} == {"shaded colour"}, f"{report['rows']}")
+
+
+@case("parity.a_technique_that_cannot_be_used_is_said")
+def unusable(bench):
+    compiler()
+    text = exported(bench, "major_axis")
+    broken = text.replace("    return ", "    retrun ", 1)
+    for content, words, code, needle in ((text, ("--technique", "lobe_line"), 4, "burnish_lobe_line_specular"), (text, (), 2, "--technique"),
+                                         (text, ("--technique", "major_axis,mc"), 2, "one technique"),
+                                         (text, ("--technique", "major_axis", "--pipeline", "forward"), 2, "--pipeline"),
+                                         (broken, ("--technique", "major_axis"), 4, f"line {broken[:broken.index("    retrun ")].count(chr(10)) + 1}:"),
+                                         (text.replace("struct burnish_settings", "struct burnish_other"), ("--technique", "major_axis"), 4, "burnish_settings"),
+                                         (text.replace("precise vec3 n; // shading", "precise vec3 m; // shading"), ("--technique", "major_axis"), 4, "edited.glsl")):
+        (bench.folder / "edited.glsl").write_text(content)
+        done = bench.run("parity", "builtin:sphere", *words, "--glsl", "edited.glsl")
+        if done.code == 77:
+            raise Skipped(done.err.strip())
+        done.expect(code).expect_one_line(needle)
+    bench.run("parity", "builtin:sphere", "--technique", "mc", "--glsl", "missing.glsl").expect(4).expect_one_line("missing.glsl")
 
 
 @case("export.wrong_options_say_one_line")

@@ -131,14 +131,14 @@ def source(bench, template, name, language, place="at[16 * i + {}]"):
     return call.replace("TEXT", (bench.folder / f"{name}.{language}").read_text())
 
 
-def on_lavapipe(bench, text, *compile_words, whole=False):
+def on_lavapipe(bench, text, *compile_words, whole=False, more=b""):
     """Returns the results of a compute shader."""
     compiler()
     runner = pathlib.Path(bench.program).resolve().parent / "tests/unit/vulkan/run_compute"
     if not runner.exists():
         raise Skipped("built without Vulkan")
     (bench.folder / "engine.comp").write_text(text)
-    (bench.folder / "points.bin").write_bytes(points())
+    (bench.folder / "points.bin").write_bytes(points() + more)
     done = subprocess.run(["glslc", "-w", "-fshader-stage=compute", *compile_words, bench.folder / "engine.comp", "-o", bench.folder / "engine.spv"],
                           capture_output=True, text=True)
     check(done.returncode == 0, done.stderr[:1500])
@@ -146,7 +146,7 @@ def on_lavapipe(bench, text, *compile_words, whole=False):
     if done.returncode == 77:
         raise Skipped(done.stderr)
     check(done.returncode == 0, done.stderr)
-    values = struct.unpack(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes())
+    values = struct.unpack_from(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes())
     return values if whole else results(values)
 
 
@@ -159,7 +159,7 @@ int main()
     std::FILE* file = std::fopen("points.bin", "r+b");
     if (!file || std::fread(at, 4, COUNT, file) != COUNT)
         return 1;
-    for (unsigned i = 0; i < COUNT / 16; ++i)
+    for (unsigned i = 0; i < POINTS; ++i)
         shade(at, i);
     std::rewind(file);
     return std::fwrite(at, 4, COUNT, file) == COUNT && std::fclose(file) == 0 ? 0 : 1;
@@ -167,19 +167,19 @@ int main()
 """
 
 
-def as_cpp(bench, text):
+def as_cpp(bench, text, more=b""):
     """Returns the results of a Metal function, compiled as C++."""
     builder = next(filter(shutil.which, ("clang++", "c++")), None)
     if not builder:
         raise Skipped("no C++ compiler")
     (bench.folder / "engine.metal").write_text(text)
-    (bench.folder / "engine.cpp").write_text(MSL_PROGRAM.replace("COUNT", str(POINTS * FLOATS)))
-    (bench.folder / "points.bin").write_bytes(points())
+    (bench.folder / "engine.cpp").write_text(MSL_PROGRAM.replace("POINTS", str(POINTS)).replace("COUNT", str(POINTS * FLOATS + len(more) // 4)))
+    (bench.folder / "points.bin").write_bytes(points() + more)
     done = subprocess.run([builder, "-std=c++17", "-O1", "-ffp-contract=off", "-Wno-unknown-attributes", "-Wno-attributes", f"-I{pathlib.Path(__file__).parent}",
                            "engine.cpp", "-o", "engine"], cwd=bench.folder, capture_output=True, text=True)
     check(done.returncode == 0, done.stderr[:1500])
     check(subprocess.run(["./engine"], cwd=bench.folder).returncode == 0, "the program fails")
-    return results(struct.unpack(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes()))
+    return results(struct.unpack_from(f"<{POINTS * FLOATS}f", (bench.folder / "points.bin").read_bytes()))
 
 
 def results(values):
@@ -197,8 +197,8 @@ GLSL_PLACE = GLSL.replace(GLSL_POINT + STORE, """    vec4 p = burnish_albedo_pla
 """)
 
 
-def albedo_by_sampling(o, alpha_x, alpha_y, count=2500):
-    """Returns the mean of masking over visible GGX normals (Heitz 2018, "Sampling the GGX Distribution of Visible Normals")."""
+def albedo_by_sampling(o, alpha_x, alpha_y, count=2500, seen=lambda i: True):
+    """Returns the mean of masking, over directions that are seen, over visible GGX normals (Heitz 2018, "Sampling the GGX Distribution of Visible Normals")."""
     unit = lambda v: [c / math.sqrt(sum(d * d for d in v)) for c in v]
     smith = lambda w: 0.5 * (math.sqrt(1 + ((alpha_x * w[0]) ** 2 + (alpha_y * w[1]) ** 2) / max(w[2] ** 2, 1e-12)) - 1)
     v = unit([alpha_x * o[0], alpha_y * o[1], o[2]])
@@ -215,9 +215,68 @@ def albedo_by_sampling(o, alpha_x, alpha_y, count=2500):
         h = unit([alpha_x * n[0], alpha_y * n[1], max(n[2], 1e-6)])
         d = sum(x * y for x, y in zip(o, h))
         i = [2 * d * h[c] - o[c] for c in range(3)]
-        if i[2] > 0:
+        if i[2] > 0 and seen(i):
             total += (1 + smith(o)) / (1 + smith(o) + smith(i))
     return total / count
+
+
+# A quad about each point: o +- s, o +- t. The table lies behind the points.
+QUAD = """    vec3 o = vec3(AT(0), AT(1), AT(2)) + vec3(AT(6), AT(7), AT(8)) * 0.25;
+    vec3 s = vec3(0.5, -0.4, 0.3);
+    vec3 t = vec3(-0.2, 0.4, 0.6);
+    vec3 light = burnish_quad_light(x, o + s, o + t, o - s, o - t, vec3(2.0, 1.0, 0.5), true);
+"""
+TABLE = POINTS * FLOATS
+TEXEL = f"return vec4(at[{TABLE} + 4 * k], at[{TABLE + 1} + 4 * k], at[{TABLE + 2} + 4 * k], at[{TABLE + 3} + 4 * k]);"
+SPECULAR = "    vec3 light = burnish_NAME_specular(f, x);\n"
+GLSL_QUAD = GLSL.replace(SPECULAR, QUAD).replace("void main", f"vec4 burnish_ltc_texel(int k) {{ {TEXEL} }}\nvoid main")
+HLSL_QUAD = HLSL.replace(c_like(SPECULAR), c_like(QUAD)).replace("[numthreads", f"float4 burnish_ltc_texel(int k) {{ {c_like(TEXEL)} }}\n[numthreads")
+MSL_QUAD = MSL.replace("    float3 light = burnish_NAME_specular(env, f, x);\n", with_suffixes(c_like(QUAD)).replace("light(x", "light(env, x")).replace(
+    "float4 radiance", f"device float* at;\n    float4 ltc_texel(int k) const {{ {c_like(TEXEL)} }}\n    float4 radiance").replace(
+    "burnish_environment env;", "burnish_environment env;\n    env.at = at;")
+WGSL_QUAD = WGSL.replace("    let light = burnish_NAME_specular(f, x);\n", re.sub(r"vec3 (\w) =", r"let \1 =", QUAD).replace("vec3 light", "let light").replace("vec3(", "vec3<f32>(")).replace(
+    "@compute", f"fn burnish_ltc_texel(k: i32) -> vec4<f32> {{ {TEXEL.replace('vec4(', 'vec4<f32>(')} }}\n@compute")
+
+
+def ltc_table(bench):
+    bench.run("bake", "environment", "builtin:studio", "--env-size", "16", "--env-samples", "16", "--textures", "ktx2", "--texels", "float", "-q", "-o", "tables").expect(0)
+    return struct.pack(f"<{4 * 192 * 88}f", *ktx2(bench.folder / "tables/ltc.ktx2")[1][0])
+
+
+@case("export.quad_light_is_that_of_sampled_lobes_in_every_language", budget=30)
+def quad_light(bench):
+    table = ltc_table(bench)
+    for language in ("glsl", "hlsl", "msl", "wgsl"):
+        bench.run("export", language, "--ltc", "--technique", "bent_normal", "-o", f"bent_normal.{language}").expect(0)
+    expected = on_lavapipe(bench, source(bench, GLSL_QUAD, "bent_normal", "glsl"), more=table)
+    same_words("hlsl", on_lavapipe(bench, source(bench, HLSL_QUAD, "bent_normal", "hlsl"), "-x", "hlsl", "-fentry-point=main", more=table), expected)
+    same_words("msl", as_cpp(bench, source(bench, MSL_QUAD, "bent_normal", "msl"), table), expected)
+    values = struct.unpack(f"<{POINTS * FLOATS}f", points())
+    dot = lambda a, b: sum(c * d for c, d in zip(a, b))
+    cross = lambda a, b: [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    worst, lit = 0.0, 0
+    for i in range(POINTS):
+        n, v, tangent, roughness, anisotropy, f0 = (values[16 * i + a:16 * i + b] for a, b in ((0, 3), (3, 6), (6, 9), (12, 13), (13, 14), (9, 12)))
+        frame = [tangent, cross(n, tangent), n]
+        eye = [dot(axis, v) for axis in frame]
+        alpha = roughness[0] ** 2
+        if eye[2] < 0.3 or not 0.05 < alpha < 0.4:
+            continue
+        o, s, t = [a + 0.25 * b for a, b in zip(n, tangent)], (0.5, -0.4, 0.3), (-0.2, 0.4, 0.6)
+        corners = [[dot(axis, [a + sign * b for a, b in zip(o, side)]) for axis in frame] for sign, side in ((1, s), (1, t), (-1, s), (-1, t))]
+
+        def seen(wi):
+            sides = [dot(wi, cross(corners[k], corners[(k + 1) % 4])) > 0 for k in range(4)]
+            return all(sides) or not any(sides)
+
+        share = albedo_by_sampling(eye, alpha * (1 + anisotropy[0]), alpha * (1 - anisotropy[0]), seen=seen)
+        # Fresnel adds to f0: compare the channel with the largest
+        found = expected[3 * i] / 2.0
+        low, high = share * f0[0], share * f0[0] + (1 - f0[0]) * share
+        worst, lit = max(worst, low - found, found - high), lit + (share > 0.1)
+    check(lit > 4 and worst < 0.05, f"{lit} lit points, off by {worst}")
+    with Browser(bench.folder, webgl=True) as browser:
+        near("wgsl", in_browser(bench, browser, RUN_WEBGPU, source(bench, WGSL_QUAD, "bent_normal", "wgsl"), table), expected)
 
 
 @case("export.albedo_place_finds_the_albedo_of_two_widths", budget=20)
@@ -311,19 +370,19 @@ RUN_WEBGPU = """async function run(shader) {
     const encoder = device.createCommandEncoder(), pass = encoder.beginComputePass();
     pass.setPipeline(pipeline);
     pass.setBindGroup(0, device.createBindGroup({layout: pipeline.getBindGroupLayout(0), entries: [{binding: 0, resource: {buffer: values}}]}));
-    pass.dispatchWorkgroups(points.length / 16);
+    pass.dispatchWorkgroups(COUNT);
     pass.end();
     encoder.copyBufferToBuffer(values, 0, out, 0, points.byteLength);
     device.queue.submit([encoder.finish()]);
     await out.mapAsync(GPUMapMode.READ);
-    return {values: Array.from(new Float32Array(out.getMappedRange())).filter((_, i) => i % 16 < 3)};
+    return {values: Array.from(new Float32Array(out.getMappedRange())).slice(0, 16 * COUNT).filter((_, i) => i % 16 < 3)};
 }
-"""
+""".replace("COUNT", str(POINTS))
 
 
-def in_browser(bench, browser, script, text):
+def in_browser(bench, browser, script, text, more=b""):
     """Returns the results of a shader in a page."""
-    values = list(struct.unpack(f"<{POINTS * FLOATS}f", points()))
+    values = list(struct.unpack(f"<{POINTS * FLOATS + len(more) // 4}f", points() + more))
     page = bench.folder / "page.html"
     page.write_text(f"<!doctype html><title>shader</title><script>const points = new Float32Array({values}), shader = {json.dumps(text)};\n{script}</script>")
     browser.open(page)

@@ -282,7 +282,7 @@ Status Judge::find_mistakes(bool pairs, Judgement& to)
             if (!usable(i))
                 continue;
             SceneJudgement& scene = to.scenes[i];
-            if (best->left[i] <= kExplains * left[i])
+            if (best->left[i] < left[i] && best->left[i] <= kExplains * left[i])
                 scene.outcome = SceneJudgement::Outcome::wrong;
             if (best->set.size() == 1 && to.mistakes.size() == 1 && best->left[i] < left[i] && best->left[i] <= scene.to_nearest)
                 scene.nearest = best->set.front(), scene.to_nearest = best->left[i], scene.nearest_ev = exposure_ev_;

@@ -59,4 +59,12 @@ Result<ShadingTables> with_table(const Table& own, const std::string& path)
     return tables;
 }
 
+std::vector<std::uint16_t> shipped_texture()
+{
+    const std::vector<std::uint16_t>& all = shipped_tables().texels;
+    constexpr std::size_t kCount = std::size_t{4} * kTextureWidth * kTextureHeight;
+    BN_CHECK_OP(static_cast<std::size_t>(shipped_tables().record.round_first) * 4, ==, kCount);
+    return {all.begin(), all.begin() + kCount};
+}
+
 } // namespace burnish::ltc

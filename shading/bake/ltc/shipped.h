@@ -22,6 +22,9 @@ struct ShadingTables {
 };
 const ShadingTables& shipped_tables(); // made once a process
 const Table& shipped_table();          // the general table
+// The general table as a texture of RGBA halves, in rows: table_texels().
+inline constexpr int kTextureWidth = 192, kTextureHeight = 88;
+std::vector<std::uint16_t> shipped_texture();
 // Replaces the built-in table of the same kind with `own`. Errors: another resolution, or another storage in a round table, than shading
 // reads. path: the file in the error.
 Result<ShadingTables> with_table(const Table& own, const std::string& path);
