@@ -131,10 +131,11 @@ def unusable(bench):
     compiler()
     text = exported(bench, "major_axis")
     broken = text.replace("    return ", "    retrun ", 1)
+    line = broken[:broken.index("    retrun ")].count("\n") + 1
     for content, words, code, needle in ((text, ("--technique", "lobe_line"), 4, "burnish_lobe_line_specular"), (text, (), 2, "--technique"),
                                          (text, ("--technique", "major_axis,mc"), 2, "one technique"),
                                          (text, ("--technique", "major_axis", "--pipeline", "forward"), 2, "--pipeline"),
-                                         (broken, ("--technique", "major_axis"), 4, f"line {broken[:broken.index("    retrun ")].count(chr(10)) + 1}:"),
+                                         (broken, ("--technique", "major_axis"), 4, f"line {line}:"),
                                          (text.replace("struct burnish_settings", "struct burnish_other"), ("--technique", "major_axis"), 4, "burnish_settings"),
                                          (text.replace("precise vec3 n; // shading", "precise vec3 m; // shading"), ("--technique", "major_axis"), 4, "edited.glsl")):
         (bench.folder / "edited.glsl").write_text(content)

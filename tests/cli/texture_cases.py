@@ -75,12 +75,12 @@ def textures(bench):
     for words, folder in ((("ktx2",), "k"), (("ktx2", "--texels", "float"), "kf"), (("dds",), "d"), (("dds", "--texels", "float"), "df"), (("exr",), "e")):
         bench.run(*BAKE, "--textures", *words, "-o", folder).expect(0)
         check((bench.folder / folder / "environment.bnenv").read_bytes() == plain["environment.bnenv"], f"{folder}: another bake")
-    for name in (*CUBES, "dfg", "lobe_albedo"):
+    for name in (*CUBES, "dfg", "lobe_albedo", "ltc"):
         halves, floats = ktx2(bench.folder / f"k/{name}.ktx2"), ktx2(bench.folder / f"kf/{name}.ktx2")
         check(halves == dds(bench.folder / f"d/{name}.dds") and floats == dds(bench.folder / f"df/{name}.dds"), f"{name}: formats differ")
-        check(halves[0] == floats[0] == {"irradiance": (32, 6, 4), "dfg": (64, 1, 2), "lobe_albedo": (200, 1, 2)}.get(name, (32, 6, 4)), f"{name}: {halves[0]}")
+        check(halves[0] == floats[0] == {"irradiance": (32, 6, 4), "dfg": (64, 1, 2), "lobe_albedo": (200, 1, 2), "ltc": (192, 1, 4)}.get(name, (32, 6, 4)), f"{name}: {halves[0]}")
         check(all(close(a, b, 2 ** -11) for a, b in zip(floats[1], halves[1])), f"{name}: halves are not those of the floats")
-        check(len(halves[1]) == {"specular": 5, "box": 6, "irradiance": 1, "whole": 1, "dfg": 1, "lobe_albedo": 1}[name], f"{name}: {len(halves[1])} levels")
+        check(len(halves[1]) == {"specular": 5, "box": 6, "irradiance": 1, "whole": 1, "dfg": 1, "lobe_albedo": 1, "ltc": 1}[name], f"{name}: {len(halves[1])} levels")
     # The table: all is reflected by a mirror that is seen from straight above
     scale, bias = ktx2(bench.folder / "kf/dfg.ktx2")[1][0][2 * 63:2 * 64]
     check(abs(scale - 1) < 1e-3 and abs(bias) < 1e-3, f"{scale} {bias}")
