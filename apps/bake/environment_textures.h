@@ -17,8 +17,8 @@ struct EnvironmentTextures {
     std::vector<std::string> warnings; // one line each: values that half floats cannot hold
 };
 
-// Into a folder that is there: specular, box, irradiance and, with key lights, whole; dfg, lobe_albedo and ltc; key_lights.json and key_lights.glsl. An .exr
-// holds one face of one level, or a table. Errors: ExitCode::output_failed.
+// Into a folder that is there: specular, box, irradiance and, with key lights, whole; dfg, lobe_albedo and ltc; key_lights.json and
+// key_lights.glsl. An .exr holds one face of one level, or a table. Errors: ExitCode::output_failed.
 Result<EnvironmentTextures> write_environment_textures(const std::string& folder, const Environment& environment, const DfgTable& dfg,
                                                        TextureFormat format, TexelType type, const Jobs& jobs);
 

@@ -177,7 +177,7 @@ class ShaderPrinter {
         if (hlsl() && splat)
             return fmt::format("(({})({}))", word(e.text), print(e.of[0]));
         if (hlsl() && tree_.structures.count(e.text))
-            return fmt::format("{}_of({})", e.text, list(e.of));
+            return fmt::format("{}_made({})", e.text, list(e.of));
         if (msl() && tree_.structures.count(e.text))
             return fmt::format("{}{{{}}}", e.text, list(e.of));
         return fmt::format("{}({})", word(e.text), list(e.of));
@@ -391,7 +391,7 @@ class ShaderPrinter {
             values += (values.empty() ? "" : ", ") + declared(member.variable, false);
             fill += fmt::format("    made.{0} = {0};\n", own(member.variable.name));
         }
-        out_ += fmt::format("\n{0} {0}_of({1})\n{{\n    {0} made;\n{2}    return made;\n}}\n", item.text, values, fill);
+        out_ += fmt::format("\n{0} {0}_made({1})\n{{\n    {0} made;\n{2}    return made;\n}}\n", item.text, values, fill);
     }
 
     std::string parameters(const Item& item, int index)

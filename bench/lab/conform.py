@@ -29,8 +29,7 @@ OWN_FAULTS = {"three": "no_tangents,mirrored_node,normal_map,area_light,minified
 # Places in a page's text, and what code there can see.
 PLACES = {
     "three": {
-        "import": ("import * as THREE from 'three';\n", "after"),
-        "shader": ("const renderer = ", "before"),  # THREE
+        "shader": ("const renderer = new", "before"),  # THREE
         "sky": ("  picture.mapping = ", "before"),  # picture
         "model": ("  gltf.scene.updateMatrixWorld(true);\n", "after"),  # gltf
         "camera": ("  camera.updateProjectionMatrix();\n", "before"),  # camera
@@ -38,7 +37,6 @@ PLACES = {
         "picture": ("  return floats;\n", "before"),  # floats, conform
     },
     "babylon": {
-        "import": ("import { address, draw_all } from './pictures.js';\n", "after"),
         "sky": ("  await new Promise(loaded => texture", "before"),  # texture
         "model": ("  loaded.addAllToScene();\n", "after"),  # loaded
         "picture": ("  return floats;\n", "before"),  # floats, conform
@@ -138,11 +136,6 @@ BABYLON = {
     "sky_turned_half": {"sky": "texture.rotationY += Math.PI;\n"},
     **PICTURES,
 }
-# The exported module in use: `burnish export three` and `burnish export babylon`.
-MODULES = {
-    "three": {"import": "import { improveAnisotropy } from './burnish.js';\n", "model": "improveAnisotropy(gltf.scene);\n"},
-    "babylon": {"import": "import { improveAnisotropy } from './burnish.js';\n", "model": "improveAnisotropy(BABYLON, loaded.materials);\n"},
-}
 OWN = ("gltf", "gltf_compensated", "hdrp", "lobe_line", "filtered_is_ggx", "mc", "major_axis_weighted")
 
 
@@ -230,13 +223,11 @@ def improve(program, folder, work, engine, technique, samples, server):
     """Prints each scene's distance to the truth: the engine as it is, and with the exported module."""
     server.pages["/pages/burnish.js"] = subprocess.run([program, "export", engine, "--technique", technique, "--samples", str(samples), "-o", "-", "--quiet"],
                                                        check=True, capture_output=True, text=True).stdout
-    text = (folder / "pages" / f"{engine}.html").read_text()
     found = {}
-    for name, code in (("as_it_is", {}), ("module", MODULES[engine])):
+    for name, query in (("as_it_is", ""), ("module", "?module=burnish.js")):
         pictures = work / f"{engine}-{name}"
         with tempfile.TemporaryDirectory() as profile, Browser(profile, webgl=True) as browser:
-            server.pages[f"/pages/{engine}-{name}.html"] = page_with(text, engine, code)
-            draw(browser, server.address(f"/pages/{engine}-{name}.html"), pictures)
+            draw(browser, server.address(f"/pages/{engine}.html{query}"), pictures)
         found[name] = distances(program, folder, pictures)
     for scene, before in found["as_it_is"].items():
         print(f"{engine:8} {scene:22} {before:.3f} {found['module'][scene]:.3f}", flush=True)

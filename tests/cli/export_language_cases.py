@@ -150,9 +150,7 @@ def on_lavapipe(bench, text, *compile_words, whole=False, more=b""):
     return values if whole else results(values)
 
 
-MSL_PROGRAM = """#include "msl_shim.h"
-#include "engine.metal"
-#include <cstdio>
+MSL_PROGRAM = """#include <cstdio>
 int main()
 {
     static float at[COUNT];
@@ -175,7 +173,7 @@ def as_cpp(bench, text, more=b""):
     (bench.folder / "engine.metal").write_text(text)
     (bench.folder / "engine.cpp").write_text(MSL_PROGRAM.replace("POINTS", str(POINTS)).replace("COUNT", str(POINTS * FLOATS + len(more) // 4)))
     (bench.folder / "points.bin").write_bytes(points() + more)
-    done = subprocess.run([builder, "-std=c++17", "-O1", "-ffp-contract=off", "-Wno-unknown-attributes", "-Wno-attributes", f"-I{pathlib.Path(__file__).parent}",
+    done = subprocess.run([builder, "-std=c++17", "-O1", "-ffp-contract=off", "-Wno-unknown-attributes", "-Wno-attributes", "-include", pathlib.Path(__file__).parent / "msl_shim.h", "-include", "engine.metal",
                            "engine.cpp", "-o", "engine"], cwd=bench.folder, capture_output=True, text=True)
     check(done.returncode == 0, done.stderr[:1500])
     check(subprocess.run(["./engine"], cwd=bench.folder).returncode == 0, "the program fails")
