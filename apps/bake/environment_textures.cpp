@@ -1,5 +1,6 @@
 #include "apps/bake/environment_textures.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -78,11 +79,12 @@ std::vector<std::pair<std::string, Image>> pictures_of(const std::string& name, 
     for (std::size_t l = 0; l < texture.levels.size(); ++l)
         for (std::size_t face = 0; face < static_cast<std::size_t>(texture.faces); ++face) {
             const TextureLevel& level = texture.levels[l];
-            Image image = make_image(level.width, level.height, 3, PixelType::f32);
+            const std::size_t shown = texture.faces == 1 ? std::max<std::size_t>(channels, 3) : 3; // a cube's alpha is 1
+            Image image = make_image(level.width, level.height, static_cast<int>(shown), PixelType::f32);
             const std::size_t pixels = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
             for (std::size_t i = 0; i < pixels; ++i)
-                for (std::size_t c = 0; c < 3; ++c)
-                    image.f32()[3 * i + c] = c < channels ? level.texels[(face * pixels + i) * channels + c] : 0.0f;
+                for (std::size_t c = 0; c < shown; ++c)
+                    image.f32()[shown * i + c] = c < channels ? level.texels[(face * pixels + i) * channels + c] : 0.0f;
             pictures.emplace_back(texture.faces == 1 ? name : fmt::format("{}_{:02}_{}", name, l, kFaces[face]), std::move(image));
         }
     return pictures;

@@ -5,8 +5,8 @@
 //
 // Takes the namespace with MaterialPluginBase, RawTexture and Constants, and a material or an array of materials. Returns the number of
 // materials changed; call it before the first frame, and again for what you load later. Reads the prefiltered cube that Babylon.js keeps
-// (scene.environmentTexture), and leaves materials without anisotropy alone. Works with shaders in GLSL: in WebGL 2 and, by translation,
-// in WebGPU. Options:
+// (scene.environmentTexture), and leaves materials without anisotropy alone. Call it again for what you clone. Works with shaders in GLSL:
+// in WebGL 2, and in WebGPU for materials made with forceGLSL. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
@@ -137,7 +137,10 @@ function pluginClass(BABYLON, glTF) {
 export function improveAnisotropy(BABYLON, materials, { glTF = true } = {}) {
   const Plugin = pluginClass(BABYLON, glTF);
   let count = 0;
-  for (const material of [materials].flat()) {
+  const list = [materials].flat();
+  if (list.some(material => material.anisotropy?.isEnabled && material.shaderLanguage))
+    throw new Error('burnish: a material has shaders in WGSL; make it with forceGLSL');
+  for (const material of list) {
     if (!material.anisotropy?.isEnabled || material.pluginManager?.getPlugin('BurnishAnisotropy'))
       continue;
     new Plugin(material);

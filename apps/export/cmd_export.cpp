@@ -28,9 +28,9 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(glsl, essl, hlsl, msl, wgsl: one file for an engine, without includes. Given equal fetches, glsl computes the same bits as burnish. The
-others do where the device divides and takes roots exactly. The file documents its arguments and the functions that the engine provides.
-essl is for OpenGL ES 3.00 and WebGL 2.
+    R"(glsl, essl, hlsl, msl, wgsl: one file for an engine, without includes. Given equal fetches, glsl and hlsl compute the same bits as burnish
+where the device divides and takes roots exactly; msl does too where the compiler keeps the order of sums. essl, for OpenGL ES 3.00 and
+WebGL 2, and wgsl are equal up to rounding. The file documents its arguments and the functions that the engine provides.
 
 three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too.
 
@@ -55,26 +55,32 @@ constexpr const char* kHeading = R"(// {0}: {1}
 // --samples was {3}.
 )";
 
-// A language: its name on the command line, its 3-vector, and the needs of the file.
+// A language: its name on the command line, the call, and the needs of the file.
 struct ExportLanguage {
     const char *name, *call, *needs;
+    int most_rows; // of a constant array, for the samples of a grid
 };
 constexpr ExportLanguage kLanguages[] = {
     {"glsl", "vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
      "You provide burnish_radiance(), below: fetches from your environment. Needs GLSL 4.20, ESSL 3.20 or later. `precise` keeps the bits\n"
-     "// equal to those of burnish; #define precise leaves it out for speed."},
+     "// equal to those of burnish; #define precise leaves it out for speed.",
+     1 << 18},
     {"essl", "vec3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
      "You provide burnish_radiance(), below: fetches from your environment. Needs ESSL 3.00, as in WebGL 2, or later, and floats and\n"
-     "// integers of 32 bits: `precision highp float; precision highp int;`."},
+     "// integers of 32 bits: `precision highp float; precision highp int;`.",
+     4096},
     {"hlsl", "float3 burnish_{0}_specular(burnish_settings f, burnish_shaded_point x)",
      "You provide burnish_radiance(), below: fetches from your environment. Needs shader model 5 or later. `precise` keeps the bits equal\n"
-     "// to those of burnish; #define precise leaves it out for speed."},
+     "// to those of burnish; #define precise leaves it out for speed.",
+     4096},
     {"msl", "float3 burnish_{0}_specular(thread const burnish_environment& burnish_env, burnish_settings f, burnish_shaded_point x)",
      "Above this file, include <metal_stdlib>, write `using namespace metal;`, and define struct burnish_environment with the fetch from\n"
      "// your environment: float4 radiance(int cube, float3 direction, float lod) const; with --ltc, float4 ltc_texel(int at) const too.\n"
-     "// Needs Metal 2.0 or later. The bits are those of burnish where the compiler keeps -fno-fast-math and -ffp-contract=off."},
+     "// Needs Metal 2.0 or later. The bits are those of burnish where the compiler keeps -fno-fast-math and -ffp-contract=off.",
+     4096},
     {"wgsl", "fn burnish_{0}_specular(f: burnish_settings, x: burnish_shaded_point) -> vec3<f32>",
-     "You provide burnish_radiance(), below: fetches from your environment. Names of overloaded functions end with their result's type."},
+     "You provide burnish_radiance(), below: fetches from your environment. Names of overloaded functions end with their result's type.",
+     2047},
 };
 
 constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
@@ -173,7 +179,7 @@ std::string language_text(const TechniqueInfo& technique, int samples, bool ltc,
     const std::string glsl = glsl_of_technique(technique, samples, ltc), name = language.name;
     const std::string heading = fmt::format(kHeading, technique.name, with_options(technique.summary), version(), samples,
                                             fmt::format(fmt::runtime(language.call), technique.name), language.needs);
-    return heading + (name == "glsl" ? glsl : shader_text(glsl, name));
+    return heading + "\n" + (name == "glsl" ? glsl : shader_text(glsl, name));
 }
 
 std::string replaced_all(std::string text, const std::string& old, const std::string& by)
@@ -246,8 +252,14 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
         return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
     const int samples = effective_samples(technique, asked);
     for (const ExportLanguage& language : kLanguages)
-        if (arguments.what == language.name)
+        if (arguments.what == language.name) {
+            const std::size_t rows = grid_samples(samples, technique.sampling, technique.traits).size() *
+                                     ((technique.traits & kPhongGrid) ? 4 : 1) / ((technique.traits & kPhongGrid) ? kPhongBlock : 1);
+            if (rows > static_cast<std::size_t>(language.most_rows))
+                return usage_error("--samples", fmt::format("{} holds a grid of at most {} values, {} has {}", language.name,
+                                                            language.most_rows, technique.name, rows));
             return language_text(technique, samples, arguments.ltc, language);
+        }
     const auto module =
         std::find_if(std::begin(kModules), std::end(kModules), [&](const ExportModule& m) { return arguments.what == m.name; });
     if (technique.traits & (kReadsBox + kSamplesLobe))

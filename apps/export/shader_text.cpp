@@ -42,12 +42,14 @@ const ReservedWords& reserved_words(ShaderLanguage language)
         "line",     "lineadj",     "linear",  "matrix",  "namespace", "pass",   "pixelshader",  "point",    "register", "row_major",
         "sample",   "sampler",     "shared",  "snorm",   "static",    "string", "technique",    "template", "texture",  "this",
         "triangle", "triangleadj", "typedef", "unorm",   "unsigned",  "vector", "vertexshader", "volatile"};
-    static const ReservedWords kMsl = {"and",      "auto",      "char",    "class",     "constant",    "default", "delete",   "device",
-                                       "enum",     "explicit",  "extern",  "fragment",  "friend",      "goto",    "half",     "inline",
-                                       "kernel",   "long",      "mutable", "namespace", "new",         "not",     "operator", "or",
-                                       "private",  "protected", "public",  "register",  "sampler",     "short",   "signed",   "sizeof",
-                                       "static",   "template",  "this",    "thread",    "threadgroup", "typedef", "typename", "union",
-                                       "unsigned", "using",     "vertex",  "virtual",   "volatile",    "xor"};
+    static const ReservedWords kMsl = {"asm",       "bitand",  "bitor",     "catch",       "compl",   "constexpr", "nullptr", "rint",
+                                       "size_t",    "throw",   "try",       "typeid",      "uchar",   "ushort",    "wchar_t", "and",
+                                       "auto",      "char",    "class",     "constant",    "default", "delete",    "device",  "enum",
+                                       "explicit",  "extern",  "fragment",  "friend",      "goto",    "half",      "inline",  "kernel",
+                                       "long",      "mutable", "namespace", "new",         "not",     "operator",  "or",      "private",
+                                       "protected", "public",  "register",  "sampler",     "short",   "signed",    "sizeof",  "static",
+                                       "template",  "this",    "thread",    "threadgroup", "typedef", "typename",  "union",   "unsigned",
+                                       "using",     "vertex",  "virtual",   "volatile",    "xor"};
     static const ReservedWords kWgsl = {
         "abstract",   "active",    "alias",    "as",        "async",    "attribute", "auto",     "become",  "cast",       "catch",
         "class",      "coherent",  "common",   "compile",   "concept",  "crate",     "debugger", "default", "delete",     "demote",
@@ -159,11 +161,18 @@ class ShaderPrinter {
         return overloaded ? item.text + "_" + (is_vector(item.type) ? item.type : word(item.type)) : item.text;
     }
 
+    // Returns an argument. WGSL may take two comparisons for a list of types.
+    std::string argument(const Expression& e)
+    {
+        const bool compares = e.kind == Expression::Kind::binary && (e.text[0] == '<' || e.text[0] == '>');
+        return wgsl() && compares ? "(" + print(e) + ")" : print(e);
+    }
+
     std::string list(const std::vector<Expression>& expressions)
     {
         std::string text;
         for (const Expression& e : expressions)
-            text += (text.empty() ? "" : ", ") + print(e);
+            text += (text.empty() ? "" : ", ") + argument(e);
         return text;
     }
 
@@ -195,7 +204,7 @@ class ShaderPrinter {
         const Item& function = tree_.items[static_cast<std::size_t>(e.function)];
         std::string arguments = msl() && fetching_.count(e.function) ? "burnish_env" : "";
         for (std::size_t i = 0; i < e.of.size(); ++i)
-            arguments += (arguments.empty() ? "" : ", ") + (wgsl() && function.variables[i].inout ? reference(e.of[i]) : print(e.of[i]));
+            arguments += (arguments.empty() ? "" : ", ") + (wgsl() && function.variables[i].inout ? reference(e.of[i]) : argument(e.of[i]));
         return fmt::format("{}({})", function_name(e.function), arguments);
     }
 
@@ -267,7 +276,7 @@ class ShaderPrinter {
         out_ += std::string(4 * depth_, ' ') + text + (beside.empty() ? "" : " " + beside) + "\n";
     }
 
-    // Writes the line with its copies of members around it. End them by make_value() where the line leaves the function.
+    // Writes the line with its copies of members around it.
     void surrounded(const std::string& text, const std::string& beside)
     {
         for (const std::string& copy : std::exchange(before_, {}))
@@ -317,6 +326,7 @@ class ShaderPrinter {
         }
         case Statement::Kind::branch:
             line(fmt::format("if ({}) {{", print(s.expressions[0])), s.beside);
+            BN_CHECK(before_.empty()); // a copy would stand in the body
             print_body(s.body);
             if (!s.otherwise.empty())
                 line("} else {"), print_body(s.otherwise);
@@ -326,6 +336,7 @@ class ShaderPrinter {
             line(fmt::format("for ({}{} = {}; {}; {}++) {{", wgsl() ? "var " : "", declared(counter, false), print(counter.value[0]),
                              print(s.expressions[0]), own(counter.name)),
                  s.beside);
+            BN_CHECK(before_.empty());
             print_body(s.body);
             return line("}");
         }

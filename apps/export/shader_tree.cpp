@@ -1,6 +1,7 @@
 #include "apps/export/shader_tree.h"
 
 #include <cctype>
+#include <charconv>
 #include <fmt/core.h>
 
 #include "core/base/check.h"
@@ -196,13 +197,26 @@ class ShaderParser {
         tree_.structures[item.text] = static_cast<int>(tree_.items.size());
     }
 
+    // Reads a number of elements.
+    int size_of_array()
+    {
+        constexpr int kMostElements = 1 << 18;
+        const ShaderToken token = next();
+        int size = 0;
+        const char* const end = token.text.data() + token.text.size();
+        if (const auto read = std::from_chars(token.text.data(), end, size);
+            read.ec != std::errc() || read.ptr != end || size < 1 || size > kMostElements)
+            not_understood(token.text, "a number of elements", token.line);
+        return size;
+    }
+
     // Reads a name with the size of an array, if any.
     ShaderVariable variable_of(const std::string& type)
     {
         ShaderVariable variable;
         variable.type = type, variable.name = next().text;
         if (skip("[")) {
-            variable.count = std::stoi(next().text);
+            variable.count = size_of_array();
             variable.type += "[]";
             expect("]");
         }
@@ -448,7 +462,7 @@ class ShaderParser {
         }
         int count = 0;
         if (is("[") && shader_vector_size(e.text) > 0) { // an array's elements
-            next(), count = std::stoi(next().text), expect("]");
+            next(), count = size_of_array(), expect("]");
             e.text += "[]";
         }
         if (!is("(")) {

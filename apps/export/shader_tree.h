@@ -1,5 +1,5 @@
 // The tree of an exported shader: declarations, statements and typed expressions, read from the GLSL that glsl_of() returns.
-// Covers the subset of GLSL that the kernel language uses (shading/lang/lang.h): no matrices, textures, qualifiers or while loops.
+// Covers the subset of GLSL that the kernel language uses (shading/lang/lang.h): no matrices, textures or while loops.
 #pragma once
 #include <map>
 #include <string>
@@ -55,10 +55,10 @@ struct ShaderTree {
     std::map<std::string, int> structures;
 };
 
-// Returns the tree of a text of glsl_of(). Ends the program at words outside the subset: the text is our own.
+// Returns the tree of a text of glsl_of(). Throws CheckFailed at words outside the subset.
 ShaderTree shader_tree_of(const std::string& glsl);
 
-// Returns the types of the values that a built-in vector holds: 0 for scalars and structs.
+// Returns the number of components of a built-in vector, 0 for other types.
 int shader_vector_size(const std::string& type);
 
 } // namespace burnish

@@ -1,12 +1,11 @@
-// The source of `burnish export glsl`: all techniques, with a stage (shading/lang/stage.h) that has no buffers, only user-supplied
+// The source of `burnish export`: all techniques, with a stage (shading/lang/stage.h) that has no buffers, only user-supplied
 // fetches. The C preprocessor flattens this file at build time, and apps/export keeps the parts of one technique.
 #define BN_FRAME_H
 #define BN_STAGE_GLSL
 #define BN_CUBE_FILTER_K_H
 #define BN_OWN_TEXELS
 
-// You provide this function: a texel of the texture ltc of `burnish bake environment --textures`, without filtering, such as
-// texelFetch(ltc, ivec2(at % 192, at / 192), 0).
+// You provide this function: texel (at % 192, at / 192) of the texture ltc of `burnish bake environment --textures`, without filtering.
 vec4 ltc_texel(int at);
 
 vec4 bn_texel(int texels, int at)
@@ -181,7 +180,8 @@ aniso_lobe lobe_of_widths(vec3 n, vec3 tangent, float roughness, float anisotrop
 }
 
 // Returns the place of a lobe's directional albedo in the texture lobe_albedo of `burnish bake environment --textures`. xy: coordinates of
-// a bilinear fetch; z, w: weights of the tiles to the right and below, 0.1 further. With t() for the fetch, the argument dfg of point_of() is
+// a bilinear fetch; z, w: weights of the tiles to the right and below, 0.1 further. With t() for the fetch, the argument dfg of point_of()
+// is
 //     mix(mix(t(x, y), t(x + 0.1, y), z), mix(t(x, y + 0.1), t(x + 0.1, y + 0.1), z), w)
 vec4 albedo_place(vec3 n, vec3 v, vec3 tangent, float roughness, float anisotropy)
 {
@@ -194,8 +194,8 @@ vec4 albedo_place(vec3 n, vec3 v, vec3 tangent, float roughness, float anisotrop
 // Makes the point that a technique shades. f: the settings. n: shading normal; v: direction to the eye; tangent: the grain,
 // perpendicular to n; all unit, world space. f0, f90: reflectance at normal and at grazing incidence. roughness: perceptual,
 // alpha = roughness^2. anisotropy: in [-1,1], lobe widths are alpha (1 + anisotropy) along the grain and alpha (1 - anisotropy)
-// across. dfg: directional albedo of the lobe as f0 x + f90 y, by albedo_place() or, for round lobes, dfg_fit(). pixel: y * width + x, seed of
-// random numbers. For lobe_line_shared(), set normal_dx and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels
+// across. dfg: directional albedo of the lobe as f0 x + f90 y, by albedo_place() or, for round lobes, dfg_fit(). pixel: y * width + x, seed
+// of random numbers. For lobe_line_shared(), set normal_dx and normal_dy of the point to dFdx(n) and dFdy(n). With 0, all pixels
 // around count as alike.
 shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f90, float roughness, float anisotropy, vec2 dfg, int pixel)
 {

@@ -3,11 +3,11 @@
 //     import { improveAnisotropy } from './burnish_three.js';
 //     improveAnisotropy(scene);
 //
-// Takes a material, an array of materials, or an object with all below it. Returns the number of materials changed; call it before the
-// first frame, and again for what you load later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
+// Takes a material, an object with all below it, or an array of these. Returns the number of materials changed; call it before the first
+// frame, and again for what you load or clone later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
 // area lights need RectAreaLightUniformsLib, as ever. Leaves materials without anisotropy alone. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
-// Works with WebGLRenderer. Throws where the shaders of your three.js version are not known.
+// Works with WebGLRenderer, from release 162 on. Throws where the shaders of your version are not known.
 import { ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
@@ -97,15 +97,32 @@ void burnish_rect_area(const in RectAreaLight light, const in vec3 position, con
 #endif
 `;
 
-function replaced(text, old, by, chunk) {
+function replaced(text, old, by, place) {
   if (!text.includes(old))
-    throw new Error(`burnish: three.js' chunk ${chunk} holds no '${old}'`);
+    throw new Error(`burnish: ${place} of three.js holds no '${old}': an unknown version, or changed by other code`);
   return text.replace(old, by);
+}
+
+// Throws at once where a frame would fail later.
+function checkVersion() {
+  for (const [chunk, word] of [['envmap_common_pars_fragment', 'envMapRotation'], ['lights_physical_pars_fragment', 'alphaT'],
+                               ['lights_physical_pars_fragment', 'RE_Direct_RectArea_Physical']])
+    replaced(ShaderChunk[chunk] ?? '', word, word, chunk);
+  patchedVertex('#include <normal_vertex>');
+  patchedFragment('#include <lights_fragment_maps> #include <lights_physical_fragment> #include <lights_physical_pars_fragment>', true);
 }
 
 // A bitangent turns over with a mirroring node, and has the sign that glTF gives it.
 function patchedVertex(text) {
-  const chunk = replaced(ShaderChunk.normal_vertex, '* tangent.w', '* (determinant(mat3(modelViewMatrix)) < 0.0 ? -tangent.w : tangent.w)', 'normal_vertex');
+  const chunk = replaced(ShaderChunk.normal_vertex, 'vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );', `
+		float burnish_turn = determinant( mat3( modelViewMatrix ) );
+		#ifdef USE_INSTANCING
+			burnish_turn *= determinant( mat3( instanceMatrix ) );
+		#endif
+		#ifdef USE_BATCHING
+			burnish_turn *= determinant( mat3( batchingMatrix ) );
+		#endif
+		vBitangent = normalize( cross( vNormal, vTangent ) * ( burnish_turn < 0.0 ? - tangent.w : tangent.w ) );`, 'normal_vertex');
   return replaced(text, '#include <normal_vertex>', chunk, 'meshphysical_vert');
 }
 
@@ -144,18 +161,21 @@ function change(material, glTF) {
     shader.fragmentShader = patchedFragment(shader.fragmentShader, glTF);
   };
   material.customProgramCacheKey = function () {
-    return `${key.call(this)} burnish @TECHNIQUE@ @SAMPLES@ ${glTF}`;
+    return `${before} ${key.call(this)} burnish @TECHNIQUE@ @SAMPLES@ ${glTF}`;
   };
   material.needsUpdate = true;
   return 1;
 }
 
 export function improveAnisotropy(target, { glTF = true } = {}) {
+  checkVersion();
   let count = 0;
   const each = material => count += change(material, glTF);
-  if (target.isObject3D)
-    target.traverse(object => [object.material ?? []].flat().forEach(each));
-  else
-    [target].flat().forEach(each);
+  for (const one of [target].flat()) {
+    if (one.isObject3D)
+      one.traverse(object => [object.material ?? []].flat().forEach(each));
+    else
+      each(one);
+  }
   return count;
 }

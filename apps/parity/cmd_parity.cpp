@@ -38,7 +38,8 @@ Examples:
   burnish parity --pipeline forward --sampler native --msaa 4
   burnish parity builtin:teapot --technique major_axis --glsl edited.glsl
 
---glsl compares an engine's copy of a technique: the device runs the file's functions, the tile renderer its own.
+--glsl compares an engine's copy of a technique: the device runs the file's functions, the tile renderer its own. Settings, points and fetches
+stay the program's.
 
 Exit codes: 0 as promised, 1 not as promised, 77 no such device, sample count or Vulkan. Another failure of a row ends with its own code.)";
 
@@ -214,7 +215,7 @@ int run_parity(const ParityArguments& arguments, const OptionTable& given)
     VulkanOptions vulkan = device_options(options);
     std::unique_ptr<EditedStage> edited;
     if (!options.glsl.empty()) {
-        Result<std::unique_ptr<EditedStage>> made = EditedStage::make(options.glsl, base.frame.technique);
+        Result<std::unique_ptr<EditedStage>> made = EditedStage::make(options.glsl, *find_technique(base.frame.technique));
         if (!made)
             return fail(made.error());
         edited = std::move(*made), vulkan.shader_folder = edited->folder();

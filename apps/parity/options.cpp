@@ -184,6 +184,8 @@ Result<ParityOptions> check_parity_options(const ParityArguments& in, const Opti
     if (!in.glsl.empty()) {
         if (in.techniques.size() != 1 || !given.given("--technique"))
             return usage_error("--glsl", "takes the place of one technique: give --technique NAME");
+        if (!find_technique(in.techniques.front()) || in.techniques.front() == "auto")
+            return usage_error("--glsl", "takes the place of one technique; auto is none");
         if (given.given("--shaders") || in.render.plain.vulkan.pipeline == VulkanPipeline::forward)
             return usage_error("--glsl", "cannot be used with --shaders or --pipeline forward");
     }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "core/base/file.h"
+#include "raster/vulkan/stage_files.h"
 #include "raster/vulkan/vulkan_renderer.h"
 
 namespace burnish {
@@ -41,13 +41,12 @@ std::vector<std::uint32_t> words_of(const void* bytes, std::size_t size)
 
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder, const std::vector<EmbeddedShader>& more)
 {
-    const std::string path = folder + "/" + name + ".spv";
-    std::error_code unreadable;
-    if (folder.empty() || (!std::filesystem::exists(path, unreadable) && !unreadable)) {
+    if (folder.empty()) {
         if (const EmbeddedFile* const file = embedded(name, more))
             return words_of(file->bytes, file->size);
         return Error{ExitCode::internal, "", "", "no shader '" + name + "' in the program"};
     }
+    const std::string path = folder + "/" + name + ".spv";
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, 16u << 20);
     BN_TRY(bytes);
     constexpr std::uint32_t kSpirvMagic = 0x07230203;
@@ -55,6 +54,13 @@ Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const s
     if (words.size() < 5 || words[0] != kSpirvMagic || bytes->size() % sizeof(std::uint32_t))
         return Error{ExitCode::bad_input, path, "", "is no SPIR-V"};
     return words;
+}
+
+Status write_stages(const std::string& folder)
+{
+    for (const EmbeddedShader& stage : kEmbedded)
+        BN_TRY(write_file_atomic(folder + "/" + stage.name + ".spv", stage.file->bytes, stage.file->size));
+    return {};
 }
 
 Result<std::string> shade_stage_source()

@@ -21,7 +21,7 @@ struct EmbeddedShader {
     const EmbeddedFile* file;
 };
 
-// Returns a stage's words. name: as in stages.txt, or of `more`. folder: its NAME.spv, if it is there, replaces the built-in stage.
+// Returns a stage's words. name: as in stages.txt, or of `more`. folder: empty for built-in stages.
 Result<std::vector<std::uint32_t>> shader_words(const std::string& name, const std::string& folder,
                                                 const std::vector<EmbeddedShader>& more = {});
 

@@ -1,4 +1,5 @@
 // Replaces the Vulkan renderer in a build without Vulkan.
+#include "raster/vulkan/stage_files.h"
 #include "raster/vulkan/vulkan_renderer.h"
 
 namespace burnish {
@@ -19,6 +20,11 @@ Error not_built()
     return {ExitCode::unavailable, "", "", "this program was built without Vulkan, which needs libvulkan and glslc"};
 }
 } // namespace
+
+Status write_stages(const std::string&)
+{
+    return not_built();
+}
 
 Result<std::string> shade_stage_source()
 {

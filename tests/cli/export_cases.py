@@ -131,11 +131,19 @@ def unusable(bench):
     compiler()
     text = exported(bench, "major_axis")
     broken = text.replace("    return ", "    retrun ", 1)
+    shared = exported(bench, "lobe_line").replace("burnish_lobe_line_shared(", "burnish_other(")
     line = broken[:broken.index("    retrun ")].count("\n") + 1
     for content, words, code, needle in ((text, ("--technique", "lobe_line"), 4, "burnish_lobe_line_specular"), (text, (), 2, "--technique"),
                                          (text, ("--technique", "major_axis,mc"), 2, "one technique"),
                                          (text, ("--technique", "major_axis", "--pipeline", "forward"), 2, "--pipeline"),
                                          (broken, ("--technique", "major_axis"), 4, f"line {line}:"),
+                                         (text, ("--technique", "auto"), 2, "auto"),
+                                         (text.replace("burnish_major_axis_specular(", "burnish_other("), ("--technique", "major_axis"), 4, "burnish_major_axis_specular"),
+                                         (text.replace("struct burnish_settings {", "struct burnish_settings { burnish_settings x;"), ("--technique", "major_axis"), 4, "holds itself"),
+                                         (text.replace("struct burnish_settings {", "struct burnish_settings {\n float a[N];"), ("--technique", "major_axis"), 4, "number of elements"),
+                                         (text.replace("struct burnish_settings {", "struct burnish_settings { // }" + "x" * 1000000 + "\n float a[9999999999];"), ("--technique", "major_axis"), 4, "number of elements"),
+                                         ("burnish_major_axis_specular" + " " * 1000000 + "(", ("--technique", "major_axis"), 4, "burnish_settings"),
+                                         (shared, ("--technique", "lobe_line"), 4, "burnish_lobe_line_shared"),
                                          (text.replace("struct burnish_settings", "struct burnish_other"), ("--technique", "major_axis"), 4, "burnish_settings"),
                                          (text.replace("precise vec3 n; // shading", "precise vec3 m; // shading"), ("--technique", "major_axis"), 4, "edited.glsl")):
         (bench.folder / "edited.glsl").write_text(content)
@@ -152,6 +160,9 @@ def wrong(bench):
                                 (("glsl", "--technique", "auto", "-o", "a.glsl"), 2, "auto"), (("cg", "--technique", "mc", "-o", "a"), 2, "glsl"), (("three", "--technique", "mc", "-o", "a"), 2, "prefiltered"),
                                 (("babylon", "--technique", "filtered_is", "-o", "a"), 2, "prefiltered"),
                                 (("glsl", "--technique", "major_axis", "--samples", "65", "-o", "a.glsl"), 2, "64"),
+                                (("wgsl", "--technique", "filtered_is", "--samples", "4096", "-o", "a.wgsl"), 2, "2047"),
+                                (("hlsl", "--technique", "as_mc", "--samples", "1025", "-o", "a.hlsl"), 2, "4096"),
+                                (("babylon", "--ltc", "--technique", "lobe_line", "-o", "a.js"), 2, "--ltc"),
                                 (("glsl", "--technique", "mc", "-o", "no/a.glsl"), 7, "no/a.glsl")):
         bench.run("export", *words).expect(code).expect_one_line(needle)
     check(bench.left_behind() == [], f"left {bench.left_behind()}")

@@ -14,7 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 THREE = """
 export const ShaderChunk = {
   normal_vertex: 'vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );',
-  lights_physical_pars_fragment: 'struct PhysicalMaterial { vec3 specularColor; vec2 dfg; };',
+  envmap_common_pars_fragment: 'uniform mat3 envMapRotation;',
+  lights_physical_pars_fragment: 'struct PhysicalMaterial { vec3 specularColor; vec2 dfg; float alphaT; }; void RE_Direct_RectArea_Physical() {}',
   lights_physical_fragment: 'vec2 anisotropyV = anisotropyMat * normalize( d );\\nmaterial.anisotropy = length( anisotropyV );',
   lights_fragment_maps: 'radiance += getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );',
 };
@@ -24,6 +25,7 @@ export const ClampToEdgeWrapping = 1, HalfFloatType = 2, LinearFilter = 3, Neare
 USE_THREE = """
 import { ShaderChunk } from 'three';
 import { improveAnisotropy } from './burnish_three.mjs';
+const keyOf = function () { return this.onBeforeCompile.toString(); }; // three.js' own
 const made = (anisotropy, more) => ({ isMeshPhysicalMaterial: true, anisotropy, onBeforeCompile(shader) { shader.first = true; }, customProgramCacheKey: () => 'own', ...more });
 const brushed = made(0.8), plain = made(0), other = made(0.5, { isMeshPhysicalMaterial: false });
 const objects = [brushed, [plain, brushed], other].map(material => ({ material }));
@@ -31,12 +33,18 @@ const counts = [improveAnisotropy({ isObject3D: true, traverse: visit => objects
 const shader = { uniforms: {}, vertexShader: '#include <normal_vertex>',
   fragmentShader: '#include <lights_physical_pars_fragment>\\n#include <lights_physical_fragment>\\n#include <lights_fragment_maps>' };
 brushed.onBeforeCompile(shader);
-const left = made(1), flat = { uniforms: {}, vertexShader: shader.vertexShader, fragmentShader: '' };
+const twins = ['one', 'two'].map(text => made(1, { onBeforeCompile: new Function('shader', `shader.name = '${text}'`), customProgramCacheKey: keyOf }));
+improveAnisotropy([{ isObject3D: true, traverse: visit => twins.forEach(material => visit({ material })) }]);
+const apart = twins[0].customProgramCacheKey() !== twins[1].customProgramCacheKey();
+const left = made(1), flat = { uniforms: {}, vertexShader: '#include <normal_vertex>', fragmentShader: '' };
 improveAnisotropy(left);
 let fault = '';
 try { left.onBeforeCompile(flat); } catch (error) { fault = error.message; }
 const { data, width, height } = shader.uniforms.burnish_ltc.value, albedo = shader.uniforms.burnish_lobe_albedo.value;
-console.log(JSON.stringify({ counts, fault, first: shader.first, key: brushed.customProgramCacheKey(), plain: plain.customProgramCacheKey(), vertex: shader.vertexShader,
+ShaderChunk.envmap_common_pars_fragment = '';
+let old = '';
+try { improveAnisotropy(made(1)); } catch (error) { old = error.message; }
+console.log(JSON.stringify({ counts, fault, old, apart, first: shader.first, key: brushed.customProgramCacheKey(), plain: plain.customProgramCacheKey(), vertex: shader.vertexShader,
   fragment: shader.fragmentShader, ltc: [data.length, width, height], albedo: [albedo.data.length, albedo.width, albedo.height] }));
 """
 USE_BABYLON = """
@@ -49,12 +57,14 @@ const BABYLON = { MaterialPluginBase, RawTexture, Constants: {} }, scene = {};
 const made = isEnabled => ({ anisotropy: { isEnabled }, getScene: () => scene });
 const brushed = made(true), plain = made(false), other = {};
 const counts = [improveAnisotropy(BABYLON, [brushed, plain, other]), improveAnisotropy(BABYLON, brushed), improveAnisotropy(BABYLON, made(true), { glTF: false })];
+let wgsl = '';
+try { improveAnisotropy(BABYLON, [{ ...made(true), shaderLanguage: 1 }]); } catch (error) { wgsl = error.message; }
 const plugin = brushed.pluginManager.getPlugin('BurnishAnisotropy'), names = [], bound = {};
 plugin.getSamplers(names);
 plugin.bindForSubMesh({ setTexture: (name, texture) => bound[name] = [texture.data.length, texture.width] });
 const found = Object.keys(plugin.code).filter(key => key[0] === '!').map(key => new RegExp(key.slice(1)).test(
   'anisotropicOut=anisotropicBlock(\\nvAnisotropy,\\n#ifdef ANISOTROPIC_TEXTURE\\nmap,\\n#endif\\nviewDirectionW\\n);\\nvec3 finalRadiance=reflectionOut.environmentRadiance.rgb;'));
-console.log(JSON.stringify({ counts, names, bound, found, vertex: plugin.getCustomCode('vertex'), definitions: plugin.code.CUSTOM_FRAGMENT_DEFINITIONS }));
+console.log(JSON.stringify({ counts, names, bound, found, wgsl, vertex: plugin.getCustomCode('vertex'), definitions: plugin.code.CUSTOM_FRAGMENT_DEFINITIONS }));
 """
 
 
@@ -76,12 +86,13 @@ def three(bench):
     (package / "index.js").write_text(THREE)
     seen = node(bench, USE_THREE)
     check(seen["counts"] == [1, 0, 2], f"{seen['counts']} materials changed")
-    check(seen["first"] and seen["key"] == "own burnish lobe_line 64 true" and seen["plain"] == "own", f"the material's own functions: {seen['key']}")
+    check(seen["first"] and seen["key"].endswith(" own burnish lobe_line 64 true") and seen["plain"] == "own", f"the material's own functions: {seen['key']}")
     check("determinant" in seen["vertex"], "bitangents do not turn over")
     for word in ("burnish_image_light( geometryViewDir", "burnish_lobe_line_specular(f, x)", "anisotropyV.y = - anisotropyV.y", "burnish_quad_light(", "burnish_kept = mix"):
         check(word in seen["fragment"], f"the shader lacks {word}")
     check("@" not in seen["fragment"] and "SPECULAR" not in seen["fragment"] and "`" not in seen["fragment"], "a place is left open")
-    check("three.js" in seen["fault"], f"an unknown version says '{seen['fault']}'")
+    check("meshphysical_frag" in seen["fault"] and "envMapRotation" in seen["old"], f"unknown versions say '{seen['fault']}' and '{seen['old']}'")
+    check(seen["apart"], "two materials with different code of their own share a program")
     check(seen["ltc"] == [4 * 192 * 88, 192, 88] and seen["albedo"] == [2 * 200 * 200, 200, 200], f"{seen['ltc']} {seen['albedo']}")
 
 
@@ -92,6 +103,7 @@ def babylon(bench):
     check(seen["counts"] == [1, 0, 1], f"{seen['counts']} materials changed")
     check(seen["names"] == ["burnish_lobe_albedo"] and seen["bound"] == {"burnish_lobe_albedo": [80000, 200]}, f"{seen['bound']}")
     check(seen["found"] == [True, True] and seen["vertex"] is None, f"places in the engine's shader: {seen['found']}")
+    check("forceGLSL" in seen["wgsl"], f"a material in WGSL says '{seen['wgsl']}'")
     check("burnish_major_axis_specular(f, x)" in seen["definitions"] and "@" not in seen["definitions"], "a place is left open")
     check("//" not in seen["definitions"].split("const int burnish_levels")[0], "a comment, whose semicolons the engine takes for ends of statements")
 
