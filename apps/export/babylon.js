@@ -4,9 +4,9 @@
 //     improveAnisotropy(BABYLON, scene.materials);
 //
 // Takes the namespace with MaterialPluginBase, RawTexture and Constants, and a material or an array of materials. Returns the number of
-// materials changed; call it before the first frame, and again for what you load later. Reads the prefiltered cube that Babylon.js keeps
-// (scene.environmentTexture), and leaves materials without anisotropy alone. Call it again for what you clone. Works with shaders in GLSL:
-// in WebGL 2, and in WebGPU for materials made with forceGLSL. Options:
+// materials changed; call it before the first frame, and again for what you load or clone later. Reads the prefiltered cube that Babylon.js
+// keeps (scene.environmentTexture), and leaves materials without anisotropy alone. Works with shaders in GLSL, as in WebGL 2. Throws for
+// materials in WGSL. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
@@ -139,7 +139,7 @@ export function improveAnisotropy(BABYLON, materials, { glTF = true } = {}) {
   let count = 0;
   const list = [materials].flat();
   if (list.some(material => material.anisotropy?.isEnabled && material.shaderLanguage))
-    throw new Error('burnish: a material has shaders in WGSL; make it with forceGLSL');
+    throw new Error('burnish: a material has shaders in WGSL, and this module is in GLSL (forceGLSL makes such materials)');
   for (const material of list) {
     if (!material.anisotropy?.isEnabled || material.pluginManager?.getPlugin('BurnishAnisotropy'))
       continue;

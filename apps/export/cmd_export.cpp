@@ -28,9 +28,9 @@ namespace burnish {
 namespace {
 
 constexpr const char* kFooter =
-    R"(glsl, essl, hlsl, msl, wgsl: one file for an engine, without includes. Given equal fetches, glsl and hlsl compute the same bits as burnish
-where the device divides and takes roots exactly; msl does too where the compiler keeps the order of sums. essl, for OpenGL ES 3.00 and
-WebGL 2, and wgsl are equal up to rounding. The file documents its arguments and the functions that the engine provides.
+    R"(glsl, essl, hlsl, msl, wgsl: one file for an engine, without includes. Given equal fetches, glsl and hlsl compute burnish's bits where the
+device divides and takes roots exactly. msl does too, if the compiler keeps the order of sums. essl, for OpenGL ES 3.00 and WebGL 2, and wgsl
+are equal up to rounding. The file documents its arguments and the functions that the engine provides.
 
 three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too.
 

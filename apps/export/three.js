@@ -7,7 +7,7 @@
 // frame, and again for what you load or clone later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
 // area lights need RectAreaLightUniformsLib, as ever. Leaves materials without anisotropy alone. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
-// Works with WebGLRenderer, from release 162 on. Throws where the shaders of your version are not known.
+// Works with WebGLRenderer; tried with releases 170 and 187. Throws where the shaders of your version are not known.
 import { ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
