@@ -27,6 +27,8 @@ vec4 bn_texel(int texels, int at)
 #define the_frame(f) f
 #define the_material(m) materials[m]
 #define lobe_used(at) true
+#define film_used() false
+#define any_material int
 
 // Settings of a technique, common to all shading points. specular, box, whole: size (texels along a face's side) and level count of the
 // environment maps; scale: factor for fetched values, usually 1. samples, grid_count: sample counts. lobe: the model;

@@ -145,8 +145,8 @@ std::vector<std::string> mip_filter_names()
 std::vector<Option> material_rows(MaterialOverrides& to, MipSettings& mips)
 {
     return {
-        {"--material", "FOLDER",
-         "Folder of pictures for all materials, told apart by the ends of their names: x_basecolor.png, normal.exr, ...",
+        {"--material", "PATH",
+         "MaterialX file (.mtlx), or folder of pictures for all materials, told apart by the ends of their names: x_basecolor.png, ...",
          folder(to.material)},
         {"--normal-map", "FILE", "Normal map of all materials", file(to.normal)},
         {"--quaternion-map", "FILE", "Normal map of all materials as quaternions, from burnish bake quaternion", file(to.quaternion)},

@@ -300,6 +300,13 @@ void put_f0(Material& m, const glm::vec3& f0)
 
 } // namespace
 
+bool MaterialOverrides::material_is_document() const
+{
+    std::string ending = fs::path(material).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".mtlx";
+}
+
 bool MaterialOverrides::names(const std::string& path) const
 {
     return !path.empty() && (path == direction || path == rotation || path == normal || path == quaternion || path == height ||
@@ -312,10 +319,11 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
         return Error{ExitCode::usage, "", "",
                      fmt::format("{} and {} are both for the directions of the material", with.direction, with.rotation),
                      "MaterialOverrides::rotation"};
-    if (with.material.empty() || !with.rotation.empty() || !with.direction.empty()) // else the folder says it
+    if (with.material.empty() || with.material_is_document() || !with.rotation.empty() ||
+        !with.direction.empty()) // else the folder says it
         BN_TRY(check_strokes(with));
     MapWriter on(scene, limits);
-    if (!with.material.empty())
+    if (!with.material.empty() && !with.material_is_document())
         if (Status put = put_material(on, scene, with, limits); !put)
             return put;
     if (Status put = put_maps(on, with); !put)

@@ -13,7 +13,7 @@
 namespace burnish {
 
 struct MaterialOverrides {  // empty: left as it is
-    std::string material;   // folder of pictures, whose names end in what they are: see apps/manual/materials.md
+    std::string material;   // MaterialX file, or folder of pictures, whose names end in what they are: see apps/manual/materials.md
     std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
     std::string rotation;   // the same in another encoding
     std::string normal;     // normal map
@@ -27,11 +27,13 @@ struct MaterialOverrides {  // empty: left as it is
     std::optional<glm::vec3> f0;           // reflectance at normal incidence of all materials, which are dielectrics then
 
     bool names(const std::string& path) const; // one of its pictures
+    bool material_is_document() const;         // a MaterialX file, for apply_mtlx()
 };
 
 // Pictures lie in the first set of texture coordinates, on every material that something with coordinates wears. Errors: what is no picture
 // of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part, or
 // grooves where no map holds strokes: RotationEncoding::direction is that of highlights.
+// Leaves a MaterialX file to apply_mtlx(), which goes first.
 Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits);
 
 } // namespace burnish

@@ -70,6 +70,7 @@ MaterialRecord material_record(const Material& m)
     r.relief = m.heights;
 #define BN_COATING(id, at, strength, lobe) r.coatings |= above_zero(m.strength) && !m.unlit ? 1 << at : 0;
 #include "shading/coatings.def"
+    r.film = m.iridescence > 0.0f && !m.unlit;
     r.conductor = m.conductor_eta != glm::vec3(0.0f) || m.conductor_k != glm::vec3(0.0f);
     return r;
 }

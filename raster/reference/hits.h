@@ -272,7 +272,20 @@ BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresn
     r.dielectric_f90 = select(m, a.dielectric_f90, b.dielectric_f90), r.ior = select(m, a.ior, b.ior);
     r.eta = select(m, a.eta, b.eta), r.k = select(m, a.k, b.k);
     r.rest_f0 = select(m, a.rest_f0, b.rest_f0), r.rest_f90 = select(m, a.rest_f90, b.rest_f90);
+    r.film = select(m, a.film, b.film), r.film_thickness = select(m, a.film_thickness, b.film_thickness);
+    r.film_ior = select(m, a.film_ior, b.film_ior);
+    r.metal = select(m, a.metal, b.metal), r.metal_f0 = select(m, a.metal_f0, b.metal_f0);
     return r;
+}
+
+// Returns the parts of a surface for lanes beside others whose parts reflect otherwise.
+BN_INLINE fresnel_parts parts_beside(const surface& s)
+{
+    if (s.exact)
+        return s.parts;
+    const real none = lit(0.0), one = lit(1.0);
+    const real3 black = vec3_all(none), white = vec3_all(one);
+    return {none, none, black, none, one, white, black, s.f0, s.f90, none, none, one, none, black};
 }
 
 // Selects coatings. Lanes of a surface without the coating have a share of 0.
@@ -299,8 +312,9 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
     r.x.s.diffuse = select(m, s.diffuse, t.diffuse);
     r.x.s.f0 = select(m, s.f0, t.f0), r.x.s.f90 = select(m, s.f90, t.f90);
     r.x.s.roughness = select(m, s.roughness, t.roughness), r.x.s.occlusion = select(m, s.occlusion, t.occlusion);
-    if (s.exact)
-        r.x.s.parts = select_parts(m, s.parts, t.parts);
+    r.x.s.exact = std::max(s.exact, t.exact);
+    if (r.x.s.exact)
+        r.x.s.parts = select_parts(m, parts_beside(s), parts_beside(t));
     const aniso_lobe &k = a.x.lobe, &l = b.x.lobe;
     r.x.lobe.u_axis = select(m, k.u_axis, l.u_axis), r.x.lobe.v_axis = select(m, k.v_axis, l.v_axis);
     r.x.lobe.sigma_u = select(m, k.sigma_u, l.sigma_u), r.x.lobe.sigma_v = select(m, k.sigma_v, l.sigma_v);

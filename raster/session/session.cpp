@@ -10,6 +10,7 @@
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
 #include "core/scene/heights.h"
+#include "core/scene/mtlx/mtlx.h"
 #include "core/scene/origin.h"
 #include "raster/frame/mip_files.h"
 #include "raster/frame/pyramids.h"
@@ -204,6 +205,8 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
         std::optional<Activity> activity("reading " + spec);
         Result<Scene> scene = load_scene(spec, limits, moment);
         BN_TRY(scene);
+        if (overrides.material_is_document())
+            BN_TRY(apply_mtlx(*scene, overrides.material, limits));
         BN_TRY(apply_material_overrides(*scene, overrides, limits));
         for (AreaLight light : lights) {
             BN_TRY(read_area_texture(*scene, light, limits));

@@ -269,12 +269,13 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // the frame compares it with the default lobe
         lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
-    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuTransmits && kGpuFirstCoating + kCoatings < 32);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuTransmits && kGpuFirstCoating + kCoatings <= kGpuFilms);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials) {
         techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
         lobes |= m.refracts ? 1 << kGpuTransmits : 0;
+        lobes |= m.film ? 1 << kGpuFilms : 0;
         // Add its coatings and their lobes
 #define BN_COATING(id, at, strength, lobe)                                                                                                 \
     if (m.coatings >> at & 1)                                                                                                              \

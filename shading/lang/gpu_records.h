@@ -20,6 +20,7 @@ const int kGpuNoTriangle = -1;
 const int kGpuFirstAreaWay = 16; // first bit for area-light methods in specialization constant 1; lobes have the bits below
 const int kGpuTransmits = 23;    // bit of the same constant where some material transmits light
 const int kGpuFirstCoating = 24; // first bit of the same constant for coatings that some material has
+const int kGpuFilms = 30;        // bit of the same constant where some material lies under a thin film
 // The rasterizer's viewport is twice this many pixels wide around the centre pixel, or as wide as the device allows. The
 // width is a power of two, so every snapped position survives the driver's arithmetic. No whole triangle leaves a guard
 // band of the same width on either side.

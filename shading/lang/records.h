@@ -203,6 +203,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int technique, technique_traits; // technique index in shading/models.def; no traits for unlit materials
     int samples;                     // of the technique; techniques on a grid read grid_count
     int refracts;                    // transmits light
+    int film;                        // lies under a thin film in some place
     int thin;                        // an open mesh: light passes a pane without thickness
     float body_extent;               // metres through the body, along the normal; 0: thin
     float body_roundness;            // of the body: 0 a plate, 1 a ball

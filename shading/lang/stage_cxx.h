@@ -147,6 +147,11 @@ BN_INLINE constexpr bool area_way_used(int)
     return true;
 }
 
+BN_INLINE constexpr bool film_used()
+{
+    return true;
+}
+
 BN_INLINE constexpr bool coating_used(int)
 {
     return true;
@@ -169,6 +174,7 @@ BN_INLINE constexpr bool coating_used(int)
     constant(textured, 0);                                                                                                                 \
     constant(unlit, 0);                                                                                                                    \
     constant(refracts, 0);                                                                                                                 \
+    constant(film, 0);                                                                                                                     \
     constant(coatings, 0);                                                                                                                 \
     constant(relief, 0);
 #define BN_UNTABLED_MATERIAL(constant) /* for techniques that do not sample an Ashikhmin-Shirley lobe */                                   \

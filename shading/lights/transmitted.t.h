@@ -67,6 +67,8 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     // The far side reflects a share, which leaves elsewhere; a rough side's facets are met less obliquely
     real met = sqrt(way.cosine * way.cosine + alpha * alpha * (lit(1.0) - way.cosine * way.cosine));
     real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, met);
+    if (film_used() && the_material(m).film != 0)
+        back = filmed_dielectric(x.through.parts, back, met);
     body_way further = way_through_body(reflected_inside(ray, way), way.normal, x.through.parts.ior, extent, roundness);
     real3 elsewhere = cube_sample(cube, further.direction, transmitted_level(cube, alpha, further.spread)) * scale;
     light = light + (elsewhere - light) * back;
@@ -103,6 +105,8 @@ BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point
         real weight = select(slope > lit(0.0), lit(i == 0 ? 0.5 : 0.25), lit(i == 0 ? 1.0 : 0.0));
         radiance = radiance + fetch_transmitted(f, m, x, at, n, width) * weight;
     }
+    if (film_used() && the_material(m).film != 0)
+        return radiance * x.through.tint * transmittance_under_film(f, x) * x.s.occlusion;
     return radiance * x.through.tint * (diffuse_energy_share(f, x) * x.s.occlusion);
 }
 

@@ -27,7 +27,7 @@ BN_FN mask enters_body(frame_ref f, material_ref m, mask front)
 // own gain replaces x.energy.gain.
 BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
 {
-    x.through.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+    x.through.parts = fresnel_parts_of(f, m, at);
     mask enters = enters_body(f, m, front);
     x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), enters);
     x.body = both(enters, int_lit(the_frame(f).glass) != int_lit(0));
@@ -66,6 +66,30 @@ BN_FN surface_frame lobe_axes(frame_ref f, material_ref m, BN_IN(material_inputs
     return axes;
 }
 
+// Puts the material's film over x.s, whose reflectances are set.
+BN_STAGE void put_film(any_frame f, any_material m, BN_IN(material_inputs) at, BN_INOUT(shaded_point) x)
+{
+    // Keep Schlick's approximation for what has no film, unless the frame wants it exact
+    if (x.s.exact == 0) {
+        real ior = splat(the_material(m).ior);
+        if (the_material(m).refracts != 0 && !x.samples_interface)
+            ior = x.s.parts.ior;
+        x.s.parts = fresnel_parts_of(f, m, at);
+        x.s.parts.dielectric = lit(0.0);
+        x.s.parts.conductor = lit(0.0);
+        x.s.parts.ior = ior;
+        x.s.parts.rest_f0 = x.s.f0;
+        x.s.parts.rest_f90 = x.s.f90;
+    }
+    x.s.exact = x.s.exact + kFilmReflects;
+    // Let Schlick's approximation meet the film's reflectance at the eye's angle
+    real away = lit(1.0) - x.s.n_dot_v;
+    real away2 = away * away;
+    real power = away2 * away2 * away;
+    real3 seen = exact_reflectance(x.s.parts, x.s.n_dot_v) - x.s.f90 * power;
+    x.s.f0 = clamp(seen / max(lit(1.0) - power, lit(0.1)), vec3_all(lit(0.0)), vec3_all(lit(1.0)));
+}
+
 // Fills x.
 BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN_IN(lobe_shape) shape, BN_IN(visible_point) p,
                              integer pixel_id, BN_INOUT(shaded_point) x)
@@ -86,7 +110,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     // Use exact reflectances where the frame wants them
     x.s.exact = the_frame(f).fresnel;
     if (x.s.exact != 0) {
-        x.s.parts = fresnel_parts_of(f, m, at.base, at.metallic, at.dielectric_f0, at.dielectric_f90);
+        x.s.parts = fresnel_parts_of(f, m, at);
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
     // Reflect from within as a mirror does, with total reflection
@@ -100,6 +124,8 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.f90 = select(enters, x.s.f90, within);
         x.s.parts.ior = ior;
     }
+    if (film_used() && the_material(m).film != 0)
+        put_film(f, m, at, x);
     find_energy(f, m, at, x);
     if (the_material(m).refracts != 0) // x.refracts would not fold away here, and x would leave registers
         make_interface(f, m, at, p.front, x);

@@ -57,6 +57,19 @@ BN_FN real fetch_alpha(frame_ref f, material_ref m, BN_IN(visible_point) p)
     return base_color_of(m, t, p).w;
 }
 
+// Fills the inputs of a thin film.
+BN_FN void film_inputs(material_ref m, BN_IN(texture_fetches) t, BN_INOUT(material_inputs) r)
+{
+    r.film = splat(the_material(m).iridescence);
+    if (texture_used(m, kFilmTex))
+        r.film = r.film * texel_of(t, kFilmTex).x;
+    r.film_thickness = splat(the_material(m).iridescence_thickness);
+    if (texture_used(m, kFilmThicknessTex)) {
+        real least = splat(the_material(m).iridescence_thickness_least);
+        r.film_thickness = least + (r.film_thickness - least) * texel_of(t, kFilmThicknessTex).y;
+    }
+}
+
 // Evaluates all inputs of the material at p.
 BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_point) p)
 {
@@ -134,6 +147,11 @@ BN_FN material_inputs fetch_material(frame_ref f, material_ref m, BN_IN(visible_
     r.transmission = splat(the_material(m).transmission);
     if (texture_used(m, kTransmissionTex))
         r.transmission = r.transmission * texel_of(t, kTransmissionTex).x;
+    // Thin film
+    r.film = lit(0.0);
+    r.film_thickness = lit(0.0);
+    if (the_material(m).film != 0)
+        film_inputs(m, t, r);
         // Coatings
 #define BN_COATING(id, at, strength, lobe) id##_inputs(m, t, r);
 #include "shading/coatings.def"

@@ -54,12 +54,15 @@ BN_FN real3 interface_reflects(BN_IN(interface_inputs) at, real o_dot_m)
     return exact_reflectance(at.parts, k_saturate(o_dot_m));
 }
 
-// Returns the transmitted share, with tint.
+// Returns the transmitted share, with tint. Glass passes white light, a film the colours that it does not reflect.
 BN_FN real3 interface_passes(BN_IN(interface_inputs) at, real o_dot_m)
 {
     real3 r = dielectric_reflectance(at.parts.dielectric_f0, at.parts.dielectric_f90, at.parts.ior, k_saturate(o_dot_m));
     real rest = max(lit(1.0) - max(r.x, max(r.y, r.z)), lit(0.0));
-    return at.tint * rest;
+    if (!film_used() || no_lane(at.parts.film > lit(0.0)))
+        return at.tint * rest;
+    real3 passed = vec3_all(lit(1.0)) - filmed_dielectric(at.parts, r, k_saturate(o_dot_m));
+    return at.tint * select(at.parts.film > lit(0.0), passed, vec3_all(rest));
 }
 
 // Returns BRDF times cosine for reflected light from wi (unit, world space), 1/sr; 0 for light from below. Ignores the

@@ -145,11 +145,26 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
     // Glass reflects by Fresnel's equations, the table's lobe by Schlick's approximation: scale by the ratio of both in a
     // mirror. No table has the albedo from inside, so a mirror's replaces it there.
     real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
-    real mirrored = max(r.x, max(r.y, r.z));
     real3 schlick = fresnel_schlick(x.dielectric_f0, vec3_all(x.dielectric_f90), x.s.n_dot_v);
+    if (film_used() && x.s.exact >= kFilmReflects) {
+        r = filmed_dielectric(x.through.parts, r, x.s.n_dot_v);
+        schlick = filmed_dielectric(x.through.parts, schlick, x.s.n_dot_v);
+    }
+    real mirrored = max(r.x, max(r.y, r.z));
     real rough = (lit(1.0) - passed) / max(max(schlick.x, max(schlick.y, schlick.z)), lit(1e-4));
     real reflected = select(x.through.parts.ior >= lit(1.0), mirrored * rough, mirrored);
     return k_saturate(lit(1.0) - reflected);
+}
+
+// Returns the transmittance of a transmissive surface under a film, which passes the colours that it does not reflect.
+BN_FN real3 transmittance_under_film(frame_ref f, BN_IN(shaded_point) x)
+{
+    real passed = diffuse_energy_share(f, x);
+    real3 bare = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
+    real3 r = filmed_dielectric(x.through.parts, bare, x.s.n_dot_v);
+    real most = max(r.x, max(r.y, r.z));
+    real scale = (lit(1.0) - passed) / max(most, lit(1e-4));
+    return vec3_all(lit(1.0)) - r * scale;
 }
 
 // Returns the diffuse part's BRDF, 1/sr; multiply by diffuse_lit().

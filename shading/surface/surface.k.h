@@ -14,7 +14,14 @@ struct fresnel_parts {          // inputs of Fresnel's equations: see reflectanc
     real dielectric_f90, ior;   // at grazing incidence; its index
     real3 eta, k;               // the conductor's index
     real3 rest_f0, rest_f90;    // for Schlick's approximation, times the share of the rest
+    real film;                  // share of the surface under a thin film, [0,1]
+    real film_thickness;        // nm
+    real film_ior;
+    real metal;     // share of metal below the film, [0,1]; the dielectric has the rest
+    real3 metal_f0; // the metal's reflectance at normal incidence
 };
+
+const int kFilmReflects = 4; // above kFresnelSchlick...
 
 struct surface {
     real3 n;             // shading normal, unit, world space
@@ -24,7 +31,7 @@ struct surface {
     real3 f0, f90;       // specular reflectance at normal and grazing incidence
     real roughness;      // perceptual (alpha_lin), [0,1]
     real occlusion;      // [0,1], 1 open
-    int exact;           // uniform; nonzero: some parts reflect by Fresnel's equations
+    int exact;           // uniform; 0: all parts reflect by Schlick's approximation; else the frame's way, and kFilmReflects
     fresnel_parts parts; // for these parts
 };
 

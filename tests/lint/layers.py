@@ -16,7 +16,7 @@ RENDERERS = ("tile", "vulkan", "reference")                  # they meet in rast
 # The rooms of each layer. A room includes itself and those before it; a room within a room is a room of its own. Tables (*.def) lie
 # beside the order: a file that a table names includes the table.
 ROOMS = {
-    "core": ("wasm", "base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/gltf"),
+    "core": ("wasm", "base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/mtlx", "scene/gltf"),
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
@@ -43,6 +43,7 @@ THIRD_PARTY = (
     (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
     (r"(jpeglib|png|zlib)\.h$", ("core/image/io", "tests/unit/image")),
     (r"draco/", ("core/scene/gltf",)),
+    (r"pugixml", ("core/scene/mtlx",)),
     (r"meshoptimizer", ("core/scene", "raster/tile", "tests")),
     (r"tbb/|oneapi/", ("core/jobs", "raster/reference")), # the latter: Embree builds its trees with it
     (r".*intrin\.h$|cpuid\.h$", ("core/simd",)),

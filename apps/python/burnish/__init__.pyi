@@ -297,6 +297,10 @@ class Scene:
         clearcoat_normal_scale: float | None = None,
         sheen_color: Vector3 | None = None,
         sheen_roughness: float | None = None,
+        iridescence: float | None = None,
+        iridescence_ior: float | None = None,
+        iridescence_thickness_least: float | None = None,
+        iridescence_thickness: float | None = None,
         conductor_eta: Vector3 | None = None,
         conductor_k: Vector3 | None = None,
         tilt: Vector2 | None = None,
@@ -334,6 +338,12 @@ class Scene:
         sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
             albedo; black: none.
         sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
+        iridescence: 0 to 1. glTF: KHR_materials_iridescence/iridescenceFactor. Share of the surface under a thin film with index
+            iridescence_ior.
+        iridescence_ior: 1 or more. glTF: KHR_materials_iridescence/iridescenceIor.
+        iridescence_thickness_least: 0 or more. glTF: KHR_materials_iridescence/iridescenceThicknessMinimum.
+        iridescence_thickness: 0 or more. glTF: KHR_materials_iridescence/iridescenceThicknessMaximum. Of the film, nm; where a texture is
+            0, iridescence_thickness_least.
         conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
         conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
         tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.
@@ -414,6 +424,10 @@ class Mesh:
         clearcoat_normal_scale: float = 1.0,
         sheen_color: Vector3 = (0.0, 0.0, 0.0),
         sheen_roughness: float = 0.0,
+        iridescence: float = 0.0,
+        iridescence_ior: float = 1.3,
+        iridescence_thickness_least: float = 100.0,
+        iridescence_thickness: float = 400.0,
         conductor_eta: Vector3 = (0.0, 0.0, 0.0),
         conductor_k: Vector3 = (0.0, 0.0, 0.0),
         tilt: Vector2 = (0.0, 0.0),
@@ -453,6 +467,12 @@ class Mesh:
         sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
             albedo; black: none.
         sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
+        iridescence: 0 to 1. glTF: KHR_materials_iridescence/iridescenceFactor. Share of the surface under a thin film with index
+            iridescence_ior.
+        iridescence_ior: 1 or more. glTF: KHR_materials_iridescence/iridescenceIor.
+        iridescence_thickness_least: 0 or more. glTF: KHR_materials_iridescence/iridescenceThicknessMinimum.
+        iridescence_thickness: 0 or more. glTF: KHR_materials_iridescence/iridescenceThicknessMaximum. Of the film, nm; where a texture is
+            0, iridescence_thickness_least.
         conductor_eta: 0 to 10000. glTF: extras/burnish/conductor/eta. A metal's index eta + i k for red, green and blue; both 0: none.
         conductor_k: 0 to 10000. glTF: extras/burnish/conductor/k. A metal's index eta + i k for red, green and blue; both 0: none.
         tilt: -80 to 80. glTF: extras/burnish/tilt. Degrees between lobe and surface, towards the bitangent and away from the tangent.

@@ -59,6 +59,7 @@ Scene make_glass();
 Scene make_bumps();
 Scene make_lacquer();
 Scene make_cloth();
+Scene make_anodised();
 Scene make_shaderballs();
 struct FailureSceneMaker {
     BuiltinInfo info;

@@ -91,10 +91,6 @@ struct Ignored {
 };
 constexpr double kMost = 3.4028234663852886e38;
 constexpr Ignored kIgnored[] = {
-    {"KHR_materials_iridescence/iridescenceFactor", 0.0, 1.0},
-    {"KHR_materials_iridescence/iridescenceIor", 1.0, kMost},
-    {"KHR_materials_iridescence/iridescenceThicknessMinimum", 0.0, kMost},
-    {"KHR_materials_iridescence/iridescenceThicknessMaximum", 0.0, kMost},
     {"KHR_materials_dispersion/dispersion", 0.0, kMost},
 };
 

@@ -29,7 +29,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_materials_dispersion", ignored, ""},
         {"KHR_materials_emissive_strength", supported, ""},
         {"KHR_materials_ior", supported, ""},
-        {"KHR_materials_iridescence", ignored, ""},
+        {"KHR_materials_iridescence", supported, "factors, textures; interference by Fresnel's equations"},
         {"KHR_materials_sheen", supported, "factors, textures"},
         {"KHR_materials_specular", supported, "factor, colour, textures"},
         {"KHR_materials_transmission", supported, "factor, texture"},

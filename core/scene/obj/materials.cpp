@@ -17,6 +17,7 @@
 #include "core/math/scalar_math.h"
 #include "core/scene/obj/lines.h"
 #include "core/scene/obj/mtl.h"
+#include "core/scene/picture_beside.h"
 #include "core/scene/surface_maps.h"
 #include "core/scene/texture.h"
 
@@ -26,23 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostMissing = 20; // libraries named in warnings
-
-// Returns the file that a name means, or nothing.
-std::optional<std::string> find_file(const fs::path& folder, std::string name, const Limits& limits)
-{
-    std::replace(name.begin(), name.end(), '\\', '/'); // as Windows writes it
-    std::error_code failed;
-    const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
-    for (const fs::path& path : {fs::path(name), fs::path(name).filename()}) {
-        const fs::path whole = path.is_absolute() ? path : folder / path;
-        const fs::path file = fs::canonical(whole, failed);
-        if (failed || !fs::is_regular_file(file, failed))
-            continue;
-        if (limits.uris_outside || std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end())
-            return file.string();
-    }
-    return std::nullopt;
-}
 
 std::size_t values_not_finite(const Image& image)
 {
@@ -111,7 +95,7 @@ class MaterialMaker {
     // Reads a picture once. Its path is empty where it is not found, which is warned of.
     Result<const Picture*> picture(const std::string& name, bool colours)
     {
-        const std::optional<std::string> path = find_file(folder_, name, limits_);
+        const std::optional<std::string> path = picture_beside(folder_, name, limits_);
         if (!path) {
             warn(fmt::format("picture {} is not found in the folder of the OBJ file, and left out", printable(name)));
             return &none_;
@@ -241,7 +225,7 @@ class MaterialMaker {
 // Returns the files that an mtllib statement names: its words, or all of it as one name with blanks.
 std::vector<std::string> files_of(std::string_view statement, const fs::path& folder, const Limits& limits)
 {
-    if (find_file(folder, std::string(statement), limits))
+    if (picture_beside(folder, std::string(statement), limits))
         return {std::string(statement)};
     std::vector<std::string> names;
     for (std::string_view word = take_word(statement); !word.empty(); word = take_word(statement))
@@ -260,7 +244,7 @@ Result<std::map<std::string, std::int32_t>> read_materials(Scene& scene, const s
     MaterialMaker maker(scene, folder, limits);
     for (const std::string& statement : libraries)
         for (const std::string& name : files_of(statement, folder, limits)) {
-            const std::optional<std::string> path = find_file(folder, name, limits);
+            const std::optional<std::string> path = picture_beside(folder, name, limits);
             if (!seen.insert(path.value_or(name)).second)
                 continue;
             if (!path) {

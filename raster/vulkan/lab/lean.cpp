@@ -38,7 +38,7 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 base, dielectric, f0, diffuse, factors, emissive, lobe, grain;
     glm::vec4 place[2 * kTextureSlots];
 };
-static_assert(kTextureSlots == 17 && sizeof(LeanMaterial) == 672);
+static_assert(kTextureSlots == 19 && sizeof(LeanMaterial) == 736);
 constexpr std::uint32_t kTableSamplers = 4;  // albedo tables of set 0
 constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
 
@@ -98,6 +98,8 @@ const char* not_of_material(const MaterialRecord& m)
         return "materials that let light through";
     if (m.coatings != 0)
         return "coatings";
+    if (m.film != 0)
+        return "thin films";
     if (m.alpha_mode == kAlpha_blend)
         return "blended alpha";
     if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)

@@ -26,7 +26,7 @@ layout(std140, set = 0, binding = 1) uniform LeanMaterial
     vec4 emissive;
     vec4 lobe; // slope deviations along and across, roughness, eta or anisotropy strength
     vec4 grain; // the axis along tangent and bitangent, or a texture's rotation; bent normal's stretch and level
-    vec4 place[34]; // by slot: linear part of the coordinate transform; shift, most taps, set
+    vec4 place[38]; // by slot: linear part of the coordinate transform; shift, most taps, set
 }
 material;
 
@@ -35,7 +35,7 @@ layout(set = 0, binding = 4) uniform sampler2D slice_albedo; // for the material
 layout(set = 0, binding = 5) uniform sampler3D width_albedo; // for any two widths: slabs of eta
 layout(set = 0, binding = 6) uniform sampler2D phong_albedo; // for the material's two widths, Ashikhmin-Shirley lobe
 layout(set = 1, binding = 0) uniform samplerCube cubes[4]; // specular, irradiance, box, the whole sky
-layout(set = 1, binding = 1) uniform sampler2D textures[17]; // by slot
+layout(set = 1, binding = 1) uniform sampler2D textures[19]; // by slot
 
 // Interpolated at pixel centres, not at centroids: cheaper, and nearer to the tile renderer's shading positions.
 layout(location = 0) in vec3 position;

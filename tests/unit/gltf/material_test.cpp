@@ -78,6 +78,10 @@ TEST(material, defaults_are_those_of_gltf)
     EXPECT_EQ(m.clearcoat_roughness, 0.0f);
     EXPECT_EQ(m.sheen_color, glm::vec3(0.0f));
     EXPECT_EQ(m.sheen_roughness, 0.0f);
+    EXPECT_EQ(m.iridescence, 0.0f);
+    EXPECT_EQ(m.iridescence_ior, 1.3f);
+    EXPECT_EQ(m.iridescence_thickness_least, 100.0f);
+    EXPECT_EQ(m.iridescence_thickness, 400.0f);
     EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
     EXPECT_EQ(m.alpha_cutoff, 0.5f);
     EXPECT_EQ(m.anisotropy_strength, 0.0f);
@@ -95,6 +99,8 @@ TEST(material, every_factor_and_extension_arrives)
         R"("KHR_materials_transmission":{"transmissionFactor":0.75},)"
         R"("KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
         R"("KHR_materials_sheen":{"sheenColorFactor":[0.1,0.2,0.3],"sheenRoughnessFactor":0.6},)"
+        R"("KHR_materials_iridescence":{"iridescenceFactor":0.8,"iridescenceIor":1.6,"iridescenceThicknessMinimum":50,)"
+        R"("iridescenceThicknessMaximum":700},)"
         R"("KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[2,1,0]},)"
         R"("KHR_materials_anisotropy":{"anisotropyStrength":0.6,"anisotropyRotation":1.5}}})");
     ASSERT_TRUE(scene) << error_of(scene);
@@ -115,6 +121,10 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_EQ(m.clearcoat_roughness, 0.2f);
     EXPECT_EQ(m.sheen_color, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.sheen_roughness, 0.6f);
+    EXPECT_EQ(m.iridescence, 0.8f);
+    EXPECT_EQ(m.iridescence_ior, 1.6f);
+    EXPECT_EQ(m.iridescence_thickness_least, 50.0f);
+    EXPECT_EQ(m.iridescence_thickness, 700.0f);
     EXPECT_EQ(m.specular, 0.5f);
     EXPECT_EQ(m.specular_color, glm::vec3(2, 1, 0));
     EXPECT_EQ(m.anisotropy_strength, 0.6f);

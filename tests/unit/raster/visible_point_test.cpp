@@ -172,8 +172,8 @@ TEST(visible_point, words_are_recorded_in_order_and_what_is_not_asked_for_as_zer
     at.base = {1, 2, 3}, at.alpha = 4, at.metallic = 5, at.roughness = 6, at.occlusion = 7, at.normal_map = {8, 9, 10};
     at.emissive = {11, 12, 13}, at.dielectric_f0 = {14, 15, 16}, at.dielectric_f90 = 17, at.tensor2 = {18, 19, 20},
     at.tensor4 = {21, 22, 23}, at.slope = {24, 25}, at.slope_moments = {26, 27, 28}, at.transmission = 29, at.own_roughness = 30,
-    at.kept = 31, at.sheen_color = {32, 33, 34}, at.sheen_roughness = 35, at.coat = 36, at.coat_roughness = 37;
-    at.coat_normal_map = {38, 39, 40};
+    at.kept = 31, at.film = 32, at.film_thickness = 33, at.sheen_color = {34, 35, 36}, at.sheen_roughness = 37, at.coat = 38;
+    at.coat_roughness = 39, at.coat_normal_map = {40, 41, 42};
     Words material;
     record_material(material, at);
     ASSERT_EQ(static_cast<int>(material.at.size()), kMaterialWords);

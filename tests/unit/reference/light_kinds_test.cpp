@@ -29,9 +29,17 @@ Material cloth()
     return m;
 }
 
+Material oxide()
+{
+    Material m = coated_or_not(0.6f, 1.0f, 0.0f);
+    m.iridescence = 1.0f, m.iridescence_ior = 2.0f, m.iridescence_thickness = 60.0f;
+    return m;
+}
+
 struct Surface {
     const char* name;
     Material material;
+    double slack = 2e-3; // of light by two ways
 };
 
 const std::vector<Surface>& each_surface()
@@ -40,7 +48,8 @@ const std::vector<Surface>& each_surface()
                                              {"rough plastic", coated_or_not(0.9f, 0.0f, 0.0f)},
                                              {"half a metal", coated_or_not(0.6f, 0.5f, 0.0f)},
                                              {"coated plastic", coated_or_not(0.7f, 0.0f, 1.0f)},
-                                             {"cloth", cloth()}};
+                                             {"cloth", cloth()},
+                                             {"metal under oxide", oxide(), 4e-3}};
     return all;
 }
 
@@ -101,8 +110,8 @@ TEST(light_kinds, share_light_between_diffuse_and_specular_by_one_rule)
             std::printf("%-14s n.v %.2f: environment %.5f, lamps %+.2f %%, area lights %+.2f %% by cosines, %+.2f %% by samples\n", s.name,
                         static_cast<double>(glm::normalize(eye).z), sky, 100.0 * (punctual / sky - 1.0), 100.0 * (cosines / sky - 1.0),
                         100.0 * (samples / sky - 1.0));
-            EXPECT_NEAR(punctual / sky, 1.0, 2e-3) << s.name << ' ' << eye.z;
-            EXPECT_NEAR(samples / sky, 1.0, 2e-3) << s.name << ' ' << eye.z;
+            EXPECT_NEAR(punctual / sky, 1.0, s.slack) << s.name << ' ' << eye.z;
+            EXPECT_NEAR(samples / sky, 1.0, s.slack) << s.name << ' ' << eye.z;
             EXPECT_NEAR(cosines / sky, 1.0, 1e-2) << s.name << ' ' << eye.z;
         }
     }
@@ -124,9 +133,9 @@ TEST(light_kinds, share_light_by_the_same_rule_in_the_reference)
             std::printf("%-14s n.v %.2f: environment %.5f, of the reference %+.2f %%, its lamps %+.2f %%, its area lights %+.2f %%\n",
                         s.name, static_cast<double>(glm::normalize(eye).z), tile, 100.0 * (sky.mean / tile - 1.0),
                         100.0 * (punctual / tile - 1.0), 100.0 * (area.mean / tile - 1.0));
-            EXPECT_NEAR(sky.mean, tile, 2e-3 * tile + 4.5 * sky.deviation) << s.name << ' ' << eye.z;
-            EXPECT_NEAR(area.mean, tile, 2e-3 * tile + 4.5 * area.deviation) << s.name << ' ' << eye.z;
-            EXPECT_NEAR(punctual, tile, 2e-3 * tile) << s.name << ' ' << eye.z;
+            EXPECT_NEAR(sky.mean, tile, s.slack * tile + 4.5 * sky.deviation) << s.name << ' ' << eye.z;
+            EXPECT_NEAR(area.mean, tile, s.slack * tile + 4.5 * area.deviation) << s.name << ' ' << eye.z;
+            EXPECT_NEAR(punctual, tile, s.slack * tile) << s.name << ' ' << eye.z;
         }
     }
 }

@@ -72,6 +72,7 @@ Material grained(float rotation)
     m.anisotropy_strength = 0.7f, m.anisotropy_rotation = rotation;
     m.clearcoat = 0.5f, m.clearcoat_roughness = 0.25f;
     m.sheen_color = glm::vec3(0.25f, 0.5f, 0.75f), m.sheen_roughness = 0.5f;
+    m.iridescence = 0.5f, m.iridescence_thickness = 300.0f;
     return m;
 }
 
@@ -165,6 +166,11 @@ TEST(outside, a_texture_of_one_texel_is_a_factor)
     expect_same("sheen", grain, with_change(m, [](Scene& s, Material& to) {
                     to.sheen_color = glm::vec3(1.0f), to.sheen_color_tex = add_texel(s, glm::vec3(0.25f, 0.5f, 0.75f));
                     to.sheen_roughness = 1.0f, to.sheen_roughness_tex = add_texel(s, glm::vec4(0.0f, 0.0f, 0.0f, 0.5f));
+                }));
+    expect_same("thin film", grain, with_change(m, [](Scene& s, Material& to) {
+                    to.iridescence = 1.0f, to.iridescence_tex = add_texel(s, glm::vec3(0.5f, 0.0f, 0.0f));
+                    to.iridescence_thickness_least = 100.0f, to.iridescence_thickness = 500.0f;
+                    to.iridescence_thickness_tex = add_texel(s, glm::vec3(0.0f, 0.5f, 0.0f));
                 }));
     // as_mc finds half vectors in another way where roughness has a texture.
     expect_same("roughness and metal", {plane_scene(round)},

@@ -1,0 +1,17 @@
+// MaterialX files (.mtlx): flat surfaces on the materials of a scene.
+#pragma once
+#include <string>
+
+#include "core/base/limits.h"
+#include "core/base/result.h"
+#include "core/scene/scene.h"
+
+namespace burnish {
+
+// Puts the file's materials on those of the scene with the same names; a file with one material puts it on all. Pictures lie below the
+// file's folder, unless Limits::uris_outside; else a picture with the same name in that folder is taken. Inputs that have no counterpart
+// give a warning. Errors: those of mtlx::read_document; damaged or missing pictures; more bytes than textures may have; pictures for a
+// scene without texture coordinates; several materials, none of which has the name of one in the scene (ExitCode::usage).
+Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits);
+
+} // namespace burnish

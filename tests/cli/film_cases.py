@@ -1,0 +1,80 @@
+"""KHR_materials_iridescence: in files, in both renderers, in the reference, on a device."""
+
+import gltf_files as files
+from brdf_cases import against_files
+from fresnel_cases import CLOSE
+from harness import case, check
+from input_cases import refuse, scratch
+from parity_cases import check_equal, parity
+from reference_cases import needs_embree
+
+PLACE = "/materials/0/extensions/KHR_materials_iridescence"
+
+
+def film(textures=(), metallic=1, roughness=0.3, share=1, thickness=400, below=None, **more):
+    """Returns a triangle that fills the view. textures: of iridescence, iridescenceThickness."""
+    texture = files.base64.b64encode(files.png(16, 16, color=lambda x, y: (250 - 30 * (x % 4), 60 + 30 * (y % 5), 200, 255))).decode()
+    gltf = files.textured("data:image/png;base64," + texture)
+    own = {"iridescenceFactor": share, "iridescenceThicknessMaximum": thickness, **more,
+           **{name + "Texture": {"index": 0} for name in textures}}
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": metallic, "roughnessFactor": roughness, "baseColorFactor": [0.9, 0.7, 0.5, 1]},
+                          "extensions": {"KHR_materials_iridescence": own, **(below or {})}, "doubleSided": True}]
+    gltf["extensionsUsed"] = ["KHR_materials_iridescence", *(below or {})]
+    return gltf
+
+
+def scene(bench, name, **material):
+    return scratch(bench, name + ".gltf", files.text(film(**material)))
+
+
+@case("film.faults_are_named_by_their_place", "input")
+def faults(bench):
+    for name, value in (("iridescenceFactor", 2), ("iridescenceFactor", "x"), ("iridescenceIor", 0.5), ("iridescenceThicknessMinimum", -1),
+                        ("iridescenceThicknessMaximum", -1), ("iridescenceThicknessMaximum", [1])):
+        refuse(bench, scene(bench, "bad", **{name: value}), needles=(PLACE + "/" + name,))
+    refuse(bench, scene(bench, "bad", iridescenceTexture={"index": 3}), needles=(PLACE + "/iridescenceTexture/index",))
+    refuse(bench, scene(bench, "bad", iridescenceThicknessTexture={}), needles=(PLACE + "/iridescenceThicknessTexture",))
+    listed = bench.run("list", "extensions").expect(0).out
+    check(any(line.split()[:2] == ["KHR_materials_iridescence", "supported"] for line in listed.splitlines()), listed)
+    words = (scene(bench, "all", textures=("iridescence", "iridescenceThickness")), *CLOSE, "--strict")
+    check("KHR_materials_iridescence" not in bench.run("render", *words).expect(0).err, "--strict has something to say of films")
+
+
+@case("film.each_of_its_numbers_is_seen")
+def seen(bench):
+    full = {name: bench.figures(scene(bench, name, **material), *CLOSE)["pixel_hash"] for name, material in
+            (("film", {}), ("bare", dict(share=0)), ("half", dict(share=0.5)), ("thin", dict(thickness=200)), ("dense", dict(iridescenceIor=1.8)),
+             ("by share", dict(textures=("iridescence",))), ("by thickness", dict(textures=("iridescenceThickness",))),
+             ("least", dict(textures=("iridescenceThickness",), iridescenceThicknessMinimum=0)), ("plastic", dict(metallic=0)))}
+    check(len(set(full.values())) == len(full), f"two films give one picture: {full}")
+    textured = scene(bench, "none", textures=("iridescence", "iridescenceThickness"), share=0)
+    check(full["bare"] == bench.figures(textured, *CLOSE)["pixel_hash"], "a textured film without a share is seen")
+    huge = bench.run("render", scene(bench, "huge", thickness=3e38, iridescenceIor=3e38), *CLOSE, "--stats", "-").expect(0).out
+    check('"nan_pixels": 0' in huge or "nan" not in huge.lower(), huge)
+
+
+@case("film.mc_agrees_with_the_reference", tier="nightly")
+def agrees(bench):
+    needs_embree(bench)
+    for name, material, more in (("metal", {}, ()), ("plastic", dict(metallic=0), ()), ("half a metal", dict(metallic=0.5), ()),
+                                 ("exact", dict(metallic=0), ("--fresnel", "dielectric")),
+                                 ("glass", dict(metallic=0, below={"KHR_materials_transmission": {"transmissionFactor": 1}}), ()),
+                                 ("mapped", dict(textures=("iridescenceThickness",)), ())):
+        words = (scene(bench, name, **material), *CLOSE, "-q", "--env", "builtin:studio", *more)
+        bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "r.pfm", "--variance", "v.pfm").expect(0)
+        bench.run("render", *words, "--technique", "mc", "--samples", "16384", "-o", "mc.pfm").expect(0)
+        found = against_files(bench, "r.pfm", "mc.pfm", "v.pfm")
+        check(found["z_rejected_fraction"] <= 0.01, f"{name}: {found}")
+    bare = scene(bench, "bare", share=0)
+    bench.run("render", bare, *words[1:], "--technique", "mc", "--samples", "16384", "-o", "mc.pfm").expect(0)
+    check(against_files(bench, "r.pfm", "mc.pfm", "v.pfm")["z_rejected_fraction"] > 0.1, "the test sees no film")
+
+
+@case("film.devices_give_the_same_words", tier="nightly")
+def devices(bench):
+    mapped = scene(bench, "mapped", metallic=0.5, textures=("iridescence", "iridescenceThickness"))
+    small = ("--size", "32x24", "--env", "builtin:sky")
+    check_equal(parity(bench, mapped, *small, "--msaa", "4", "--technique", "auto"))
+    check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4", also=[("--fresnel", "dielectric")]))
+    glass = scene(bench, "glass", metallic=0, below={"KHR_materials_transmission": {"transmissionFactor": 1}})
+    check_equal(parity(bench, glass, *small, "--msaa", "1", "--technique", "lobe_line"))
