@@ -33,7 +33,8 @@ constexpr Maker<Scene> kScenes[] = {
                  "around it)"},
      make_lacquer},
     {{"cloth", "balls of velvet and felt before a drape of satin, whose highlights run across its threads"}, make_cloth},
-    {{"anodised", "turned titanium under oxide of growing thickness, and black glass balls under lustre: colours of thin films"}, make_anodised},
+    {{"anodised", "turned titanium under oxide of growing thickness, and black glass balls under lustre: colours of thin films"},
+     make_anodised},
     {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters", false},
      make_shaderballs},
 };

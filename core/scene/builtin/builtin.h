@@ -13,7 +13,8 @@ struct BuiltinInfo {
     const char* summary;
     bool staged = true; // scenes: is shown on a floor before a backdrop, having none of its own
 };
-const std::vector<BuiltinInfo>& builtin_scenes();       // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, cloth, anodised, shaderballs
+const std::vector<BuiltinInfo>&
+builtin_scenes(); // teapot, spheres, sphere, plate, lights, glass, bumps, lacquer, cloth, anodised, shaderballs
 const std::vector<BuiltinInfo>& builtin_environments(); // studio, sky, night
 
 // Parametric failure scenes, which break a method as one number grows. The name takes =AMOUNT; without it, the default
