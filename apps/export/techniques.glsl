@@ -209,6 +209,7 @@ shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f9
     x.dielectric_f0 = f0;
     x.dielectric_f90 = lit(1.0);
     x.refracts = false;
+    x.disperses = false;
     x.samples_interface = false;
     x.body = false;
     x.lobe = lobe_of_widths(n, tangent, roughness, anisotropy);

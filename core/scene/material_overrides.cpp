@@ -304,7 +304,8 @@ bool MaterialOverrides::material_is_document() const
 {
     std::string ending = fs::path(material).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending == ".mtlx";
+    std::error_code failed;
+    return ending == ".mtlx" && !fs::is_directory(material, failed);
 }
 
 bool MaterialOverrides::names(const std::string& path) const

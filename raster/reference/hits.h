@@ -273,7 +273,7 @@ BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresn
     r.eta = select(m, a.eta, b.eta), r.k = select(m, a.k, b.k);
     r.rest_f0 = select(m, a.rest_f0, b.rest_f0), r.rest_f90 = select(m, a.rest_f90, b.rest_f90);
     r.film = select(m, a.film, b.film), r.film_thickness = select(m, a.film_thickness, b.film_thickness);
-    r.film_ior = select(m, a.film_ior, b.film_ior);
+    r.film_ior = select(m, a.film_ior, b.film_ior), r.film_side = select(m, a.film_side, b.film_side);
     r.metal = select(m, a.metal, b.metal), r.metal_f0 = select(m, a.metal_f0, b.metal_f0);
     return r;
 }
@@ -285,7 +285,7 @@ BN_INLINE fresnel_parts parts_beside(const surface& s)
         return s.parts;
     const real none = lit(0.0), one = lit(1.0);
     const real3 black = vec3_all(none), white = vec3_all(one);
-    return {none, none, black, none, one, white, black, s.f0, s.f90, none, none, one, none, black};
+    return {none, none, black, none, one, white, black, s.f0, s.f90, none, none, one, one, none, black};
 }
 
 // Selects coatings. Lanes of a surface without the coating have a share of 0.
@@ -325,7 +325,9 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
     r.diffuse = select(m, a.diffuse, b.diffuse);
     if (a.x.refracts || b.x.refracts) {
         r.x.refracts = true;
+        r.x.disperses = a.x.disperses || b.x.disperses;
         r.x.through.tint = select(m, a.x.through.tint, b.x.through.tint);
+        r.x.through.dispersion = select(m, a.x.through.dispersion, b.x.through.dispersion);
         r.x.through.parts = select_parts(m, a.x.through.parts, b.x.through.parts);
         r.refracts = either(both(m, a.refracts), both(not_(m), b.refracts));
     }

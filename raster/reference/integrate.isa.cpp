@@ -227,6 +227,22 @@ BN_STAGE real3 area_lights(const PixelFrame& p, const LaneSurface& s, const Surf
     return sum;
 }
 
+// Lets an interface that disperses refract one channel of light, which each path chooses once. single: lanes whose path has one channel;
+// receives those that meet such an interface here. Returns the factor on the path's light.
+BN_STAGE real3 refract_one_channel(const PixelFrame& p, SurfaceBsdf& r, integer position, int shade, mask& single)
+{
+    const integer path = position * int_lit(p.f.shades) + int_lit(shade);
+    const real u = k_unit_from_bits(k_hash_u32(k_hash_u32(path) ^ int_lit(static_cast<std::int32_t>(p.seed))));
+    const real channel = min(floor(u * lit(3.0)), lit(2.0));
+    const mask disperses = both(r.refracts, r.x.through.dispersion > lit(0.0));
+    const interface_inputs own = interface_of_channel(r.x.through, channel);
+    r.x.through.parts.ior = select(disperses, own.parts.ior, r.x.through.parts.ior);
+    const mask first = both(disperses, not_(single));
+    const auto part = [&](double at) { return select(first, select(channel == lit(at), lit(3.0), lit(0.0)), lit(1.0)); };
+    single = either(single, disperses);
+    return vec3_of(part(0.0), part(1.0), part(2.0));
+}
+
 // Integrates environment light with occlusion, and with bounces the light from other surfaces.
 BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integer position, int shade)
 {
@@ -235,7 +251,10 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     const int bounces = f.mode == ReferenceMode::path ? f.bounces : 0;
     real3 sum = zero, throughput = vec3_all(lit(1.0));
     LaneSurface s = first;
+    mask single = mask_from_bits(0);
     for (int depth = 0; any(s.reflects); ++depth) {
+        if (s.r.x.disperses)
+            throughput = throughput * refract_one_channel(p, s.r, position, shade, single);
         const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, f.shades, depth);
         // Sample the environment
         if (f.strategy != ReferenceStrategy::brdf && !f.lights_only) {
@@ -283,7 +302,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
 }
 
 // Integrates light without occlusion.
-BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
+BN_STAGE real3 direct_light_of(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
 {
     const ReferenceParams& f = p.f;
     const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, f.shades, 0);
@@ -292,6 +311,16 @@ BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer p
     if (f.area_light_count == 0)
         return light;
     return light + area_lights(p, s, b, nullptr, position, shade, 0);
+}
+
+BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
+{
+    if (!s.r.x.disperses)
+        return direct_light_of(p, s, position, shade);
+    LaneSurface own = s;
+    mask single = mask_from_bits(0);
+    const real3 channel = refract_one_channel(p, own.r, position, shade, single);
+    return direct_light_of(p, own, position, shade) * channel;
 }
 
 // Returns the sum over the shades at a pixel's camera positions `first`, first + 1... in lanes.

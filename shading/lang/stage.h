@@ -20,7 +20,7 @@
 //   lobe_used(at)                        true where the frame may use lobe number `at` from shading/models.def
 //   area_way_used(at)                    true where the frame may use line `at` of BN_AREA_LIGHTS
 //   transmission_used()                  true where some material may transmit light
-//   film_used()                         true where some material may lie under a thin film
+//   film_used()                          true where some material may lie under a thin film
 //   coating_used(at)                     true where some material may have coating `at` of shading/coatings.def
 //   grid_sample(f, i)                    slopes and density of sample i; i < the_frame(f).grid_count (GridSample)
 //   grid_of_four(f, first, set)          four values of the set, 0 to 3, that each lane picks from the kPhongBlock samples at `first`

@@ -49,6 +49,7 @@ BN_FN void make_coating_point(BN_IN(coating) layer, BN_IN(dfg_value) albedo, BN_
     c.dielectric_f0 = layer.reflectance;
     c.dielectric_f90 = layer.share;
     c.refracts = false;
+    c.disperses = false;
     c.samples_interface = false;
 }
 

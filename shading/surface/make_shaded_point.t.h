@@ -30,8 +30,10 @@ BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs)
     x.through.parts = fresnel_parts_of(f, m, at);
     mask enters = enters_body(f, m, front);
     x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), enters);
+    x.through.parts.film_side = x.through.parts.ior;
     x.body = both(enters, int_lit(the_frame(f).glass) != int_lit(0));
     x.through.tint = x.s.diffuse * at.transmission;
+    x.through.dispersion = splat(the_material(m).dispersion);
     x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
     if (!x.samples_interface)
         return;
@@ -82,12 +84,9 @@ BN_STAGE void put_film(any_frame f, any_material m, BN_IN(material_inputs) at, B
         x.s.parts.rest_f90 = x.s.f90;
     }
     x.s.exact = x.s.exact + kFilmReflects;
-    // Let Schlick's approximation meet the film's reflectance at the eye's angle
-    real away = lit(1.0) - x.s.n_dot_v;
-    real away2 = away * away;
-    real power = away2 * away2 * away;
-    real3 seen = exact_reflectance(x.s.parts, x.s.n_dot_v) - x.s.f90 * power;
-    x.s.f0 = clamp(seen / max(lit(1.0) - power, lit(0.1)), vec3_all(lit(0.0)), vec3_all(lit(1.0)));
+    if (the_material(m).refracts != 0 && !x.samples_interface)
+        x.s.parts.film_side = x.s.parts.ior;
+    x.s.f0 = schlick_f0_of(exact_reflectance(x.s.parts, x.s.n_dot_v), x.s.f90, x.s.n_dot_v);
 }
 
 // Fills x.
@@ -115,6 +114,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     }
     // Reflect from within as a mirror does, with total reflection
     x.refracts = the_material(m).refracts != 0;
+    x.disperses = x.refracts && the_material(m).dispersion > 0.0f;
     x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
     if (the_material(m).refracts != 0 && (the_material(m).technique_traits & kSamplesInterface) == 0) {
         mask enters = enters_body(f, m, p.front);

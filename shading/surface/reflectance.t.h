@@ -41,6 +41,7 @@ BN_FN fresnel_parts fresnel_parts_of(frame_ref f, material_ref m, BN_IN(material
     p.film = at.film;
     p.film_thickness = at.film_thickness;
     p.film_ior = splat(the_material(m).iridescence_ior);
+    p.film_side = lit(1.0);
     p.metal = metallic;
     p.metal_f0 = base;
     return p;
@@ -60,10 +61,20 @@ BN_FN real3 dielectric_reflectance(real3 f0, real f90, real ior, real v_dot_h)
 // the angle that it has outside; beyond total reflection that is the grazing one.
 BN_FN real3 film_on_dielectric(BN_IN(fresnel_parts) p, real v_dot_h)
 {
-    real sine2 = (lit(1.0) - v_dot_h) * (lit(1.0) + v_dot_h) / max(p.ior * p.ior, lit(1e-6));
-    real outside = select(p.ior < lit(1.0), sqrt(max(lit(1.0) - sine2, lit(0.0))), v_dot_h);
+    real sine2 = (lit(1.0) - v_dot_h) * (lit(1.0) + v_dot_h) / max(p.film_side * p.film_side, lit(1e-6));
+    real outside = select(p.film_side < lit(1.0), sqrt(max(lit(1.0) - sine2, lit(0.0))), v_dot_h);
     real3 f0 = p.dielectric_f0 / max(p.dielectric_f90, lit(1e-4));
     return thin_film_reflectance(outside, p.film_ior, p.film_thickness, f0) * p.dielectric_f90;
+}
+
+// Returns f0 of the Schlick approximation that meets a reflectance at the eye's angle.
+BN_FN real3 schlick_f0_of(real3 seen, real3 f90, real n_dot_v)
+{
+    real away = lit(1.0) - n_dot_v;
+    real away2 = away * away;
+    real power = away2 * away2 * away;
+    real3 rest = (seen - f90 * power) / max(lit(1.0) - power, lit(0.1));
+    return clamp(rest, vec3_all(lit(0.0)), vec3_all(lit(1.0)));
 }
 
 // Returns a dielectric's reflectance under its film. bare: without the film.

@@ -18,7 +18,27 @@ BN_KERNELS_BEGIN
 struct interface_inputs {
     fresnel_parts parts; // exact; ior: the far side's index over the eye side's
     real3 tint;          // factor on transmitted light, [0,1]; the diffuse part has the rest
+    real dispersion;     // 20 over the Abbe number, at least 0
 };
+
+// Returns the interface as light of one channel meets it: red 0, green 1, blue 2. KHR_materials_dispersion.
+BN_FN interface_inputs interface_of_channel(interface_inputs at, real channel)
+{
+    real given = at.parts.ior;
+    mask enters = given >= lit(1.0);
+    real inside = select(enters, given, lit(1.0) / max(given, lit(1e-3)));
+    real half_spread = (inside - lit(1.0)) * lit(0.025) * min(at.dispersion, lit(100.0));
+    real own = min(max(inside + half_spread * (channel - lit(1.0)), lit(1.001)), lit(10.0));
+    at.parts.ior = select(enters, own, lit(1.0) / own);
+    return at;
+}
+
+// Returns a colour with one channel of a radiance, 0 elsewhere.
+BN_FN real3 channel_alone(real3 radiance, int channel)
+{
+    return vec3_of(radiance.x * lit(channel == 0 ? 1.0 : 0.0), radiance.y * lit(channel == 1 ? 1.0 : 0.0),
+                   radiance.z * lit(channel == 2 ? 1.0 : 0.0));
+}
 
 struct rough_interface {
     interface_inputs at;

@@ -40,6 +40,7 @@ struct shaded_point {
     real3 normal_dx, normal_dy; // of visible_point; only for techniques that share samples
     lobe_energy_terms energy;
     bool refracts;            // transmits light
+    bool disperses;           // refracts each channel by an index of its own
     bool samples_interface;   // then the technique samples both sides of the interface; others fetch transmitted light once
     interface_inputs through; // for transmissive surfaces
     mask body;                // then transmitted light enters a body here and leaves it by a second interface
@@ -137,8 +138,12 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
         real3 own = x.dielectric_f0;
         return phong_diffuse_seen(max(own.x, max(own.y, own.z)), x.s.n_dot_v);
     }
-    real3 dielectric =
-        dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, x.dielectric_f0, x.energy.whole);
+    real3 f0 = x.dielectric_f0;
+    if (film_used() && x.s.exact >= kFilmReflects && the_frame(f).energy_compensation != 0) {
+        real3 f90 = vec3_all(x.dielectric_f90);
+        f0 = schlick_f0_of(filmed_dielectric(x.s.parts, fresnel_schlick(f0, f90, x.s.n_dot_v), x.s.n_dot_v), f90, x.s.n_dot_v);
+    }
+    real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, f0, x.energy.whole);
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
     if (!x.refracts)
         return BN_MUTANT(no_energy_share, passed, lit(1.0));

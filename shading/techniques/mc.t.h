@@ -66,10 +66,8 @@ BN_FN real3 mc_of_lobe(frame_ref f, BN_IN(shaded_point) x, BN_IN(bsdf_lobe) lobe
 }
 
 // Samples one interface: each microfacet reflects and refracts the environment with its extracted lights.
-BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
+BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x, BN_IN(rough_interface) g)
 {
-    // Prepare the interface and the points
-    rough_interface g = rough_interface_at(x);
     cube_desc cube = full_env(f);
     mc_points points = mc_points_of(f, x);
     cube_terms sum;
@@ -93,8 +91,20 @@ BN_STAGE real3 mc_of_interface(any_frame f, BN_IN(shaded_point) x)
 
 BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
 {
-    if (interface_is_sampled(x))
-        return mc_of_interface(f, x);
+    if (interface_is_sampled(x)) {
+        // Sample each channel by its own index where they differ, by one text
+        real3 light = vec3_all(lit(0.0));
+        for (int c = 0; c < (x.disperses ? 3 : 1); ++c) {
+            interface_inputs through = x.through;
+            if (x.disperses)
+                through = interface_of_channel(x.through, to_real(int_lit(c)));
+            real3 own = mc_of_interface(f, x, rough_interface_of(through, x.lobe, x.s.n, x.s.v, x.geometric_axes));
+            if (x.disperses)
+                own = channel_alone(own, c);
+            light = light + own;
+        }
+        return light;
+    }
     if ((the_frame(f).lobe_traits & kPunctualOnly) != 0)
         return vec3_all(lit(0.0));
     return mc_of_lobe(f, x, bsdf_lobe_at(f, x));

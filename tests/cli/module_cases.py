@@ -1,12 +1,22 @@
 """burnish export three, babylon: modules that connect a technique to an engine, beside stand-ins for the engines and in the engines."""
 
+import base64
+import functools
+import http.server
 import json
+import math
 import os
 import pathlib
+import re
 import shutil
+import struct
 import subprocess
+import threading
+import time
 
+from browser import Browser
 from harness import Skipped, case, check
+from reference_cases import needs_embree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -122,3 +132,103 @@ def nearer(bench):
             check(after[scene] < 0.5 * before[scene], f"{row['engine']}, {scene}: {before[scene]:.3f} before, {after[scene]:.3f} with the module")
         for scene in ("mirror", "round", "lamp"):
             check(abs(after[scene] - before[scene]) < 1e-6, f"{row['engine']}, {scene}: changed")
+
+
+def project(bench, engine):
+    """Copies an example project into the case's folder, and writes its module as npm does before `start`."""
+    folder = bench.folder / engine
+    shutil.copytree(ROOT / "apps/examples" / engine, folder)
+    words = json.loads((folder / "package.json").read_text())["scripts"]["prestart"].split()
+    check(words[0] == "burnish" and words[-2] == "-o", f"{words}")
+    bench.run(*words[1:-1], folder / words[-1]).expect(0)
+    return folder
+
+
+@case("export.example_projects_write_the_module_that_they_import")
+def projects(bench):
+    for engine in ("three", "babylon"):
+        folder = project(bench, engine)
+        module = re.search(r"import \{ improveAnisotropy \} from './(burnish_\w+\.js)'", (folder / "main.js").read_text())
+        check(module and (folder / module[1]).is_file(), f"{engine}: main.js imports no module that `prestart` writes")
+        check('src="main.js"' in (folder / "index.html").read_text(), f"{engine}: the page has no main.js")
+
+
+def brushed_balls(path):
+    """Writes the balls of the example projects as glTF."""
+    across, down, words = 96, 64, {"P": [], "T": [], "U": [], "I": []}
+    for j in range(down + 1):
+        for i in range(across + 1):
+            turn, height = 2 * math.pi * i / across, math.pi * j / down
+            words["P"] += [-math.cos(turn) * math.sin(height), math.cos(height), math.sin(turn) * math.sin(height)]
+            words["T"] += [math.sin(turn), 0, math.cos(turn), 1]
+            words["U"] += [i / across, j / down]
+    for j in range(down):
+        for b in range(j * (across + 1), j * (across + 1) + across):
+            c = b + across + 1
+            words["I"] += ([b + 1, b, c + 1] if j else []) + ([b, c, c + 1] if j < down - 1 else [])
+    count, views, accessors, data = len(words["U"]) // 2, [], [], b""
+    for name, kind in (("P", "VEC3"), ("T", "VEC4"), ("U", "VEC2"), ("I", "SCALAR")):
+        part = struct.pack(f"<{len(words[name])}{'I' if name == 'I' else 'f'}", *words[name])
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5125 if name == "I" else 5126, "type": kind,
+                          "count": len(words[name]) if name == "I" else count, **({"min": [-1, -1, -1], "max": [1, 1, 1]} if name == "P" else {})})
+        data += part
+    linear = lambda code: [((int(code[k:k + 2], 16) / 255 + 0.055) / 1.055) ** 2.4 for k in (0, 2, 4)]  # all codes are above the straight part
+    materials = [{"pbrMetallicRoughness": {"baseColorFactor": linear(code) + [1], "metallicFactor": 1, "roughnessFactor": 0.3},
+                  "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 0.8, "anisotropyRotation": turn}}}
+                 for code, turn in (("e8e4dc", 0), ("e6a35c", math.pi / 2), ("d8b060", math.pi / 4))]
+    mesh = {"attributes": {"POSITION": 0, "NORMAL": 0, "TANGENT": 1, "TEXCOORD_0": 2}, "indices": 3}
+    path.write_text(json.dumps({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_anisotropy"], "bufferViews": views, "accessors": accessors,
+                                "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+                                "materials": materials, "meshes": [{"primitives": [{**mesh, "material": i}]} for i in range(3)], "scene": 0,
+                                "nodes": [{"mesh": i, "translation": [2.3 * (i - 1), 0, 0]} for i in range(3)], "scenes": [{"nodes": [0, 1, 2]}]}))
+
+
+def screenshots(bench, folder):
+    """Opens the project's page. Returns its balls with the module and without it."""
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    (bench.folder / "profile").mkdir(exist_ok=True)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder)) as host:
+        threading.Thread(target=host.serve_forever, daemon=True).start()
+        with Browser(bench.folder, webgl=True) as browser:
+            browser.size(900, 420)
+            browser.visit(f"http://127.0.0.1:{host.server_address[1]}/index.html")
+            browser.until("document.documentElement.dataset.drawn === 'yes'", 120.0)
+            said = browser.value("document.getElementById('state').textContent")
+            browser.value("for (const part of document.querySelectorAll('label, #state')) part.style.display = 'none'")
+            time.sleep(2.0)
+            browser.screenshot(folder / "with.png")
+            browser.value("document.getElementById('improved').click()")
+            time.sleep(4.0)
+            browser.screenshot(folder / "without.png")
+            check(said == "3 materials improved" and not browser.faults, f"{said}; {browser.faults}")
+        host.shutdown()
+    return [folder / "with.png", folder / "without.png"]
+
+
+@case("export.example_projects_draw_near_the_truth", tier="nightly")
+def near_the_truth(bench):
+    needs_embree(bench)
+    engines = os.environ.get("BURNISH_ENGINES", "")
+    if not engines:
+        raise Skipped("no engines: BURNISH_ENGINES is to name a folder with node_modules that holds three, babylonjs and babylonjs-loaders")
+    brushed_balls(bench.folder / "balls.gltf")
+    sky = project(bench, "babylon") / "studio.js"
+    shutil.copy(sky, bench.folder / "studio.mjs")
+    node(bench, "import { studio_file } from './studio.mjs'; import { writeFileSync } from 'fs';\n"
+                "writeFileSync('studio.hdr', Buffer.from(await studio_file().arrayBuffer())); console.log('1');")
+    far = 2.2 * math.sqrt(3.3 ** 2 + 2) / math.sqrt(1 + 0.25 ** 2)  # where main.js puts the camera
+    bench.run("render", "balls.gltf", "--env", "studio.hdr", "--eye", f"0,{0.25 * far},{far}", "--target", "0,0,0", "--fov", "30", "--size", "900x420",
+              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "truth.png", "-q", timeout=600).expect(0)
+    for engine in ("babylon", "three"):
+        folder = bench.folder / engine if engine == "babylon" else project(bench, engine)
+        (folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
+        flips = []
+        for picture in screenshots(bench, folder):
+            bench.run("compare", "truth.png", picture, "--json", "c.json", "-q")
+            flips.append(json.loads((bench.folder / "c.json").read_text())["flip_mean"])
+        print(f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
+        check(flips[0] < 0.14 and flips[0] < 0.5 * flips[1], f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")

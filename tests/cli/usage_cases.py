@@ -185,13 +185,13 @@ def lists(bench):
 @case("usage.ignored_extensions_are_in_the_figures_and_strict_refuses_them")
 def ignored(bench):
     gltf = gltf_files.triangle()
-    gltf["extensionsUsed"] = ["KHR_materials_ior", "KHR_materials_dispersion"]
+    gltf["extensionsUsed"] = ["KHR_materials_ior", "KHR_materials_diffuse_transmission"]
     scratch(bench, "a.gltf", gltf_files.text(gltf))
     found = bench.figures("a.gltf", *SMALL)
-    check(found["ignored_extensions"] == ["KHR_materials_dispersion"], f"{found['ignored_extensions']}")
-    bench.run("render", "a.gltf", *SMALL, "--strict").expect(4).expect_one_line("KHR_materials_dispersion")
+    check(found["ignored_extensions"] == ["KHR_materials_diffuse_transmission"], f"{found['ignored_extensions']}")
+    bench.run("render", "a.gltf", *SMALL, "--strict").expect(4).expect_one_line("KHR_materials_diffuse_transmission")
     listed = dict(line.split(None, 1) for line in bench.run("list", "extensions").out.splitlines())
-    check(listed["KHR_materials_dispersion"].startswith("ignored") and listed["KHR_materials_ior"].startswith("supported"), f"{listed}")
+    check(listed["KHR_materials_diffuse_transmission"].startswith("ignored") and listed["KHR_materials_ior"].startswith("supported"), f"{listed}")
 
 
 @case("usage.info_names_machine_and_build")

@@ -292,6 +292,7 @@ class Scene:
         thickness: float | None = None,
         attenuation_distance: float | None = None,
         attenuation_color: Vector3 | None = None,
+        dispersion: float | None = None,
         clearcoat: float | None = None,
         clearcoat_roughness: float | None = None,
         clearcoat_normal_scale: float | None = None,
@@ -332,6 +333,8 @@ class Scene:
         attenuation_distance: 0 or more. glTF: KHR_materials_volume/attenuationDistance.
         attenuation_color: 0 to 1. glTF: KHR_materials_volume/attenuationColor. The light's share left after attenuation_distance (metres,
             world space; 0: infinite) inside a body.
+        dispersion: 0 or more. glTF: KHR_materials_dispersion/dispersion. 20 over the Abbe number: red, green and blue have indices ior - h,
+            ior, ior + h, h = (ior - 1) dispersion / 40.
         clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
@@ -419,6 +422,7 @@ class Mesh:
         thickness: float = 0.0,
         attenuation_distance: float = 0.0,
         attenuation_color: Vector3 = (1.0, 1.0, 1.0),
+        dispersion: float = 0.0,
         clearcoat: float = 0.0,
         clearcoat_roughness: float = 0.0,
         clearcoat_normal_scale: float = 1.0,
@@ -461,6 +465,8 @@ class Mesh:
         attenuation_distance: 0 or more. glTF: KHR_materials_volume/attenuationDistance.
         attenuation_color: 0 to 1. glTF: KHR_materials_volume/attenuationColor. The light's share left after attenuation_distance (metres,
             world space; 0: infinite) inside a body.
+        dispersion: 0 or more. glTF: KHR_materials_dispersion/dispersion. 20 over the Abbe number: red, green and blue have indices ior - h,
+            ior, ior + h, h = (ior - 1) dispersion / 40.
         clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.

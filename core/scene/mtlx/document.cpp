@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <map>
 #include <pugixml.hpp>
 
 #include "core/base/text.h"
@@ -16,10 +17,12 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr int kMostNodes = 16; // between a surface and a picture
+constexpr int kMostNodes = 16;     // between a surface and a picture
+constexpr int kMostVisits = 20000; // of nodes, in a document
 constexpr const char* kSurfaces[] = {"standard_surface", "open_pbr_surface", "gltf_pbr"};
 constexpr const char* kPictures[] = {"image", "tiledimage", "gltf_image", "gltf_colorimage"};
 constexpr const char* kNormalMaps[] = {"normalmap", "gltf_normalmap"};
+constexpr const char* kGeometry[] = {"normal", "tangent"}; // of the mesh
 
 template <std::size_t kCount> bool is_one_of(const char* name, const char* const (&list)[kCount])
 {
@@ -91,12 +94,31 @@ class Reader {
             [&](xml_node child) { return is_named(child, "input") && name == std::string(child.attribute("name").value()); });
     }
 
-    // Returns the node of this name beside the element's node, or in the document. Names within a scope are unique.
-    xml_node find(xml_node element, const char* name) const
+    // Returns the element of this name in a scope. Names within a scope are unique.
+    xml_node named(xml_node scope, const std::string& name)
     {
-        const xml_node scope = element.parent().parent();
-        const xml_node beside = scope.find_child_by_attribute("name", name);
-        return beside ? beside : root_.find_child_by_attribute("name", name);
+        std::map<std::string, xml_node>& names = scopes_[scope.internal_object()];
+        if (names.empty())
+            for (const xml_node child : scope.children())
+                names.emplace(child.attribute("name").value(), child);
+        const auto found = names.find(name);
+        return found == names.end() ? xml_node() : found->second;
+    }
+
+    // Returns the node of this name beside the element's node, or in the document.
+    xml_node find(xml_node element, const char* name)
+    {
+        const xml_node beside = named(element.parent().parent(), name);
+        return beside ? beside : named(root_, name);
+    }
+
+    // Returns true where an input is linked to the mesh's own normal or tangent.
+    bool is_geometry(xml_node element)
+    {
+        xml_node from;
+        if (const pugi::xml_attribute name = element.attribute("nodename"))
+            from = find(element, name.value());
+        return from && is_one_of(from.name(), kGeometry);
     }
 
     Result<SurfaceMaterial> read_material(xml_node node)
@@ -104,13 +126,17 @@ class Reader {
         SurfaceMaterial r;
         r.name = node.attribute("name").value();
         const xml_node shader = input_of(node, "surfaceshader");
-        const xml_node surface = root_.find_child_by_attribute("name", shader.attribute("nodename").value());
+        const xml_node surface = named(root_, shader.attribute("nodename").value());
         if (!shader || !surface)
             return fault(place_of(node), "has no surface");
         if (!is_one_of(surface.name(), kSurfaces))
             return fault(place_of(surface), "is not read; standard_surface, open_pbr_surface and gltf_pbr are");
         r.kind = surface.name();
         for (const xml_node child : surface.children("input")) {
+            if (!*child.attribute("name").value())
+                return fault(place_of(surface), "has an input without a name");
+            if (is_geometry(child))
+                continue;
             Result<Input> input = resolved(child, 0);
             if (!input) {
                 Error error = input.error();
@@ -127,27 +153,29 @@ class Reader {
     // Returns the value of an input element, or what it is connected to.
     Result<Input> resolved(xml_node element, int depth)
     {
-        if (depth > kMostNodes)
+        if (depth > kMostNodes || ++visits_ > kMostVisits)
             return fault("", "comes from too many nodes, or from itself");
         Result<Input> found = Error{};
         if (const pugi::xml_attribute graph = element.attribute("nodegraph")) {
-            const xml_node nodes = root_.find_child_by_attribute("nodegraph", "name", graph.value());
+            const xml_node nodes = named(root_, graph.value());
             const std::string wanted = element.attribute("output").value();
             const xml_node output =
                 wanted.empty() ? nodes.child("output") : nodes.find_child_by_attribute("output", "name", wanted.c_str());
             if (!output)
                 return fault("", fmt::format("nodegraph {} has no such output", printable(graph.value())));
-            found = read_node(nodes.find_child_by_attribute("name", output.attribute("nodename").value()), output, depth + 1);
+            found = read_node(named(nodes, output.attribute("nodename").value()), output, depth + 1);
         } else if (const pugi::xml_attribute name = element.attribute("nodename"))
             found = read_node(find(element, name.value()), element, depth + 1);
         else if (element.attribute("interfacename"))
             return fault("", "inputs of node graphs are not read");
         else
             found = constant(element);
-        if (found)
-            if (const std::string channels = element.attribute("channels").value(); channels.size() == 1)
-                return channel_of(std::move(*found), channels[0]);
-        return found;
+        const std::string channels = element.attribute("channels").value();
+        if (!found || channels.empty() || channels == "rgb" || channels == "xyz")
+            return found;
+        if (channels.find_first_not_of(channels[0]) != std::string::npos)
+            return fault("", fmt::format("channels \"{}\" are not read", printable(channels)));
+        return channel_of(std::move(*found), channels[0]);
     }
 
     // Returns what a node gives. from: the element that names the node.
@@ -162,7 +190,8 @@ class Reader {
             error.place = place_of(node);
             return error;
         }
-        if (r && output.size() == 4 && output.starts_with("out") && std::strncmp(node.name(), "separate", 8) == 0)
+        const bool has_channels = std::strncmp(node.name(), "separate", 8) == 0 || output == "outa";
+        if (r && has_channels && output.size() == 4 && output.starts_with("out"))
             return channel_of(std::move(*r), output[3]);
         return r;
     }
@@ -182,8 +211,13 @@ class Reader {
             return fault("", "such nodes are not read");
         Result<Input> of = resolved(input_of(node, "in"), depth);
         BN_TRY(of);
-        if (is_named(node, "extract"))
-            return channel_of(std::move(*of), "xyzw"[std::clamp(input_of(node, "index").attribute("value").as_int(), 0, 3)]);
+        if (is_named(node, "extract")) {
+            const Result<Input> index = input_of(node, "index") ? resolved(input_of(node, "index"), depth) : Result<Input>(Input());
+            BN_TRY(index);
+            if (index->picture)
+                return fault("", "its index is a picture");
+            return channel_of(std::move(*of), "xyzw"[static_cast<int>(std::clamp(index->value.x, 0.0f, 3.0f))]);
+        }
         const std::string channels = input_of(node, "channels").attribute("value").value();
         if (is_named(node, "swizzle") && channels.size() != 1)
             return fault("", "gives more than one channel");
@@ -199,7 +233,7 @@ class Reader {
             return fault("", "gives no channel");
         const int channel = static_cast<int>(found ? found - kColour : vector - kVector);
         if (input.picture)
-            input.picture->channel = channel, input.picture->factor = glm::vec3(input.picture->factor[std::min(channel, 2)]);
+            input.picture->channel = channel, input.picture->factor = glm::vec4(input.picture->factor[channel]);
         else
             input.value = glm::vec3(input.value[std::min(channel, 2)]);
         return input;
@@ -215,9 +249,13 @@ class Reader {
         Input& picture = a->picture ? *a : *b;
         const glm::vec3 factor = a->picture ? b->value : a->value;
         if (picture.picture)
-            picture.picture->factor *= factor;
+            picture.picture->factor *= glm::vec4(factor, factor.x == factor.y && factor.y == factor.z ? factor.x : 1.0f);
         else
             picture.value *= factor;
+        const glm::vec4 made = picture.picture ? picture.picture->factor : glm::vec4(picture.value, 1.0f);
+        for (int c = 0; c < 4; ++c)
+            if (!std::isfinite(made[c]))
+                return fault("", "makes no finite number");
         return picture;
     }
 
@@ -253,10 +291,12 @@ class Reader {
             picture.file = file_prefix(file) + name;
         else
             return fault("", "names no file");
-        const std::string space = inherited(file, "colorspace");
-        picture.encoded = space.empty() || space == "srgb_texture" || space == "g22_rec709";
-        if (!picture.encoded && space != "lin_rec709" && space != "none" && space != "raw")
-            return fault("", fmt::format("colours of {} are not read", printable(space)));
+        if (const std::string type = node.attribute("type").value(); type.starts_with("color") || is_named(node, "gltf_colorimage")) {
+            const std::string space = inherited(file, "colorspace");
+            picture.encoded = space == "srgb_texture";
+            if (!picture.encoded && !space.empty() && space != "lin_rec709" && space != "none" && space != "raw")
+                return fault("", fmt::format("colours of {} are not read", printable(space)));
+        }
         for (const bool up : {false, true}) {
             const std::string mode = input_of(node, up ? "vaddressmode" : "uaddressmode").attribute("value").value();
             WrapMode& wrap = up ? picture.wrap_t : picture.wrap_s;
@@ -268,26 +308,66 @@ class Reader {
                 return fault("", fmt::format("its address mode {} is not read", printable(mode)));
         }
         picture.nearest = std::string(input_of(node, "filtertype").attribute("value").value()) == "closest";
-        for (const char* const name : {"texcoord", "rotate", "pivot", "realworldimagesize", "realworldtilesize"})
+        for (const char* const name : {"texcoord", "rotate", "realworldimagesize", "realworldtilesize", "operationorder"})
             if (const xml_node input = input_of(node, name); input && !is_usual(input, name))
                 return fault("", fmt::format("its {} is not read", name));
-        BN_TRY(put_pair(input_of(node, "uvtiling"), picture.tiling));
-        BN_TRY(put_pair(input_of(node, "scale"), picture.tiling));
-        BN_TRY(put_pair(input_of(node, "uvoffset"), picture.offset));
-        BN_TRY(put_pair(input_of(node, "offset"), picture.offset));
+        const bool gltf = std::strncmp(node.name(), "gltf", 4) == 0;
+        BN_TRY(gltf ? place_as_gltf(node, picture) : place_as_tiles(node, picture));
+        if (gltf)
+            BN_TRY(put_factors(node, picture));
         return r;
     }
 
+    // MaterialX 1.38, node tiledimage: coordinates * tiling - offset, v up.
+    Status place_as_tiles(xml_node node, PictureInput& picture) const
+    {
+        glm::vec2 tiling(1.0f), offset(0.0f);
+        BN_TRY(put_pair(input_of(node, "uvtiling"), tiling));
+        BN_TRY(put_pair(input_of(node, "uvoffset"), offset));
+        picture.scale = tiling;
+        picture.offset = glm::vec2(-offset.x, 1.0f - tiling.y + offset.y);
+        return {};
+    }
+
+    // The nodes of gltf_pbr: KHR_texture_transform about the usual pivot.
+    Status place_as_gltf(xml_node node, PictureInput& picture) const
+    {
+        glm::vec2 pivot(0.0f, 1.0f);
+        BN_TRY(put_pair(input_of(node, "pivot"), pivot));
+        if (pivot != glm::vec2(0.0f, 1.0f))
+            return fault("", "its pivot is not read");
+        BN_TRY(put_pair(input_of(node, "scale"), picture.scale));
+        BN_TRY(put_pair(input_of(node, "offset"), picture.offset));
+        return {};
+    }
+
+    // Multiplies by the factors of gltf_image and gltf_colorimage.
+    Status put_factors(xml_node node, PictureInput& picture)
+    {
+        for (const char* const name : {"factor", "color", "geomcolor"}) {
+            const xml_node input = input_of(node, name);
+            if (!input)
+                continue;
+            const Result<Input> value = resolved(input, kMostNodes - 1);
+            BN_TRY(value);
+            if (value->picture)
+                return fault("", fmt::format("its {} is a picture", name));
+            const bool number = std::string(input.attribute("type").value()) == "float";
+            picture.factor *= glm::vec4(value->value, number ? value->value.x : value->alpha);
+        }
+        return {};
+    }
+
     // Returns true where an input has no effect: the first texture coordinates, sizes of 1, no rotation.
-    bool is_usual(xml_node input, const std::string& name) const
+    bool is_usual(xml_node input, const std::string& name)
     {
         if (name == "texcoord") {
             const xml_node from = find(input, input.attribute("nodename").value());
             return is_named(from, "texcoord") && input_of(from, "index").attribute("value").as_int() == 0;
         }
         const Result<Input> value = constant(input);
-        const float usual = name.starts_with("real") ? 1.0f : 0.0f;
-        return value && (name == "pivot" || (value->value.x == usual && value->value.y == usual));
+        const float usual = name.starts_with("real") || name.starts_with("op") ? 1.0f : 0.0f;
+        return value && value->value.x == usual && value->value.y == usual;
     }
 
     Status put_pair(xml_node input, glm::vec2& to) const
@@ -322,8 +402,7 @@ class Reader {
             const std::optional<double> number = number_of(rest.substr(0, comma));
             if (!number || !std::isfinite(static_cast<float>(*number)))
                 return fault("", fmt::format("\"{}\" is no number", printable(text)));
-            if (count < 3)
-                r.value[count] = static_cast<float>(*number);
+            (count < 3 ? r.value[count] : r.alpha) = static_cast<float>(*number);
             ++count;
             rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
         }
@@ -369,6 +448,8 @@ class Reader {
     const std::string& path_;
     pugi::xml_document xml_;
     xml_node root_;
+    std::map<const void*, std::map<std::string, xml_node>> scopes_; // names in elements that were asked
+    int visits_ = 0;
 };
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
@@ -10,10 +9,10 @@
 
 #include "core/base/file.h"
 #include "core/base/text.h"
-#include "core/image/colour.h"
 #include "core/image/io/image_io.h"
 #include "core/image/io/stored_colour.h"
 #include "core/scene/directional_roughness.h"
+#include "core/scene/mtlx/channels.h"
 #include "core/scene/mtlx/surfaces.h"
 #include "core/scene/picture_beside.h"
 #include "core/scene/surface_maps.h"
@@ -30,33 +29,17 @@ using mtlx::Parts;
 using mtlx::PictureInput;
 using mtlx::SurfaceMaterial;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 26; // of a document
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 23; // of a document
+constexpr std::size_t kMostNames = 10;                       // in an error
 
-// Returns a stored value: codes of 8 and 16 bits as [0,1].
-float value_at(const Image& image, std::size_t at)
+bool is_finite(const Material& m)
 {
-    if (image.type == PixelType::f32)
-        return image.f32()[at];
-    if (image.type == PixelType::u8)
-        return static_cast<float>(std::to_integer<int>(image.bytes[at])) / 255.0f;
-    std::uint16_t code;
-    std::memcpy(&code, image.bytes.data() + 2 * at, sizeof code);
-    return static_cast<float>(code) / 65535.0f;
-}
-
-// Returns one channel of an image times the factor, as floats where the factor is not 1. Gray has one channel for all.
-Image channel_of(const Image& image, int channel, float factor)
-{
-    const std::size_t from = static_cast<std::size_t>(image.channels >= 3 ? std::min(channel, image.channels - 1) : 0),
-                      each = static_cast<std::size_t>(image.channels), size = pixel_type_bytes(image.type);
-    Image r = make_image(image.width, image.height, 1, factor == 1.0f ? image.type : PixelType::f32);
-    const std::size_t count = static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
-    for (std::size_t i = 0; i < count; ++i)
-        if (factor == 1.0f)
-            std::memcpy(r.bytes.data() + i * size, image.bytes.data() + (i * each + from) * size, size);
-        else
-            r.f32()[i] = value_at(image, i * each + from) * factor;
-    return r;
+    for (const float value : {m.emissive.r, m.emissive.g, m.emissive.b, m.emissive_strength, m.specular_color.r, m.specular_color.g,
+                              m.specular_color.b, m.ior, m.dispersion, m.thickness, m.attenuation_distance, m.iridescence_thickness,
+                              m.iridescence_ior, m.anisotropy_rotation, m.normal_scale, m.clearcoat_normal_scale})
+        if (!std::isfinite(value))
+            return false;
+    return true;
 }
 
 class Wardrobe {
@@ -70,7 +53,10 @@ class Wardrobe {
         std::vector<std::string> wanting;
         Material m = mtlx::material_of(surface, parts, wanting);
         BN_TRY(check_pictures(surface, parts));
-        BN_TRY(put_pictures(surface, parts, m));
+        BN_TRY(put_pictures(surface, parts, m, wanting));
+        if (!is_finite(m))
+            return Error{ExitCode::bad_input, path_, fmt::format("{} {}", surface.kind, printable(surface.name)),
+                         "its numbers are too large"};
         warn_of(surface, "nothing is made of", unread);
         warn_of(surface, "not drawn as the file has it:", wanting);
         return m;
@@ -113,11 +99,15 @@ class Wardrobe {
         return {};
     }
 
-    Result<Image> read(const SurfaceMaterial& surface, const Input& input, bool colours)
+    // Reads a picture once.
+    Result<const Image*> read(const SurfaceMaterial& surface, const Input& input, bool colours)
     {
         const std::optional<std::string> path = picture_beside(fs::path(path_).parent_path(), input.picture->file, limits_);
         if (!path)
             return fault(surface, input, fmt::format("picture {} is not found in the folder of the file", printable(input.picture->file)));
+        const auto key = std::pair(*path, colours);
+        if (const auto known = pictures_.find(key); known != pictures_.end())
+            return &known->second;
         Limits rest = limits_;
         rest.texture_bytes = texture_bytes_left(scene_, limits_);
         PictureNotes notes;
@@ -125,60 +115,56 @@ class Wardrobe {
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             scene_.warnings.push_back(*path + ": " + warning);
+        if (const std::size_t clipped = colours ? clip_negative_colours(*image) : 0)
+            scene_.warnings.push_back(fmt::format("{}: {} texels of negative colour are set to 0", *path, clipped));
         if (std::find(scene_.files.begin(), scene_.files.end(), *path) == scene_.files.end())
             scene_.files.push_back(*path);
-        return image;
+        return &pictures_.emplace(key, std::move(*image)).first->second;
     }
 
-    // Returns a reference to a texture of the image, at the picture's place.
-    Result<TextureRef> place(const PictureInput& picture, const std::string& kind, Image image)
+    // Returns a reference to a texture at the picture's place. kind: tells textures of one file apart. make: makes the image of a new one.
+    template <class Make> Result<TextureRef> place(const PictureInput& picture, const std::string& kind, const Make& make)
     {
-        if (image.bytes.size() > texture_bytes_left(scene_, limits_))
-            return textures_too_large(path_, limits_);
         const auto key = std::tuple(picture.file, kind, picture.wrap_s, picture.wrap_t, picture.nearest);
         auto known = textures_.find(key);
         if (known == textures_.end()) {
+            Image image = make();
+            if (image.bytes.size() > texture_bytes_left(scene_, limits_))
+                return textures_too_large(path_, limits_);
             Texture like;
             like.wrap_s = picture.wrap_s, like.wrap_t = picture.wrap_t, like.nearest = picture.nearest;
             known = textures_.emplace(key, add_texture(scene_, picture.file.c_str(), std::move(image), like)).first;
         }
         TextureRef ref;
         ref.texture = known->second;
-        const glm::vec2 s = picture.tiling, o = -picture.offset; // v runs up in the file, down in the scene
-        ref.uv_transform = glm::mat3x2(glm::vec2(s.x, 0.0f), glm::vec2(0.0f, s.y), glm::vec2(o.x, 1.0f - s.y - o.y));
+        const glm::vec2 s = picture.scale;
+        ref.uv_transform = glm::mat3x2(glm::vec2(s.x, 0.0f), glm::vec2(0.0f, s.y), picture.offset);
         return ref;
     }
 
-    // Puts a picture of colours; the picture's factor becomes the material's.
-    Status put_colours(const SurfaceMaterial& surface, const Input& input, TextureRef& to)
+    static std::string key_of(const PictureInput& p)
     {
-        Result<Image> image = read(surface, input, true);
+        return fmt::format("{} {} {} {}", p.file, p.channel, p.factor[0], p.encoded);
+    }
+
+    // Puts a picture of colours; its factor becomes the material's.
+    Status put_colours(const SurfaceMaterial& surface, const Input& input, bool with_alpha, TextureRef& to)
+    {
+        const Result<const Image*> image = read(surface, input, true);
         BN_TRY(image);
-        if (!input.picture->encoded && image->type != PixelType::f32) // the slot decodes 8 and 16 bits
-            image = linear_as_floats(*image);
-        clip_negative_colours(*image);
-        const Result<TextureRef> ref = place(*input.picture, input.picture->encoded ? "colours" : "linear colours", std::move(*image));
+        const Result<TextureRef> ref = place(*input.picture, fmt::format("colours {} {}", input.picture->encoded, with_alpha),
+                                             [&] { return mtlx::colours_of(**image, *input.picture, with_alpha); });
         BN_TRY(ref);
         to = *ref;
         return {};
     }
 
-    static Image linear_as_floats(const Image& image)
-    {
-        Image r = make_image(image.width, image.height, image.channels, PixelType::f32);
-        const std::size_t count = r.bytes.size() / sizeof(float);
-        for (std::size_t i = 0; i < count; ++i)
-            r.f32()[i] = value_at(image, i);
-        return r;
-    }
-
     Status put_number(const SurfaceMaterial& surface, const Input& input, TextureRef& to)
     {
-        const Result<Image> image = read(surface, input, false);
+        const Result<const Image*> image = read(surface, input, false);
         BN_TRY(image);
-        const PictureInput& p = *input.picture;
         const Result<TextureRef> ref =
-            place(p, fmt::format("channel {} times {}", p.channel, p.factor.x), channel_of(*image, p.channel, p.factor.x));
+            place(*input.picture, key_of(*input.picture), [&] { return mtlx::channel_of(**image, *input.picture); });
         BN_TRY(ref);
         to = *ref;
         return {};
@@ -186,26 +172,40 @@ class Wardrobe {
 
     Status put_normals(const SurfaceMaterial& surface, const Input& input, TextureRef& to, float& scale)
     {
-        Result<Image> image = read(surface, input, false);
+        const Result<const Image*> image = read(surface, input, false);
         BN_TRY(image);
-        if (image->channels < 3)
+        if ((*image)->channels < 3)
             return fault(surface, input, "a map of normals has red, green and blue");
-        const Result<TextureRef> ref = place(*input.picture, "normals", whole_normals(std::move(*image)).image);
+        const Result<TextureRef> ref = place(*input.picture, "normals", [&] { return whole_normals(Image(**image)).image; });
         BN_TRY(ref);
         to = *ref, scale = *input.picture->normal_scale;
         return {};
     }
 
-    Status put_pictures(const SurfaceMaterial& surface, const Parts& parts, Material& m)
+    // Puts the base colour, with alpha where the opacity is the picture's own.
+    Status put_base(const SurfaceMaterial& surface, const Parts& parts, Material& m)
     {
-        if (const Input& base = at(parts, Part::base_color); base.picture) {
-            BN_TRY(put_colours(surface, base, m.base_color_tex));
-            m.base_color = glm::vec4(glm::clamp(base.picture->factor * mtlx::number(parts, Part::base), 0.0f, 1.0f), m.base_color.a);
+        const Input &base = at(parts, Part::base_color), &opacity = at(parts, Part::opacity);
+        if (opacity.picture && (!base.picture || opacity.picture->file != base.picture->file || opacity.picture->channel != 3))
+            return fault(surface, opacity, "pictures are read here only as the alpha of the base colour's picture");
+        if (!base.picture)
+            return {};
+        BN_TRY(put_colours(surface, base, opacity.picture.has_value(), m.base_color_tex));
+        m.base_color = glm::vec4(glm::clamp(glm::vec3(base.picture->factor) * mtlx::number(parts, Part::base), 0.0f, 1.0f), m.base_color.a);
+        if (opacity.picture) {
+            m.base_color.a = std::clamp(opacity.picture->factor[3], 0.0f, 1.0f);
+            const float mode = mtlx::number(parts, Part::alpha_mode);
+            m.alpha_mode = mode < 0.5f ? AlphaMode::opaque : mode < 1.5f ? AlphaMode::mask : AlphaMode::blend;
         }
+        return {};
+    }
+
+    Status put_pictures(const SurfaceMaterial& surface, const Parts& parts, Material& m, std::vector<std::string>& wanting)
+    {
+        BN_TRY(put_base(surface, parts, m));
         if (const Input& light = at(parts, Part::emission_color); light.picture) {
-            BN_TRY(put_colours(surface, light, m.emissive_tex));
-            m.emissive = glm::vec3(1.0f),
-            m.emissive_strength = std::max(mtlx::number(parts, Part::emission) * light.picture->factor.x, 0.0f);
+            BN_TRY(put_colours(surface, light, false, m.emissive_tex));
+            mtlx::put_emission(glm::vec3(light.picture->factor) * mtlx::number(parts, Part::emission), m);
         }
         struct Number {
             Part part;
@@ -232,6 +232,10 @@ class Wardrobe {
             BN_TRY(put_normals(surface, at(parts, Part::normal), m.normal_tex, m.normal_scale));
         if (at(parts, Part::coat_normal).picture)
             BN_TRY(put_normals(surface, at(parts, Part::coat_normal), m.clearcoat_normal_tex, m.clearcoat_normal_scale));
+        const bool tinted =
+            at(parts, Part::transmission_color).value != glm::vec3(1.0f) && surface.kind != "gltf_pbr" && m.transmission > 0.0f;
+        if (tinted && (at(parts, Part::base_color).picture || at(parts, Part::transmission).picture))
+            wanting.push_back("transmission_color beside a picture (the base colour tints)");
         return put_lobe(surface, parts, m);
     }
 
@@ -241,34 +245,49 @@ class Wardrobe {
         const Input &metal = at(parts, Part::metalness), &rough = at(parts, Part::roughness);
         if (!metal.picture && !rough.picture)
             return {};
-        Image maps[2];
-        for (const Input* const input : {&metal, &rough})
-            if (input->picture) {
-                const Result<Image> image = read(surface, *input, false);
-                BN_TRY(image);
-                maps[input == &rough] = channel_of(*image, input->picture->channel, input->picture->factor.x);
-            }
-        const float anisotropy = mtlx::number(parts, Part::anisotropy);
         const PictureInput& picture = *(rough.picture ? rough : metal).picture;
-        if (metal.picture && rough.picture && (metal.picture->tiling != picture.tiling || metal.picture->offset != picture.offset))
-            return fault(surface, metal, "lies otherwise than the roughness");
-        const std::string kind = fmt::format("metalness {} {} and roughness {} {}", metal.picture ? metal.picture->file : "",
-                                             metal.picture ? metal.picture->channel : 0, picture.channel, anisotropy);
-        if (rough.picture && anisotropy > 0.0f) {
-            Image widths = make_image(maps[1].width, maps[1].height, 3, PixelType::f32);
-            const std::size_t count = static_cast<std::size_t>(maps[1].width) * static_cast<std::size_t>(maps[1].height);
-            for (std::size_t i = 0; i < count; ++i) {
-                const mtlx::Widths w = mtlx::widths_of(surface.kind, static_cast<double>(std::clamp(value_at(maps[1], i), 0.0f, 1.0f)),
-                                                       static_cast<double>(anisotropy));
-                widths.f32()[3 * i] = static_cast<float>(std::min(w.along, 1.0)), widths.f32()[3 * i + 1] = static_cast<float>(w.across);
-            }
-            const Result<TextureRef> ref = place(picture, kind + " widths", roughness_of(widths, RoughnessEncoding::widths).image);
+        Image maps[2];
+        std::string kind = surface.kind;
+        for (const Input* const input : {&metal, &rough}) {
+            kind += input->picture ? ", " + key_of(*input->picture) : ", none";
+            if (!input->picture)
+                continue;
+            const PictureInput& p = *input->picture;
+            if (p.scale != picture.scale || p.offset != picture.offset || p.wrap_s != picture.wrap_s || p.wrap_t != picture.wrap_t ||
+                p.nearest != picture.nearest)
+                return fault(surface, metal, "lies otherwise than the roughness");
+            const Result<const Image*> image = read(surface, *input, false);
+            BN_TRY(image);
+            maps[input == &rough] = mtlx::channel_of(**image, p);
+        }
+        const mtlx::LobeOfRoughness lobe = mtlx::lobe_of(surface, parts);
+        const auto roughness_at = [&](std::size_t i) { return static_cast<double>(std::clamp(mtlx::value_at(maps[1], i), 0.0f, 1.0f)); };
+        const std::size_t count = static_cast<std::size_t>(maps[1].width) * static_cast<std::size_t>(maps[1].height);
+        kind += fmt::format(", {} {} {}", lobe.anisotropy, lobe.coat, lobe.coat_roughness);
+        if (rough.picture && lobe.anisotropy > 0.0) {
+            const Result<TextureRef> ref = place(picture, kind + ", widths", [&] {
+                Image widths = make_image(maps[1].width, maps[1].height, 3, PixelType::f32);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const mtlx::Widths w = lobe.widths(roughness_at(i));
+                    widths.f32()[3 * i] = static_cast<float>(std::min(w.along, 1.0)),
+                                     widths.f32()[3 * i + 1] = static_cast<float>(w.across);
+                }
+                return roughness_of(widths, RoughnessEncoding::widths).image;
+            });
             BN_TRY(ref);
             m.directional_roughness_tex = *ref;
         }
         if (metal_rough_bytes(maps[0], maps[1]) > texture_bytes_left(scene_, limits_))
             return textures_too_large(path_, limits_);
-        const Result<TextureRef> ref = place(picture, kind, metal_rough_of(maps[0], maps[1]));
+        const Result<TextureRef> ref = place(picture, kind, [&] {
+            if (rough.picture && lobe.coat > 0.0 && lobe.coat_roughness > 0.0) {
+                Image coated = make_image(maps[1].width, maps[1].height, 1, PixelType::f32);
+                for (std::size_t i = 0; i < count; ++i)
+                    coated.f32()[i] = static_cast<float>(lobe.below_coat(roughness_at(i)));
+                maps[1] = std::move(coated);
+            }
+            return metal_rough_of(maps[0], maps[1]);
+        });
         BN_TRY(ref);
         m.metallic_roughness_tex = *ref;
         m.metallic = metal.picture ? 1.0f : m.metallic, m.roughness = rough.picture ? 1.0f : m.roughness;
@@ -278,6 +297,7 @@ class Wardrobe {
     Scene& scene_;
     const std::string path_;
     const Limits& limits_;
+    std::map<std::pair<std::string, bool>, Image> pictures_; // by path, and whether colours were read
     std::map<std::tuple<std::string, std::string, WrapMode, WrapMode, bool>, std::int32_t> textures_;
 };
 
@@ -294,8 +314,10 @@ std::vector<bool> worn_with_coordinates(const Scene& scene)
 Error nothing_named(const std::string& path, const std::vector<SurfaceMaterial>& all)
 {
     std::string names;
-    for (const SurfaceMaterial& each : all)
-        names += (names.empty() ? "" : ", ") + printable(each.name);
+    for (std::size_t i = 0; i < std::min(all.size(), kMostNames); ++i)
+        names += (i ? ", " : "") + printable(all[i].name);
+    if (all.size() > kMostNames)
+        names += fmt::format(" and {} more", all.size() - kMostNames);
     return {ExitCode::usage, path, "", fmt::format("no material of the scene has the name of one of these: {}", names),
             "MaterialOverrides::material"};
 }
@@ -313,10 +335,12 @@ Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits)
     // Find each material's own
     std::vector<const SurfaceMaterial*> wears(scene.materials.size(), nullptr);
     bool named = false;
+    std::map<std::string, const SurfaceMaterial*> by_name;
+    for (const SurfaceMaterial& each : *all)
+        by_name.emplace(each.name, &each);
     for (std::size_t i = 0; i < wears.size(); ++i)
-        for (const SurfaceMaterial& each : *all)
-            if (each.name == scene.materials[i].name)
-                wears[i] = &each, named = true;
+        if (const auto own = by_name.find(scene.materials[i].name); own != by_name.end())
+            wears[i] = own->second, named = true;
     if (!named && all->size() > 1)
         return nothing_named(path, *all);
     if (!named)
@@ -335,11 +359,13 @@ Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits)
             BN_TRY(one);
             known = made.emplace(wears[i], std::move(*one)).first;
         }
-        if (wardrobe.has_pictures() && !worn[i] && std::none_of(worn.begin(), worn.end(), [](bool w) { return w; }))
-            return Error{ExitCode::bad_input, path, "", "nothing in the scene has texture coordinates for its pictures"};
+        if (wardrobe.has_pictures() && !worn[i])
+            return Error{ExitCode::bad_input, path, "",
+                         fmt::format("material \"{}\" is worn by nothing with texture coordinates for its pictures", printable(m.name))};
         const std::string name = m.name;
+        const bool double_sided = m.double_sided; // MaterialX tells nothing of sides
         m = known->second;
-        m.name = name;
+        m.name = name, m.double_sided = double_sided;
     }
     return {};
 }

@@ -1,4 +1,4 @@
-// MaterialX files (.mtlx): flat surfaces on the materials of a scene.
+// MaterialX files (.mtlx): surfaces of numbers and pictures, for the materials of a scene.
 #pragma once
 #include <string>
 

@@ -34,7 +34,6 @@ constexpr const char* kSilent[] = {"subsurface_color",
                                    "subsurface_anisotropy",
                                    "subsurface_scatter_anisotropy",
                                    "transmission_scatter_anisotropy",
-                                   "transmission_dispersion_abbe_number",
                                    "coat_darkening",
                                    "coat_rotation"};
 
@@ -54,29 +53,12 @@ glm::vec3 unit(const glm::vec3& x)
     return glm::clamp(x, 0.0f, 1.0f);
 }
 
-void put_emission(const glm::vec3& light, Material& m)
-{
-    const glm::vec3 positive = glm::max(light, 0.0f);
-    const float most = std::max({positive.r, positive.g, positive.b, 1.0f});
-    m.emissive = positive / most, m.emissive_strength = most;
-}
-
-// Returns roughness below the coat. OpenPBR 1.1, "Roughening"; standard_surface, "coat_affect_roughness".
-double roughness_below_coat(Kind kind, const Parts& parts)
-{
-    const double r = static_cast<double>(unit(number(parts, Part::roughness))), coat = static_cast<double>(unit(number(parts, Part::coat))),
-                 rough = static_cast<double>(unit(number(parts, Part::coat_roughness)));
-    if (kind == kOpen) {
-        const double both = std::min(2.0 * rough * rough * rough * rough + r * r * r * r, 1.0);
-        return r + (std::sqrt(std::sqrt(both)) - r) * coat;
-    }
-    return r + (1.0 - r) * coat * rough * static_cast<double>(unit(number(parts, Part::coat_roughens)));
-}
-
 // Sets transmission and absorption. Light through a surface is tinted by the base colour, which the opaque part of it shares.
 void put_transmission(Kind kind, const Parts& parts, Material& m)
 {
     m.transmission = unit(number(parts, Part::transmission));
+    if (const float abbe = number(parts, Part::abbe_number); abbe > 0.0f)
+        m.dispersion = std::max(number(parts, Part::dispersion), 0.0f) * 20.0f / abbe;
     const glm::vec3 colour = unit(at(parts, Part::transmission_color).value);
     const float depth = std::max(number(parts, Part::transmission_depth), 0.0f);
     if (depth > 0.0f)
@@ -111,6 +93,33 @@ void put_film(Kind kind, const Parts& parts, Material& m)
 }
 
 } // namespace
+
+void put_emission(const glm::vec3& light, Material& m)
+{
+    const glm::vec3 positive = glm::max(light, 0.0f);
+    const float most = std::max({positive.r, positive.g, positive.b, 1.0f});
+    m.emissive = positive / most, m.emissive_strength = most;
+}
+
+LobeOfRoughness lobe_of(const SurfaceMaterial& surface, const Parts& parts)
+{
+    const auto share = [&](Part part) { return static_cast<double>(unit(number(parts, part))); };
+    return {surface.kind, share(Part::anisotropy), share(Part::coat), share(Part::coat_roughness), share(Part::coat_roughens)};
+}
+
+// OpenPBR 1.1, "Roughening"; standard_surface, "coat_affect_roughness".
+double LobeOfRoughness::below_coat(double r) const
+{
+    if (kind_of(kind) != kOpen)
+        return r + (1.0 - r) * coat * coat_roughness * coat_roughens;
+    const double c = coat_roughness, both = std::min(2.0 * c * c * c * c + r * r * r * r, 1.0);
+    return r + (std::sqrt(std::sqrt(both)) - r) * coat;
+}
+
+Widths LobeOfRoughness::widths(double roughness) const
+{
+    return widths_of(kind, below_coat(roughness), anisotropy);
+}
 
 Parts parts_of(const SurfaceMaterial& surface, std::vector<std::string>& unknown)
 {
@@ -159,7 +168,7 @@ Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::ve
     m.base_color = glm::vec4(unit(at(parts, Part::base_color).value * number(parts, Part::base)), 1.0f);
     m.metallic = unit(number(parts, Part::metalness));
     const double turns = static_cast<double>(number(parts, Part::rotation)) * (kind == kGltf ? 1.0 : 2.0 * kPi);
-    put_widths(widths_of(surface.kind, roughness_below_coat(kind, parts), static_cast<double>(number(parts, Part::anisotropy))), turns, m);
+    put_widths(lobe_of(surface, parts).widths(static_cast<double>(unit(number(parts, Part::roughness)))), turns, m);
     m.specular = unit(number(parts, Part::specular));
     m.specular_color = glm::max(at(parts, Part::specular_color).value, 0.0f);
     m.ior = std::max(number(parts, Part::ior), 0.0f);
@@ -176,6 +185,10 @@ Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::ve
     put_emission(at(parts, Part::emission_color).value * number(parts, Part::emission), m);
     put_alpha(kind, parts, m);
     // Tell what is drawn otherwise
+    if (number(parts, Part::occlusion) != 1.0f)
+        wanting.push_back(at(parts, Part::occlusion).name + " (none without a picture)");
+    if (const glm::vec3 base = at(parts, Part::base_color).value * number(parts, Part::base); base != unit(base))
+        wanting.push_back(at(parts, Part::base_color).name + " (drawn within 0 and 1)");
     if (m.clearcoat > 0.0f || at(parts, Part::coat).picture) {
         if (at(parts, Part::coat_color).value != glm::vec3(1.0f))
             wanting.push_back(at(parts, Part::coat_color).name + " (drawn white)");

@@ -17,8 +17,8 @@ enum class Part {
 
 using Parts = std::array<Input, static_cast<std::size_t>(Part::count)>;
 
-// Returns the surface's parts, with the defaults of its kind. unknown: receives the names of inputs that are no part and have a value that
-// the kind's default does not have.
+// Returns the surface's parts, with the defaults of its kind. unknown: receives the names of inputs that are no part, where a picture or a
+// number other than 0 stands.
 Parts parts_of(const SurfaceMaterial& surface, std::vector<std::string>& unknown);
 
 inline const Input& at(const Parts& parts, Part part)
@@ -41,6 +41,18 @@ Widths widths_of(const std::string& kind, double roughness, double anisotropy);
 
 // Sets roughness, anisotropy_strength and anisotropy_rotation so that the lobe has these widths, both at most 1.
 void put_widths(const Widths& widths, double rotation_rad, Material& m);
+
+// Sets the emission. light: cd/m^2, linear.
+void put_emission(const glm::vec3& light, Material& m);
+
+// A surface's lobe by its roughness.
+struct LobeOfRoughness {
+    std::string kind;
+    double anisotropy, coat, coat_roughness, coat_roughens; // [0,1]
+    double below_coat(double roughness) const;              // roughness below the coat
+    Widths widths(double roughness) const;
+};
+LobeOfRoughness lobe_of(const SurfaceMaterial& surface, const Parts& parts);
 
 // Returns the material without its textures. wanting: receives inputs that the material draws otherwise.
 Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::vector<std::string>& wanting);

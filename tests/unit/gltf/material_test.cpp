@@ -78,6 +78,7 @@ TEST(material, defaults_are_those_of_gltf)
     EXPECT_EQ(m.clearcoat_roughness, 0.0f);
     EXPECT_EQ(m.sheen_color, glm::vec3(0.0f));
     EXPECT_EQ(m.sheen_roughness, 0.0f);
+    EXPECT_EQ(m.dispersion, 0.0f);
     EXPECT_EQ(m.iridescence, 0.0f);
     EXPECT_EQ(m.iridescence_ior, 1.3f);
     EXPECT_EQ(m.iridescence_thickness_least, 100.0f);
@@ -96,7 +97,7 @@ TEST(material, every_factor_and_extension_arrives)
         R"({"name":"all","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0,"roughnessFactor":0.25},)"
         R"("emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.75,"doubleSided":true,"extensions":{)"
         R"("KHR_materials_unlit":{},"KHR_materials_emissive_strength":{"emissiveStrength":10},"KHR_materials_ior":{"ior":1.33},)"
-        R"("KHR_materials_transmission":{"transmissionFactor":0.75},)"
+        R"("KHR_materials_transmission":{"transmissionFactor":0.75},"KHR_materials_dispersion":{"dispersion":0.25},)"
         R"("KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
         R"("KHR_materials_sheen":{"sheenColorFactor":[0.1,0.2,0.3],"sheenRoughnessFactor":0.6},)"
         R"("KHR_materials_iridescence":{"iridescenceFactor":0.8,"iridescenceIor":1.6,"iridescenceThicknessMinimum":50,)"
@@ -121,6 +122,7 @@ TEST(material, every_factor_and_extension_arrives)
     EXPECT_EQ(m.clearcoat_roughness, 0.2f);
     EXPECT_EQ(m.sheen_color, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(m.sheen_roughness, 0.6f);
+    EXPECT_EQ(m.dispersion, 0.25f);
     EXPECT_EQ(m.iridescence, 0.8f);
     EXPECT_EQ(m.iridescence_ior, 1.6f);
     EXPECT_EQ(m.iridescence_thickness_least, 50.0f);

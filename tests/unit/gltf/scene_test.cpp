@@ -188,32 +188,32 @@ TEST(scene, uris_that_leave_the_folder_are_refused_unless_allowed)
 TEST(scene, unknown_required_extensions_are_an_error_that_lists_all_of_them)
 {
     Asset asset = triangle();
-    asset.more = R"(,"extensionsRequired":["KHR_materials_ior","ACME_one","KHR_materials_dispersion","ACME_one"])";
+    asset.more = R"(,"extensionsRequired":["KHR_materials_ior","ACME_one","KHR_materials_diffuse_transmission","ACME_one"])";
     EXPECT_EQ(error_of(load(asset)), "/extensionsRequired: the file requires extensions that are not "
-                                     "supported: ACME_one, KHR_materials_dispersion");
+                                     "supported: ACME_one, KHR_materials_diffuse_transmission");
 }
 
 TEST(scene, unknown_used_extensions_warn_once_each)
 {
     Asset asset = triangle();
-    asset.more = R"(,"extensionsUsed":["ACME_one","KHR_materials_dispersion","ACME_one","KHR_materials_ior"])";
+    asset.more = R"(,"extensionsUsed":["ACME_one","KHR_materials_diffuse_transmission","ACME_one","KHR_materials_ior"])";
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
     EXPECT_EQ(scene->warnings, (std::vector<std::string>{"extension ACME_one is not supported and ignored",
-                                                         "extension KHR_materials_dispersion is not supported and ignored",
+                                                         "extension KHR_materials_diffuse_transmission is not supported and ignored",
                                                          "/extensionsUsed/2: stands here twice"}));
 }
 
 TEST(scene, ignored_extensions_are_counted_and_with_strict_refused)
 {
     Asset asset = triangle();
-    asset.more = R"(,"extensionsUsed":["KHR_materials_ior","KHR_materials_dispersion","ACME_one"])";
+    asset.more = R"(,"extensionsUsed":["KHR_materials_ior","KHR_materials_diffuse_transmission","ACME_one"])";
     const Result<Scene> scene = load(asset);
     ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(ignored_extensions(scene->warnings), (std::vector<std::string>{"KHR_materials_dispersion", "ACME_one"}));
+    EXPECT_EQ(ignored_extensions(scene->warnings), (std::vector<std::string>{"KHR_materials_diffuse_transmission", "ACME_one"}));
     Limits strict;
     strict.strict = true;
-    EXPECT_EQ(error_of(load(asset, strict)), "/extensionsUsed: extension KHR_materials_dispersion is not supported (Limits::strict)");
+    EXPECT_EQ(error_of(load(asset, strict)), "/extensionsUsed: extension KHR_materials_diffuse_transmission is not supported (Limits::strict)");
     EXPECT_FALSE(is_read("animations")); // no extension
     EXPECT_TRUE(is_read("KHR_draco_mesh_compression"));
 }

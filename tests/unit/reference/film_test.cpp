@@ -246,6 +246,29 @@ TEST(film, of_rough_metal_by_one_fetch_is_near_its_samples)
             }
 }
 
+// An index of 0 reflects all light by glTF; with a specular colour of .04 it is the usual plastic.
+TEST(film, over_a_dielectric_without_an_index_is_not_seen_from_inside)
+{
+    Material plastic = slate(), bare = slate();
+    plastic.ior = 1.5f, bare.ior = 0.0f, bare.specular_color = glm::vec3(0.04f);
+    const FrameDesc d = film_view(0.7f, "split_isotropic", 1);
+    const Stage with(plane_scene(filmed(plastic, 300.0f)), 1.0f, 2), without(plane_scene(filmed(bare, 300.0f)), 1.0f, 2);
+    EXPECT_LT(worst_of(colour_of(with.render(d, best_isa())) - colour_of(without.render(d, best_isa()))), 1e-4);
+}
+
+TEST(film, with_energy_compensation_makes_no_light)
+{
+    Material white = slate();
+    white.base_color = glm::vec4(1.0f), white.ior = 1.5f, white.roughness = 1.0f;
+    for (float cosine : {0.95f, 0.6f, 0.3f}) {
+        FrameDesc d = film_view(cosine, "mc", 1024);
+        d.energy_compensation = true;
+        const Stage stage(plane_scene(filmed(white, 80.0f, 1.0f, 2.4f)), 1.0f, 2);
+        const glm::dvec3 drawn = colour_of(stage.render(d, best_isa()));
+        EXPECT_LT(std::max({drawn.x, drawn.y, drawn.z}), 1.02) << cosine;
+    }
+}
+
 TEST(film, without_a_share_is_none_word_for_word)
 {
     Stage bare(plane_scene(copper(0.3f))), none(plane_scene(filmed(copper(0.3f), 400.0f, 0.0f))),

@@ -52,7 +52,7 @@ TEST(builtin, bits_are_pinned)
 
 TEST(builtin, lists_name_what_can_be_made)
 {
-    ASSERT_EQ(builtin_scenes().size(), 10u);
+    ASSERT_EQ(builtin_scenes().size(), 11u);
     ASSERT_EQ(builtin_environments().size(), 3u);
     for (const BuiltinInfo& info : builtin_scenes())
         EXPECT_TRUE(make_builtin_scene(info.name)) << info.name;
@@ -65,7 +65,7 @@ TEST(builtin, unknown_names_are_errors_that_list_the_known)
     const Result<Scene> scene = make_builtin_scene("kettle");
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().line(), "builtin:kettle: no built-in scene has this name; there are teapot, spheres, sphere, plate, lights, "
-                                    "glass, bumps, lacquer, cloth, shaderballs");
+                                    "glass, bumps, lacquer, cloth, anodised, shaderballs");
     EXPECT_FALSE(make_builtin_environment("cave"));
 }
 

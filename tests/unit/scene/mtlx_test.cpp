@@ -158,6 +158,12 @@ TEST(mtlx, every_part_arrives)
                                                  number("transmission_depth", "2")))
             .material();
     EXPECT_EQ(deep.base_color, glm::vec4(1.0f));
+    EXPECT_EQ(deep.dispersion, 0.0f);
+    const Material prism =
+        dressed(document("open_pbr_surface", number("transmission_weight", "1") + number("transmission_dispersion_scale", "0.5") +
+                                                 number("transmission_dispersion_abbe_number", "40")))
+            .material();
+    EXPECT_EQ(prism.dispersion, 0.25f);
     EXPECT_EQ(deep.attenuation_distance, 2.0f);
     EXPECT_EQ(deep.attenuation_color, glm::vec3(0.5f, 1.0f, 1.0f));
 }
@@ -267,6 +273,119 @@ TEST(mtlx, normal_maps_and_factors)
     EXPECT_EQ(tinted.material().base_color, glm::vec4(0.25f, 0.125f, 0.5f, 1.0f));
 }
 
+const Image& image_of(const Dressed& d, const TextureRef& ref)
+{
+    return d.scene.images[static_cast<std::size_t>(d.scene.textures[static_cast<std::size_t>(ref.texture)].image)];
+}
+
+// Two materials with one picture of roughness, each times a factor of its own.
+TEST(mtlx, materials_share_a_picture_and_not_its_factor)
+{
+    const auto product = [](const std::string& name, const std::string& factor) {
+        return "<multiply name=\"" + name + "\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"p\"/>" +
+               number("in2", factor) + "</multiply><output name=\"o" + name + "\" type=\"float\" nodename=\"" + name + "\"/>";
+    };
+    const std::string material =
+        "<surfacematerial name=\"NAME\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"NAME s\"/>"
+        "</surfacematerial>";
+    std::string text = "<materialx version=\"1.39\">" + picture_graph(product("a", "0.25") + product("b", "0.75"));
+    for (const auto& [name, output] : {std::pair("velvet", "oa"), std::pair("felt", "ob")}) {
+        std::string one = material;
+        for (std::size_t at = one.find("NAME"); at != std::string::npos; at = one.find("NAME"))
+            one.replace(at, 4, name);
+        text +=
+            "<gltf_pbr name=\"" + std::string(name) + " s\" type=\"surfaceshader\">" + linked("roughness", output) + "</gltf_pbr>" + one;
+    }
+    const Dressed d = dressed(text + "</materialx>", picture_of(255, 255, 255), "cloth");
+    ASSERT_EQ(d.error, "");
+    for (const Material& m : d.scene.materials)
+        if (m.name == "velvet" || m.name == "felt") {
+            const Image& map = image_of(d, m.metallic_roughness_tex);
+            ASSERT_EQ(map.type, PixelType::u16);
+            EXPECT_NEAR(reinterpret_cast<const std::uint16_t*>(map.bytes.data())[1] / 65535.0, m.name == "felt" ? 0.75 : 0.25, 1e-4)
+                << m.name;
+        }
+}
+
+TEST(mtlx, nodes_of_gltf_have_factors_and_places_of_their_own)
+{
+    const std::string node = "<gltf_colorimage name=\"c\" type=\"multioutput\"><input name=\"file\" type=\"filename\" value=\"p.png\" "
+                             "colorspace=\"srgb_texture\"/>" +
+                             number("color", "0.5, 0.25, 1, 0.75", "color4") + number("scale", "1.5, 2", "vector2") +
+                             number("offset", "0.25, 0.5", "vector2") +
+                             "</gltf_colorimage><output name=\"c\" type=\"color3\" nodename=\"c\" output=\"outcolor\"/><output name=\"a\" "
+                             "type=\"float\" nodename=\"c\" "
+                             "output=\"outa\"/>";
+    const std::string inputs = "<input name=\"base_color\" type=\"color3\" nodegraph=\"G\" output=\"c\"/>";
+    const Dressed opaque =
+        dressed(document("gltf_pbr", inputs, "<nodegraph name=\"G\">" + node + "</nodegraph>"), picture_of(200, 200, 200));
+    ASSERT_EQ(opaque.error, "");
+    EXPECT_EQ(opaque.material().base_color, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
+    const glm::mat3x2 transform = opaque.material().base_color_tex.uv_transform; // KHR_texture_transform
+    EXPECT_EQ(transform[0], glm::vec2(1.5f, 0.0f));
+    EXPECT_EQ(transform[1], glm::vec2(0.0f, 2.0f));
+    EXPECT_EQ(transform[2], glm::vec2(0.25f, 0.5f));
+    const Dressed cut = dressed(document("gltf_pbr", inputs + linked("alpha", "a") + number("alpha_mode", "1", "integer"),
+                                         "<nodegraph name=\"G\">" + node + "</nodegraph>"),
+                                picture_of(200, 200, 200));
+    ASSERT_EQ(cut.error, "");
+    EXPECT_EQ(cut.material().alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(cut.material().base_color.a, 0.75f);
+}
+
+TEST(mtlx, colours_of_pictures_are_read_by_their_space)
+{
+    const auto with = [](const std::string& space) {
+        return dressed(
+            document("gltf_pbr", linked("base_color", "o"),
+                     "<nodegraph name=\"G\"><image name=\"p\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"p.png\"" +
+                         space + "/></image><output name=\"o\" type=\"color3\" nodename=\"p\"/></nodegraph>"),
+            picture_of(128, 128, 128));
+    };
+    const Dressed encoded = with(" colorspace=\"srgb_texture\""), linear = with(" colorspace=\"lin_rec709\"");
+    EXPECT_EQ(image_of(encoded, encoded.material().base_color_tex).type, PixelType::u8); // the slot decodes it
+    const Image& floats = image_of(linear, linear.material().base_color_tex);
+    ASSERT_EQ(floats.type, PixelType::f32);
+    EXPECT_NEAR(floats.f32()[0], 128.0f / 255.0f, 1e-6f);
+    EXPECT_NE(with(" colorspace=\"acescg\"").error.find("colours of acescg"), std::string::npos);
+}
+
+TEST(mtlx, emission_keeps_its_tint_and_sides_stay_those_of_the_scene)
+{
+    const std::string product = "<multiply name=\"m\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"p\"/>" +
+                                number("in2", "0, 2, 0", "color3") + "</multiply><output name=\"o\" type=\"color3\" nodename=\"m\"/>";
+    const Dressed green =
+        dressed(document("open_pbr_surface", linked("emission_color", "o") + number("emission_luminance", "3"), picture_graph(product)),
+                picture_of(255, 255, 255), "cloth");
+    ASSERT_EQ(green.error, "");
+    for (const Material& m : green.scene.materials)
+        if (m.name == "satin") {
+            EXPECT_EQ(m.emissive * m.emissive_strength, glm::vec3(0.0f, 6.0f, 0.0f));
+            EXPECT_TRUE(m.double_sided);
+        }
+    EXPECT_NE(dressed(document("gltf_pbr", number("emissive", "3e38, 1, 1", "color3") + number("emissive_strength", "3e38")))
+                  .error.find("too large"),
+              std::string::npos);
+}
+
+// Each product names one node twice: without a limit, reading would take 2^15 visits an input.
+TEST(mtlx, products_of_products_end)
+{
+    std::string nodes;
+    for (int i = 0; i < 15; ++i)
+        for (const char* const side : {i ? "in1" : "", i ? "in2" : ""})
+            nodes += i == 0
+                         ? ""
+                         : (side == std::string("in1") ? "<multiply name=\"n" + std::to_string(i) + "\" type=\"float\">" : std::string()) +
+                               "<input name=\"" + side + "\" type=\"float\" nodename=\"n" + std::to_string(i - 1) + "\"/>" +
+                               (side == std::string("in2") ? "</multiply>" : "");
+    nodes += "<constant name=\"n0\" type=\"float\">" + number("value", "1") + "</constant>";
+    const Dressed d = dressed(document(
+        "gltf_pbr", "<input name=\"roughness\" type=\"float\" nodename=\"n14\"/><input name=\"metallic\" type=\"float\" nodename=\"n14\"/>",
+        nodes));
+    EXPECT_NE(d.error.find("comes from too many nodes"), std::string::npos) << d.error;
+}
+
 TEST(mtlx, names_choose_materials)
 {
     const std::string two =
@@ -310,6 +429,12 @@ TEST(mtlx, faults_are_named)
              Fault{document("UsdPreviewSurface", ""), "UsdPreviewSurface S: is not read"},
              Fault{document("gltf_pbr", number("roughness", "rough")), "gltf_pbr S: roughness: \"rough\" is no number"},
              Fault{document("gltf_pbr", number("roughness", "nan")), "is no number"},
+             Fault{document("gltf_pbr", number("", "0.5")), "has an input without a name"},
+             Fault{document("gltf_pbr", linked("roughness", "o", "channels=\"xy\""),
+                            picture_graph("<output name=\"o\" type=\"float\" nodename=\"p\"/>")),
+                   "channels \"xy\" are not read"},
+             Fault{document("gltf_pbr", linked("alpha", "o"), picture_graph("<output name=\"o\" type=\"float\" nodename=\"p\"/>")),
+                   "only as the alpha of the base colour's picture"},
              Fault{document("gltf_pbr", number("roughness", "1e400")), "is no number"},
              Fault{document("gltf_pbr", linked("roughness", "o"),
                             "<nodegraph name=\"G\"><noise3d name=\"n\" type=\"float\"/>" + output + "</nodegraph>"),

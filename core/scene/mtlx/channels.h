@@ -1,0 +1,20 @@
+// Values that a MaterialX input takes from a picture.
+#pragma once
+#include <cstddef>
+
+#include "core/image/image.h"
+#include "core/scene/mtlx/document.h"
+
+namespace burnish::mtlx {
+
+// Returns a stored value: codes of 8 and 16 bits as [0,1]. at: counts values, channels included.
+float value_at(const Image& image, std::size_t at);
+
+// Returns the channel that an input takes, times its factor. Encoded colours become linear, an alpha that is not there 1. Floats where the
+// values are not those of the file.
+Image channel_of(const Image& image, const PictureInput& picture);
+
+// Returns the picture's colours as the slot of base colours takes them: 8 and 16 bits encoded, floats linear. with_alpha: keeps alpha.
+Image colours_of(const Image& image, const PictureInput& picture, bool with_alpha);
+
+} // namespace burnish::mtlx

@@ -1,0 +1,130 @@
+// KHR_materials_dispersion: each channel is refracted by its own index, in both renderers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/unit/reference/scenes.h"
+
+namespace burnish::test {
+namespace {
+
+constexpr double kPrismSigmas = 4.5;
+
+Material clear_glass(float roughness, float ior, float dispersion)
+{
+    Material m;
+    m.base_color = glm::vec4(1.0f), m.metallic = 0.0f, m.roughness = roughness;
+    m.transmission = 1.0f, m.ior = ior, m.dispersion = dispersion;
+    return m;
+}
+
+// Brighter by far towards -x, where the ball bends light, equal in all channels.
+glm::vec3 prism_sky(const glm::vec3& d)
+{
+    return glm::vec3(std::exp(-6.0f * (d.x + 1.0f)));
+}
+
+glm::dvec3 prism_colour(const Frame& frame)
+{
+    glm::dvec3 sum(0.0);
+    const int count = frame.color.width * frame.color.height;
+    for (int i = 0; i < count; ++i)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += static_cast<double>(frame.color.f32()[i * frame.color.channels + c]);
+    return sum / static_cast<double>(count);
+}
+
+Stage ball_of(const Material& glass)
+{
+    Stage stage(ball_scene(glass, false), 1.0f, 2);
+    stage.environment = environment_of(prism_sky, 64, stage.jobs);
+    return stage;
+}
+
+// Looks at the ball's side, which bends light.
+FrameDesc side_view(const char* technique, int samples)
+{
+    View view = view_from({0.0f, 0.0f, 1.0f}, 0.02f);
+    view.eye.x += 0.6f;
+    FrameDesc d = desc_of(8, 8, view);
+    d.technique = technique, d.samples = samples;
+    return d;
+}
+
+constexpr float kPrismIor = 1.6f, kPrismDispersion = 4.0f; // five times flint glass
+constexpr float kHalfSpread = (kPrismIor - 1.0f) * 0.025f * kPrismDispersion;
+
+TEST(dispersion, each_channel_is_the_picture_of_its_index)
+{
+    for (float roughness : {0.0f, 0.3f})
+        for (const char* technique : {"lobe_line", "split_isotropic", "mc"}) {
+            const FrameDesc d = side_view(technique, 64);
+            const glm::dvec3 drawn = prism_colour(ball_of(clear_glass(roughness, kPrismIor, kPrismDispersion)).render(d, best_isa()));
+            glm::dvec3 own;
+            for (int c = 0; c < 3; ++c)
+                own[c] = prism_colour(
+                    ball_of(clear_glass(roughness, kPrismIor + kHalfSpread * static_cast<float>(c - 1), 0.0f)).render(d, best_isa()))[c];
+            std::printf("%-16s roughness %.1f: %.4f %.4f %.4f, of their indices %.4f %.4f %.4f\n", technique,
+                        static_cast<double>(roughness), drawn.x, drawn.y, drawn.z, own.x, own.y, own.z);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(drawn[c], own[c], 0.02 * own[c]) << technique << ' ' << c; // reflections have the middle index
+            EXPECT_GT(std::abs(drawn.x / drawn.z - 1.0), 0.08) << "nothing is tested: " << technique;
+        }
+}
+
+TEST(dispersion, mc_and_the_reference_agree_on_one_interface)
+{
+    BN_NEEDS_EMBREE();
+    for (float roughness : {0.15f, 0.5f}) {
+        Stage stage(plane_scene(clear_glass(roughness, kPrismIor, kPrismDispersion)), 1.0f, 2);
+        stage.environment = environment_of(prism_sky, 64, stage.jobs);
+        FrameDesc d = desc_of(8, 8, view_from({0.8f, 0.1f, 0.6f}, 0.02f));
+        d.technique = "mc", d.samples = 1024;
+        const glm::dvec3 drawn = prism_colour(stage.render(d, best_isa()));
+        for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf}) {
+            ReferenceOptions o;
+            o.samples = 1024, o.strategy = strategy;
+            const ChannelEstimate e = estimate_channels(render_reference(stage, d, o));
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(drawn[c], e.mean[c], kPrismSigmas * e.deviation[c] + 4e-3) << roughness << ' ' << c;
+        }
+        EXPECT_GT(std::abs(drawn.x / drawn.z - 1.0), 0.03) << "nothing is tested";
+    }
+}
+
+// A path chooses one channel, and weighs it by 3.
+TEST(dispersion, paths_keep_all_light_and_split_it)
+{
+    BN_NEEDS_EMBREE();
+    ReferenceOptions o;
+    o.mode = ReferenceMode::path, o.samples = 1024, o.bounces = 32;
+    const FrameDesc d = side_view("mc", 64);
+    const Stage furnace(ball_scene(clear_glass(0.0f, kPrismIor, kPrismDispersion), false), 1.0f, 2);
+    const ChannelEstimate all = estimate_channels(render_reference(furnace, d, o));
+    const Stage stage = ball_of(clear_glass(0.0f, kPrismIor, kPrismDispersion));
+    const ChannelEstimate split = estimate_channels(render_reference(stage, d, o));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(all.mean[c], 1.0, kPrismSigmas * all.deviation[c] + 2e-3) << c;
+        const float own = kPrismIor + kHalfSpread * static_cast<float>(c - 1);
+        const ChannelEstimate alone = estimate_channels(render_reference(ball_of(clear_glass(0.0f, own, 0.0f)), d, o));
+        EXPECT_NEAR(split.mean[c], alone.mean[c], kPrismSigmas * std::hypot(split.deviation[c], alone.deviation[c]) + 0.01 * alone.mean[c])
+            << c;
+    }
+    EXPECT_GT(std::abs(split.mean.x / split.mean.z - 1.0), 0.08) << "nothing is tested";
+}
+
+TEST(dispersion, of_0_is_none_word_for_word)
+{
+    Material opaque = clear_glass(0.3f, kPrismIor, kPrismDispersion), bare = clear_glass(0.3f, kPrismIor, 0.0f);
+    opaque.transmission = bare.transmission = 0.0f;
+    const Stage with = ball_of(opaque), without = ball_of(bare);
+    for (const char* technique : {"lobe_line", "mc", "as_mc"}) {
+        const FrameDesc d = side_view(technique, 16);
+        EXPECT_EQ(with.render(d, best_isa()).color.bytes, without.render(d, best_isa()).color.bytes) << technique; // nothing refracts
+    }
+}
+
+} // namespace
+} // namespace burnish::test
