@@ -62,6 +62,8 @@ MaterialRecord material_record(const Material& m)
         r.dielectric_f0[i] = std::min(f * f * m.specular_color[i], 1.0f) * m.specular; // KHR_materials_specular
     }
     r.dielectric_f90 = m.specular;
+    const float coat = (m.clearcoat_ior - 1.0f) / (m.clearcoat_ior + 1.0f);
+    r.clearcoat_f0 = m.clearcoat_ior == 1.5f ? 0.04f : coat * coat; // glTF's own to the bit
     r.grain[0] = static_cast<float>(det_cos(static_cast<double>(m.anisotropy_rotation)));
     r.grain[1] = static_cast<float>(det_sin(static_cast<double>(m.anisotropy_rotation)));
     r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();

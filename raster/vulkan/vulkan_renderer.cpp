@@ -269,7 +269,8 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
     std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
     if (frame.masking != 0) // the frame compares it with the default lobe
         lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
-    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuTransmits && kGpuFirstCoating + kCoatings <= kGpuFilms);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuTransmits &&
+                  kGpuFirstCoating + kCoatings <= kGpuFilms);
     if (frame.area_light_count > 0)
         lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
     for (const MaterialRecord& m : materials) {

@@ -188,6 +188,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
 #define BN_CHOICE(type, name, words, path) int name; // kAlpha_opaque...
 #include "core/scene/material.def"
     float dielectric_f0[3], dielectric_f90; // derived from ior and specular
+    float clearcoat_f0;                     // derived from clearcoat_ior
     float grain[2];                         // cosine and sine of anisotropy_rotation
     int textured, uses_color, anisotropic;
     int tilted;                      // the lobe tilts against its surface, by the material's tilt or the frame's

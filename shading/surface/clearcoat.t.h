@@ -1,6 +1,6 @@
-// A clear coat, by KHR_materials_clearcoat: an isotropic GGX lobe with index 1.5 about its own normal. The Fresnel factor
-// uses the view cosine. So the coat takes that share of all incoming light, and the layer below, its emission included, has
-// the rest: energy is conserved. (glTF 2.0, appendix B, "fresnel_coat".)
+// A clear coat, by KHR_materials_clearcoat: an isotropic GGX lobe about its own normal, with index 1.5 or the material's own. The Fresnel
+// factor uses the view cosine. So the coat takes that share of all incoming light, and the layer below, its emission included, has the
+// rest: energy is conserved. (glTF 2.0, appendix B, "fresnel_coat".)
 #ifndef BN_CLEARCOAT_T_H
 #define BN_CLEARCOAT_T_H
 
@@ -52,7 +52,7 @@ BN_FN coating clearcoat_coating(frame_ref f, material_ref m, BN_IN(material_inpu
         c.horizon = axes.n;
     // Find the coat's Fresnel weight at the view cosine
     real n_dot_v = k_saturate(k_dot3(c.axes.n, v));
-    real3 reflected = fresnel_schlick(vec3_all(lit(0.04)), vec3_all(lit(1.0)), n_dot_v);
+    real3 reflected = fresnel_schlick(vec3_all(splat(the_material(m).clearcoat_f0)), vec3_all(lit(1.0)), n_dot_v);
     c.share = k_saturate(at.coat) * reflected.x;
     c.reflectance = vec3_all(c.share);
     c.roughness = k_saturate(at.coat_roughness);

@@ -17,7 +17,7 @@ struct fresnel_parts {          // inputs of Fresnel's equations: see reflectanc
     real film;                  // share of the surface under a thin film, [0,1]
     real film_thickness;        // nm
     real film_ior;
-    real film_side;             // below 1 where the eye looks from inside: index of the far side over the eye's
+    real film_side; // below 1 where the eye looks from inside: index of the far side over the eye's
     real metal;     // share of metal below the film, [0,1]; the dielectric has the rest
     real3 metal_f0; // the metal's reflectance at normal incidence
 };

@@ -180,6 +180,7 @@ Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::ve
     if (kind == kStandard) // the lobe's own width
         m.sheen_roughness = std::sqrt(m.sheen_roughness);
     m.clearcoat = unit(number(parts, Part::coat)), m.clearcoat_roughness = unit(number(parts, Part::coat_roughness));
+    m.clearcoat_ior = std::clamp(number(parts, Part::coat_ior), 1.0f, 1e3f);
     put_film(kind, parts, m);
     // Emission and alpha
     put_emission(at(parts, Part::emission_color).value * number(parts, Part::emission), m);
@@ -192,8 +193,6 @@ Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::ve
     if (m.clearcoat > 0.0f || at(parts, Part::coat).picture) {
         if (at(parts, Part::coat_color).value != glm::vec3(1.0f))
             wanting.push_back(at(parts, Part::coat_color).name + " (drawn white)");
-        if (number(parts, Part::coat_ior) != 1.5f)
-            wanting.push_back(at(parts, Part::coat_ior).name + " (drawn as 1.5)");
     }
     if (m.metallic > 0.0f && kind != kGltf && at(parts, Part::specular_color).value != glm::vec3(1.0f))
         wanting.push_back(at(parts, Part::specular_color).name + " of metal (drawn white at its edges)");

@@ -213,7 +213,8 @@ TEST(scene, ignored_extensions_are_counted_and_with_strict_refused)
     EXPECT_EQ(ignored_extensions(scene->warnings), (std::vector<std::string>{"KHR_materials_diffuse_transmission", "ACME_one"}));
     Limits strict;
     strict.strict = true;
-    EXPECT_EQ(error_of(load(asset, strict)), "/extensionsUsed: extension KHR_materials_diffuse_transmission is not supported (Limits::strict)");
+    EXPECT_EQ(error_of(load(asset, strict)),
+              "/extensionsUsed: extension KHR_materials_diffuse_transmission is not supported (Limits::strict)");
     EXPECT_FALSE(is_read("animations")); // no extension
     EXPECT_TRUE(is_read("KHR_draco_mesh_compression"));
 }

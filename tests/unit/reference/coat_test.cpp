@@ -215,5 +215,24 @@ TEST(coat, knows_nothing_of_the_lobes_below)
         EXPECT_TRUE(same_words(expected, stage.render(d, best_isa())));
 }
 
+// Constant light of 1 on a coat over black: Schlick's reflectance of its index, in both renderers.
+TEST(coat, has_the_reflectance_of_its_index)
+{
+    for (float ior : {1.0f, 1.33f, 1.8f, 2.4f})
+        for (float cosine : {0.95f, 0.4f}) {
+            Material m = coated(black_base(), 0.05f);
+            m.clearcoat_ior = ior;
+            const Stage stage(plane_scene(m), 1.0f, 2);
+            const double f0 = std::pow((static_cast<double>(ior) - 1.0) / (static_cast<double>(ior) + 1.0), 2.0);
+            const double expected = f0 + (1.0 - f0) * std::pow(1.0 - static_cast<double>(cosine), 5.0);
+            EXPECT_NEAR(mean_words(stage.render(coat_view(cosine, "split_isotropic", 1), best_isa())), expected, 5e-3)
+                << ior << ' ' << cosine;
+            if (reference_available())
+                EXPECT_NEAR(estimate(render_reference(stage, coat_view(cosine, "mc", 1), run_of(ReferenceMode::direct, 256))).mean,
+                            expected, 8e-3)
+                    << ior << ' ' << cosine;
+        }
+}
+
 } // namespace
 } // namespace burnish::test

@@ -118,7 +118,7 @@ TEST(mtlx, every_part_arrives)
         number("base_weight", "0.5") + number("base_color", "0.8, 0.4, 0.2", "color3") + number("base_metalness", "0.25") +
             number("specular_weight", "0.75") + number("specular_color", "1, 0.5, 0.25", "color3") + number("specular_ior", "1.7") +
             number("fuzz_weight", "0.5") + number("fuzz_color", "0.2, 0.4, 0.6", "color3") + number("fuzz_roughness", "0.3") +
-            number("coat_weight", "0.9") + number("coat_roughness", "0.1") + number("coat_ior", "1.5") + number("thin_film_weight", "0.6") +
+            number("coat_weight", "0.9") + number("coat_roughness", "0.1") + number("coat_ior", "1.8") + number("thin_film_weight", "0.6") +
             number("thin_film_thickness", "0.45") + number("thin_film_ior", "1.35") + number("emission_luminance", "20") +
             number("emission_color", "1, 0.5, 0", "color3") + number("geometry_opacity", "0.5")));
     ASSERT_EQ(open.error, "");
@@ -132,6 +132,7 @@ TEST(mtlx, every_part_arrives)
     EXPECT_EQ(m.sheen_roughness, 0.3f);
     EXPECT_EQ(m.clearcoat, 0.9f);
     EXPECT_EQ(m.clearcoat_roughness, 0.1f);
+    EXPECT_EQ(m.clearcoat_ior, 1.8f);
     EXPECT_EQ(m.iridescence, 0.6f);
     EXPECT_EQ(m.iridescence_thickness, 450.0f);
     EXPECT_EQ(m.iridescence_ior, 1.35f);
@@ -174,7 +175,8 @@ TEST(mtlx, coats_roughen_the_lobe_below_as_openpbr_has_it)
         document("open_pbr_surface", number("specular_roughness", "0.3") + number("coat_weight", "0.5") + number("coat_roughness", "0.6")));
     const double both = std::pow(2.0 * std::pow(0.6, 4.0) + std::pow(0.3, 4.0), 0.25);
     EXPECT_NEAR(coated.material().roughness, 0.3 + 0.5 * (both - 0.3), 1e-6);
-    EXPECT_NE(coated.warnings.find("coat_ior (drawn as 1.5)"), std::string::npos) << coated.warnings;
+    EXPECT_EQ(coated.material().clearcoat_ior, 1.6f);
+    EXPECT_EQ(coated.warnings, "");
 }
 
 TEST(mtlx, colours_become_linear)
