@@ -297,6 +297,7 @@ class Scene:
         clearcoat_roughness: float | None = None,
         clearcoat_normal_scale: float | None = None,
         sheen_color: Vector3 | None = None,
+        clearcoat_ior: float | None = None,
         sheen_roughness: float | None = None,
         iridescence: float | None = None,
         iridescence_ior: float | None = None,
@@ -335,11 +336,12 @@ class Scene:
             world space; 0: infinite) inside a body.
         dispersion: 0 or more. glTF: KHR_materials_dispersion/dispersion. 20 over the Abbe number: red, green and blue have indices ior - h,
             ior, ior + h, h = (ior - 1) dispersion / 40.
-        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
+        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index clearcoat_ior.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
         sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
             albedo; black: none.
+        clearcoat_ior: 1 to 1000. glTF: extras/burnish/clearcoat/ior.
         sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
         iridescence: 0 to 1. glTF: KHR_materials_iridescence/iridescenceFactor. Share of the surface under a thin film with index
             iridescence_ior.
@@ -427,6 +429,7 @@ class Mesh:
         clearcoat_roughness: float = 0.0,
         clearcoat_normal_scale: float = 1.0,
         sheen_color: Vector3 = (0.0, 0.0, 0.0),
+        clearcoat_ior: float = 1.5,
         sheen_roughness: float = 0.0,
         iridescence: float = 0.0,
         iridescence_ior: float = 1.3,
@@ -467,11 +470,12 @@ class Mesh:
             world space; 0: infinite) inside a body.
         dispersion: 0 or more. glTF: KHR_materials_dispersion/dispersion. 20 over the Abbe number: red, green and blue have indices ior - h,
             ior, ior + h, h = (ior - 1) dispersion / 40.
-        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index 1.5.
+        clearcoat: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatFactor. Share of the surface under a clear coat with index clearcoat_ior.
         clearcoat_roughness: 0 to 1. glTF: KHR_materials_clearcoat/clearcoatRoughnessFactor. Perceptual, of the coat alone.
         clearcoat_normal_scale: any number. glTF: KHR_materials_clearcoat/clearcoatNormalTexture/scale.
         sheen_color: 0 to 1. glTF: KHR_materials_sheen/sheenColorFactor. Colour of a layer of fibres, which reflects this times its lobe's
             albedo; black: none.
+        clearcoat_ior: 1 to 1000. glTF: extras/burnish/clearcoat/ior.
         sheen_roughness: 0 to 1. glTF: KHR_materials_sheen/sheenRoughnessFactor. Perceptual, of the fibres alone.
         iridescence: 0 to 1. glTF: KHR_materials_iridescence/iridescenceFactor. Share of the surface under a thin film with index
             iridescence_ior.

@@ -227,10 +227,11 @@ TEST(coat, has_the_reflectance_of_its_index)
             const double expected = f0 + (1.0 - f0) * std::pow(1.0 - static_cast<double>(cosine), 5.0);
             EXPECT_NEAR(mean_words(stage.render(coat_view(cosine, "split_isotropic", 1), best_isa())), expected, 5e-3)
                 << ior << ' ' << cosine;
-            if (reference_available())
+            if (reference_available()) {
                 EXPECT_NEAR(estimate(render_reference(stage, coat_view(cosine, "mc", 1), run_of(ReferenceMode::direct, 256))).mean,
                             expected, 8e-3)
                     << ior << ' ' << cosine;
+            }
         }
 }
 
