@@ -236,7 +236,7 @@ BN_STAGE real3 refract_one_channel(const PixelFrame& p, SurfaceBsdf& r, integer 
     const real channel = min(floor(u * lit(3.0)), lit(2.0));
     const mask disperses = both(r.refracts, r.x.through.dispersion > lit(0.0));
     const interface_inputs own = interface_of_channel(r.x.through, channel);
-    r.x.through.parts.ior = select(disperses, own.parts.ior, r.x.through.parts.ior);
+    r.x.through.parts = select_parts(disperses, own.parts, r.x.through.parts);
     const mask first = both(disperses, not_(single));
     const auto part = [&](double at) { return select(first, select(channel == lit(at), lit(3.0), lit(0.0)), lit(1.0)); };
     single = either(single, disperses);

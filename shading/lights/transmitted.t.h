@@ -37,12 +37,12 @@ BN_FN real3 extracted_light_along(frame_ref f, int light, BN_IN(real3) direction
     return min(blurred, splat3(the_frame(f).extracted_lights[light].radiance));
 }
 
-// Returns the light that one lobe transmits. n: normal, unit; alpha: the lobe's width; ior: the far side's index over the eye side's.
+// Returns the light that one lobe transmits. n: normal, unit; alpha: the lobe's width; parts: of the interface.
 BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point) x, BN_IN(transmitting_place) at, BN_IN(real3) n,
-                                 real alpha, real ior)
+                                 real alpha, BN_IN(fresnel_parts) parts)
 {
     real n_dot_v = max(k_dot3(n, x.s.v), lit(1e-4));
-    refracted_ray ray = refracted_ray_of(n, x.s.v, n_dot_v, alpha, ior);
+    refracted_ray ray = refracted_ray_of(n, x.s.v, n_dot_v, alpha, parts.ior);
     cube_desc cube = prefiltered_env(f);
     real scale = splat(the_frame(f).specular.scale);
     real3 one = vec3_all(lit(0.0)); // light at a single interface
@@ -53,7 +53,7 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     // Follow the light through the body
     real extent = splat(the_material(m).body_extent);
     real roundness = splat(the_material(m).body_roundness);
-    body_way way = way_through_body(ray, x.geometric_axes.n, ior, extent, roundness);
+    body_way way = way_through_body(ray, x.geometric_axes.n, parts.ior, extent, roundness);
     real3 light = cube_sample(cube, way.direction, transmitted_level(cube, alpha, way.spread)) * scale;
     for (int i = 0; i < the_frame(f).extracted_light_count; ++i)
         light = light + extracted_light_along(f, i, way.direction, alpha * way.spread * lit(0.70710678118654752));
@@ -66,10 +66,10 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     }
     // The far side reflects a share, which leaves elsewhere; a rough side's facets are met less obliquely
     real met = sqrt(way.cosine * way.cosine + alpha * alpha * (lit(1.0) - way.cosine * way.cosine));
-    real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, ior, met);
+    real3 back = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, parts.ior, met);
     if (film_used() && the_material(m).film != 0)
-        back = filmed_dielectric(x.through.parts, back, met);
-    body_way further = way_through_body(reflected_inside(ray, way), way.normal, ior, extent, roundness);
+        back = filmed_dielectric(parts, back, met);
+    body_way further = way_through_body(reflected_inside(ray, way), way.normal, parts.ior, extent, roundness);
     real3 elsewhere = cube_sample(cube, further.direction, transmitted_level(cube, alpha, further.spread)) * scale;
     light = light + (elsewhere - light) * back;
     // Absorb light inside; the second interface takes the tint again
@@ -107,10 +107,10 @@ BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point
         real weight = select(slope > lit(0.0), lit(i == 0 ? 0.5 : 0.25), lit(i == 0 ? 1.0 : 0.0));
         // Refract each channel by its own index where they differ
         int channel = k / fetches;
-        real ior = x.through.parts.ior;
+        interface_inputs through = x.through;
         if (x.disperses)
-            ior = interface_of_channel(x.through, to_real(int_lit(channel))).parts.ior;
-        real3 light = fetch_transmitted(f, m, x, at, n, width, ior) * weight;
+            through = interface_of_channel(x.through, to_real(int_lit(channel)));
+        real3 light = fetch_transmitted(f, m, x, at, n, width, through.parts) * weight;
         if (x.disperses)
             light = channel_alone(light, channel);
         radiance = radiance + light;

@@ -30,6 +30,7 @@ BN_FN interface_inputs interface_of_channel(interface_inputs at, real channel)
     real half_spread = (inside - lit(1.0)) * lit(0.025) * min(at.dispersion, lit(100.0));
     real own = min(max(inside + half_spread * (channel - lit(1.0)), lit(1.001)), lit(10.0));
     at.parts.ior = select(enters, own, lit(1.0) / own);
+    at.parts.film_side = at.parts.ior;
     return at;
 }
 

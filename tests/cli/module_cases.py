@@ -148,7 +148,7 @@ def project(bench, engine):
 def projects(bench):
     for engine in ("three", "babylon"):
         folder = project(bench, engine)
-        module = re.search(r"import \{ improveAnisotropy \} from './(burnish_\w+\.js)'", (folder / "main.js").read_text())
+        module = re.search(r"\{ improveAnisotropy \} = await import\('./(burnish_\w+\.js)'\)", (folder / "main.js").read_text())
         check(module and (folder / module[1]).is_file(), f"{engine}: main.js imports no module that `prestart` writes")
         check('src="main.js"' in (folder / "index.html").read_text(), f"{engine}: the page has no main.js")
 

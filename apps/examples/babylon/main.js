@@ -1,11 +1,10 @@
 // Brushed metal under an environment in Babylon.js, with and without a technique of burnish. ?sky=FILE.hdr gives the environment, ?model=FILE.glb
 // opens another model.
-import { improveAnisotropy } from './burnish_babylon.js';
 import { studio_file } from './studio.js';
 
 const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
 const sky = asked.get('sky') ?? URL.createObjectURL(studio_file());
-const engine = new BABYLON.Engine(document.getElementById('canvas'), true, { preserveDrawingBuffer: true });
+let engine, improveAnisotropy;
 
 // Adds three brushed balls: highlights run around the first one, from pole to pole on the second one, and aslant on the third one.
 function add_brushed_balls(scene) {
@@ -45,22 +44,30 @@ async function scene_of(improve) {
   camera.fov = Math.PI / 6;
   camera.minZ = radius / 100;
   camera.maxZ = radius * 100;
-  camera.attachControl();
+  camera.lowerRadiusLimit = radius / 50;
+  camera.wheelDeltaPercentage = 0.02;
+  camera.panningSensibility = 1000 / radius;
   if (improve) // meshes from code have texture coordinates that grow upwards
     state.textContent = `${improveAnisotropy(BABYLON, materials, { glTF: asked.has('model') })} materials improved`;
   return scene;
 }
 
 try {
+  ({ improveAnisotropy } = await import('./burnish_babylon.js')); // written by `npm start`
+  engine = new BABYLON.Engine(document.getElementById('canvas'), true, { preserveDrawingBuffer: true }, true);
   const scenes = [await scene_of(false), await scene_of(true)];
   await Promise.all(scenes.map(scene => scene.whenReadyAsync()));
   // Both scenes look from one place
   const chosen = () => scenes[improved.checked ? 1 : 0];
   improved.addEventListener('change', () => {
     const [from, to] = improved.checked ? scenes : [scenes[1], scenes[0]];
+    from.activeCamera.detachControl();
     for (const part of ['alpha', 'beta', 'radius'])
       to.activeCamera[part] = from.activeCamera[part];
+    to.activeCamera.target = from.activeCamera.target.clone();
+    to.activeCamera.attachControl();
   });
+  chosen().activeCamera.attachControl();
   addEventListener('resize', () => engine.resize());
   engine.resize();
   engine.runRenderLoop(() => {

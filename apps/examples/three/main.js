@@ -4,13 +4,10 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
-import { improveAnisotropy } from './burnish_three.js';
 import { height, studio, width } from './studio.js';
 
 const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
-const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-renderer.setPixelRatio(devicePixelRatio);
-document.body.append(renderer.domElement);
+let renderer, improveAnisotropy;
 
 function studio_texture() {
   const picture = new THREE.DataTexture(studio(), width, height, THREE.RGBAFormat, THREE.FloatType);
@@ -58,6 +55,9 @@ async function scene_of(light, improve) {
 }
 
 try {
+  ({ improveAnisotropy } = await import('./burnish_three.js')); // written by `npm start`
+  renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  document.body.append(renderer.domElement);
   const light = await environment(), scenes = [await scene_of(light, false), await scene_of(light, true)];
   // Look at the model from a little above
   const sphere = new THREE.Box3().setFromObject(scenes[0]).getBoundingSphere(new THREE.Sphere());
@@ -66,17 +66,19 @@ try {
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.target.copy(sphere.center);
   controls.update();
-  const draw = () => {
+  const draw = () => renderer.render(scenes[improved.checked ? 1 : 0], camera);
+  const fit = () => {
     const { clientWidth: width, clientHeight: height } = document.documentElement;
+    renderer.setPixelRatio(devicePixelRatio);
     renderer.setSize(width, height);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    renderer.render(scenes[improved.checked ? 1 : 0], camera);
+    draw();
   };
   controls.addEventListener('change', draw);
   improved.addEventListener('change', draw);
-  addEventListener('resize', draw);
-  draw();
+  addEventListener('resize', fit);
+  fit();
   document.documentElement.dataset.drawn = 'yes'; // for programs that drive this page
 } catch (error) {
   state.textContent = String(error);

@@ -27,7 +27,7 @@ const std::vector<GltfFeature>& gltf_features()
         {"KHR_materials_anisotropy", supported, "strength, rotation, texture"},
         {"KHR_materials_clearcoat", supported, "factors, textures, normal texture"},
         {"KHR_materials_diffuse_transmission", ignored, ""},
-        {"KHR_materials_dispersion", supported, "light through glass; lamps through a single interface by the middle index"},
+        {"KHR_materials_dispersion", supported, "light of the environment through glass; lamps by the middle index"},
         {"KHR_materials_emissive_strength", supported, ""},
         {"KHR_materials_ior", supported, ""},
         {"KHR_materials_iridescence", supported, "factors, textures; interference by Fresnel's equations"},

@@ -33,11 +33,12 @@ int channel_in(const Image& image, int channel)
 
 } // namespace
 
-Image channel_of(const Image& image, const PictureInput& picture)
+Image channel_of(const Image& image, const PictureInput& picture, float most)
 {
     const int from = channel_in(image, picture.channel);
     const float factor = picture.factor[0];
-    const bool decoded = picture.encoded && picture.channel < 3, same = from >= 0 && factor == 1.0f && !decoded;
+    const bool decoded = picture.encoded && picture.channel < 3,
+               same = from >= 0 && factor == 1.0f && !decoded && image.type != PixelType::f32;
     const std::size_t each = static_cast<std::size_t>(image.channels), size = pixel_type_bytes(image.type);
     Image r = make_image(image.width, image.height, 1, same ? image.type : PixelType::f32);
     const std::size_t count = static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
@@ -48,7 +49,7 @@ Image channel_of(const Image& image, const PictureInput& picture)
             continue;
         }
         const float value = from < 0 ? 1.0f : value_at(image, at);
-        r.f32()[i] = (decoded ? srgb_to_linear(std::clamp(value, 0.0f, 1.0f)) : value) * factor;
+        r.f32()[i] = std::clamp((decoded ? srgb_to_linear(std::clamp(value, 0.0f, 1.0f)) : value) * factor, 0.0f, most);
     }
     return r;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <pugixml.hpp>
 
@@ -19,6 +20,7 @@ using pugi::xml_node;
 
 constexpr int kMostNodes = 16;     // between a surface and a picture
 constexpr int kMostVisits = 20000; // of nodes, in a document
+constexpr int kMostInputs = 300;   // of a node
 constexpr const char* kSurfaces[] = {"standard_surface", "open_pbr_surface", "gltf_pbr"};
 constexpr const char* kPictures[] = {"image", "tiledimage", "gltf_image", "gltf_colorimage"};
 constexpr const char* kNormalMaps[] = {"normalmap", "gltf_normalmap"};
@@ -131,6 +133,8 @@ class Reader {
             return fault(place_of(node), "has no surface");
         if (!is_one_of(surface.name(), kSurfaces))
             return fault(place_of(surface), "is not read; standard_surface, open_pbr_surface and gltf_pbr are");
+        if (std::distance(surface.children().begin(), surface.children().end()) > kMostInputs)
+            return fault(place_of(surface), "has too many inputs");
         r.kind = surface.name();
         for (const xml_node child : surface.children("input")) {
             if (!*child.attribute("name").value())
@@ -153,8 +157,6 @@ class Reader {
     // Returns the value of an input element, or what it is connected to.
     Result<Input> resolved(xml_node element, int depth)
     {
-        if (depth > kMostNodes || ++visits_ > kMostVisits)
-            return fault("", "comes from too many nodes, or from itself");
         Result<Input> found = Error{};
         if (const pugi::xml_attribute graph = element.attribute("nodegraph")) {
             const xml_node nodes = named(root_, graph.value());
@@ -181,8 +183,12 @@ class Reader {
     // Returns what a node gives. from: the element that names the node.
     Result<Input> read_node(xml_node node, xml_node from, int depth)
     {
+        if (depth > kMostNodes || ++visits_ > kMostVisits)
+            return fault("", "comes from too many nodes, or from itself");
         if (!node)
             return fault("", fmt::format("there is no node {}", printable(from.attribute("nodename").value())));
+        if (std::distance(node.children().begin(), node.children().end()) > kMostInputs)
+            return fault(place_of(node), "has too many inputs");
         const std::string output = from.attribute("output").value();
         Result<Input> r = read_known_node(node, depth);
         if (!r && r.error().place.empty()) {
@@ -233,9 +239,10 @@ class Reader {
             return fault("", "gives no channel");
         const int channel = static_cast<int>(found ? found - kColour : vector - kVector);
         if (input.picture)
-            input.picture->channel = channel, input.picture->factor = glm::vec4(input.picture->factor[channel]);
+            input.picture->channel = channel, input.picture->one_channel = true,
+            input.picture->factor = glm::vec4(input.picture->factor[channel]);
         else
-            input.value = glm::vec3(input.value[std::min(channel, 2)]);
+            input.value = glm::vec3(channel == 3 ? input.alpha : input.value[channel]);
         return input;
     }
 
@@ -247,9 +254,11 @@ class Reader {
         if (a->picture && b->picture)
             return fault("", "multiplies two pictures");
         Input& picture = a->picture ? *a : *b;
-        const glm::vec3 factor = a->picture ? b->value : a->value;
+        const Input& constant = a->picture ? *b : *a;
+        const glm::vec3 factor = constant.value;
+        const bool even = factor.x == factor.y && factor.y == factor.z;
         if (picture.picture)
-            picture.picture->factor *= glm::vec4(factor, factor.x == factor.y && factor.y == factor.z ? factor.x : 1.0f);
+            picture.picture->factor *= glm::vec4(factor, even && constant.alpha == 1.0f ? factor.x : constant.alpha);
         else
             picture.value *= factor;
         const glm::vec4 made = picture.picture ? picture.picture->factor : glm::vec4(picture.value, 1.0f);
@@ -441,7 +450,8 @@ class Reader {
         const std::array<double, 9> m = *matrix_to_rec709(kAp1);
         const glm::dvec3 c = colour;
         for (std::size_t i = 0; i < 3; ++i)
-            colour[static_cast<int>(i)] = static_cast<float>(std::max(m[3 * i] * c.x + m[3 * i + 1] * c.y + m[3 * i + 2] * c.z, 0.0));
+            colour[static_cast<int>(i)] =
+                static_cast<float>(std::clamp(m[3 * i] * c.x + m[3 * i + 1] * c.y + m[3 * i + 2] * c.z, 0.0, 3e38));
         return {};
     }
 

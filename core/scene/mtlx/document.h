@@ -19,6 +19,7 @@ struct PictureInput {
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
     int channel = 0;                     // of an input that takes one number
+    bool one_channel = false;            // the document names the channel
     glm::vec4 factor = glm::vec4(1.0f);  // on the picture's values
     std::optional<float> normal_scale{}; // of a normal map; empty: the picture passes no normal map
 };

@@ -32,6 +32,14 @@ using mtlx::SurfaceMaterial;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 23; // of a document
 constexpr std::size_t kMostNames = 10;                       // in an error
 
+bool uses_textures(const Material& m)
+{
+    bool used = false;
+#define BN_TEXTURE(name, path) used |= m.name.used();
+#include "core/scene/material.def"
+    return used;
+}
+
 bool is_finite(const Material& m)
 {
     for (const float value : {m.emissive.r, m.emissive.g, m.emissive.b, m.emissive_strength, m.specular_color.r, m.specular_color.g,
@@ -61,8 +69,6 @@ class Wardrobe {
         warn_of(surface, "not drawn as the file has it:", wanting);
         return m;
     }
-
-    bool has_pictures() const { return !textures_.empty(); }
 
   private:
     void warn_of(const SurfaceMaterial& surface, const char* words, const std::vector<std::string>& names)
@@ -150,6 +156,8 @@ class Wardrobe {
     // Puts a picture of colours; its factor becomes the material's.
     Status put_colours(const SurfaceMaterial& surface, const Input& input, bool with_alpha, TextureRef& to)
     {
+        if (input.picture->one_channel)
+            return fault(surface, input, "one channel of a picture is not read as a colour");
         const Result<const Image*> image = read(surface, input, true);
         BN_TRY(image);
         const Result<TextureRef> ref = place(*input.picture, fmt::format("colours {} {}", input.picture->encoded, with_alpha),
@@ -159,12 +167,12 @@ class Wardrobe {
         return {};
     }
 
-    Status put_number(const SurfaceMaterial& surface, const Input& input, TextureRef& to)
+    Status put_number(const SurfaceMaterial& surface, const Input& input, TextureRef& to, float most = 1.0f)
     {
         const Result<const Image*> image = read(surface, input, false);
         BN_TRY(image);
         const Result<TextureRef> ref =
-            place(*input.picture, key_of(*input.picture), [&] { return mtlx::channel_of(**image, *input.picture); });
+            place(*input.picture, key_of(*input.picture), [&] { return mtlx::channel_of(**image, *input.picture, most); });
         BN_TRY(ref);
         to = *ref;
         return {};
@@ -176,17 +184,28 @@ class Wardrobe {
         BN_TRY(image);
         if ((*image)->channels < 3)
             return fault(surface, input, "a map of normals has red, green and blue");
+        if (input.picture->one_channel || input.picture->factor != glm::vec4(1.0f))
+            return fault(surface, input, "a map of normals takes no factor and no channel");
         const Result<TextureRef> ref = place(*input.picture, "normals", [&] { return whole_normals(Image(**image)).image; });
         BN_TRY(ref);
         to = *ref, scale = *input.picture->normal_scale;
         return {};
     }
 
+    static bool lies_as(const PictureInput& a, const PictureInput& b)
+    {
+        return a.file == b.file && is_placed_as(a, b);
+    }
+    static bool is_placed_as(const PictureInput& a, const PictureInput& b)
+    {
+        return a.scale == b.scale && a.offset == b.offset && a.wrap_s == b.wrap_s && a.wrap_t == b.wrap_t && a.nearest == b.nearest;
+    }
+
     // Puts the base colour, with alpha where the opacity is the picture's own.
     Status put_base(const SurfaceMaterial& surface, const Parts& parts, Material& m)
     {
         const Input &base = at(parts, Part::base_color), &opacity = at(parts, Part::opacity);
-        if (opacity.picture && (!base.picture || opacity.picture->file != base.picture->file || opacity.picture->channel != 3))
+        if (opacity.picture && (!base.picture || !lies_as(*opacity.picture, *base.picture) || opacity.picture->channel != 3))
             return fault(surface, opacity, "pictures are read here only as the alpha of the base colour's picture");
         if (!base.picture)
             return {};
@@ -225,17 +244,18 @@ class Wardrobe {
                 m.*number.factor = 1.0f;
             }
         if (const Input& input = at(parts, Part::film_thickness); input.picture) {
-            BN_TRY(put_number(surface, input, m.iridescence_thickness_tex));
+            BN_TRY(put_number(surface, input, m.iridescence_thickness_tex, 1e6f));
             m.iridescence_thickness_least = 0.0f, m.iridescence_thickness = surface.kind == "open_pbr_surface" ? 1000.0f : 1.0f;
         }
         if (at(parts, Part::normal).picture)
             BN_TRY(put_normals(surface, at(parts, Part::normal), m.normal_tex, m.normal_scale));
         if (at(parts, Part::coat_normal).picture)
             BN_TRY(put_normals(surface, at(parts, Part::coat_normal), m.clearcoat_normal_tex, m.clearcoat_normal_scale));
-        const bool tinted =
-            at(parts, Part::transmission_color).value != glm::vec3(1.0f) && surface.kind != "gltf_pbr" && m.transmission > 0.0f;
-        if (tinted && (at(parts, Part::base_color).picture || at(parts, Part::transmission).picture))
-            wanting.push_back("transmission_color beside a picture (the base colour tints)");
+        if (surface.kind != "gltf_pbr" && m.transmission > 0.0f &&
+            (at(parts, Part::base_color).picture || at(parts, Part::transmission).picture))
+            wanting.push_back("transmission beside a picture (the base colour tints what passes)");
+        if (surface.kind == "open_pbr_surface" && (at(parts, Part::coat).picture || at(parts, Part::coat_roughness).picture))
+            wanting.push_back("a coat with a picture (it roughens nothing below)");
         return put_lobe(surface, parts, m);
     }
 
@@ -253,12 +273,11 @@ class Wardrobe {
             if (!input->picture)
                 continue;
             const PictureInput& p = *input->picture;
-            if (p.scale != picture.scale || p.offset != picture.offset || p.wrap_s != picture.wrap_s || p.wrap_t != picture.wrap_t ||
-                p.nearest != picture.nearest)
+            if (!is_placed_as(p, picture))
                 return fault(surface, metal, "lies otherwise than the roughness");
             const Result<const Image*> image = read(surface, *input, false);
             BN_TRY(image);
-            maps[input == &rough] = mtlx::channel_of(**image, p);
+            maps[input == &rough] = mtlx::channel_of(**image, p, 1.0f);
         }
         const mtlx::LobeOfRoughness lobe = mtlx::lobe_of(surface, parts);
         const auto roughness_at = [&](std::size_t i) { return static_cast<double>(std::clamp(mtlx::value_at(maps[1], i), 0.0f, 1.0f)); };
@@ -359,7 +378,7 @@ Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits)
             BN_TRY(one);
             known = made.emplace(wears[i], std::move(*one)).first;
         }
-        if (wardrobe.has_pictures() && !worn[i])
+        if (uses_textures(known->second) && !worn[i])
             return Error{ExitCode::bad_input, path, "",
                          fmt::format("material \"{}\" is worn by nothing with texture coordinates for its pictures", printable(m.name))};
         const std::string name = m.name;

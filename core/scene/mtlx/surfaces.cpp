@@ -186,7 +186,7 @@ Material material_of(const SurfaceMaterial& surface, const Parts& parts, std::ve
     put_emission(at(parts, Part::emission_color).value * number(parts, Part::emission), m);
     put_alpha(kind, parts, m);
     // Tell what is drawn otherwise
-    if (number(parts, Part::occlusion) != 1.0f)
+    if (!at(parts, Part::occlusion).picture && number(parts, Part::occlusion) != 1.0f)
         wanting.push_back(at(parts, Part::occlusion).name + " (none without a picture)");
     if (const glm::vec3 base = at(parts, Part::base_color).value * number(parts, Part::base); base != unit(base))
         wanting.push_back(at(parts, Part::base_color).name + " (drawn within 0 and 1)");

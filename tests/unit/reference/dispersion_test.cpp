@@ -115,7 +115,44 @@ TEST(dispersion, paths_keep_all_light_and_split_it)
     EXPECT_GT(std::abs(split.mean.x / split.mean.z - 1.0), 0.08) << "nothing is tested";
 }
 
-TEST(dispersion, of_0_is_none_word_for_word)
+// What lies behind both kinds of glass in one frame is drawn as if each were alone: lanes mix them.
+TEST(dispersion, beside_plain_glass_leaves_it_alone)
+{
+    BN_NEEDS_EMBREE();
+    const Material glass = clear_glass(0.2f, kPrismIor, 0.0f), prism = clear_glass(0.2f, kPrismIor, kPrismDispersion);
+    Scene both = plane_scene(prism);
+    add_scene(both, plane_scene(glass), {2.0f, 0.0f, 0.0f}, 1.0f);
+    const auto colour = [](Scene scene, float x) {
+        Stage stage(std::move(scene), 1.0f, 2);
+        stage.environment = environment_of(prism_sky, 64, stage.jobs);
+        FrameDesc d = desc_of(16, 16, view_from({0.5f, 0.0f, 0.8f}, 0.01f));
+        d.view.eye.x += x;
+        ReferenceOptions o;
+        o.samples = 1024;
+        return estimate_channels(render_reference(stage, d, o));
+    };
+    const ChannelEstimate mixed = colour(both, 1.0f), plain = colour(plane_scene(glass), 0.0f), split = colour(plane_scene(prism), 0.0f);
+    for (int c = 0; c < 3; ++c) {
+        const double half = 0.5 * (plain.mean[c] + split.mean[c]);
+        EXPECT_NEAR(mixed.mean[c], half, kPrismSigmas * (mixed.deviation[c] + plain.deviation[c] + split.deviation[c]) + 0.02 * half) << c;
+    }
+    EXPECT_GT(std::abs(split.mean.x / plain.mean.x - 1.0), 0.03) << "nothing is tested";
+}
+
+TEST(dispersion, under_a_film_keeps_all_light)
+{
+    BN_NEEDS_EMBREE();
+    Material glass = clear_glass(0.0f, kPrismIor, 10.0f);
+    glass.iridescence = 1.0f, glass.iridescence_thickness = 380.0f;
+    const Stage furnace(ball_scene(glass, false), 1.0f, 2);
+    ReferenceOptions o;
+    o.mode = ReferenceMode::path, o.samples = 2048, o.bounces = 64;
+    const ChannelEstimate all = estimate_channels(render_reference(furnace, side_view("mc", 64), o));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(all.mean[c], 1.0, kPrismSigmas * all.deviation[c] + 5e-3) << c;
+}
+
+TEST(dispersion, of_0_and_of_what_is_opaque_is_none_word_for_word)
 {
     Material opaque = clear_glass(0.3f, kPrismIor, kPrismDispersion), bare = clear_glass(0.3f, kPrismIor, 0.0f);
     opaque.transmission = bare.transmission = 0.0f;
@@ -124,6 +161,10 @@ TEST(dispersion, of_0_is_none_word_for_word)
         const FrameDesc d = side_view(technique, 16);
         EXPECT_EQ(with.render(d, best_isa()).color.bytes, without.render(d, best_isa()).color.bytes) << technique; // nothing refracts
     }
+    Material tiny = clear_glass(0.3f, kPrismIor, 1e-30f); // refracts three times by one index
+    const Stage three = ball_of(tiny), one = ball_of(clear_glass(0.3f, kPrismIor, 0.0f));
+    const FrameDesc d = side_view("lobe_line", 16);
+    EXPECT_EQ(three.render(d, best_isa()).color.bytes, one.render(d, best_isa()).color.bytes);
 }
 
 } // namespace

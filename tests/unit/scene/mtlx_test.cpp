@@ -370,6 +370,18 @@ TEST(mtlx, emission_keeps_its_tint_and_sides_stay_those_of_the_scene)
               std::string::npos);
 }
 
+TEST(mtlx, shares_of_pictures_stay_in_their_range)
+{
+    const auto with = [](const std::string& factor) {
+        const std::string product = "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"p\"/>" +
+                                    number("in2", factor) + "</multiply><output name=\"o\" type=\"float\" nodename=\"m\"/>";
+        return dressed(document("gltf_pbr", linked("transmission", "o"), picture_graph(product)), picture_of(255, 255, 255));
+    };
+    const Dressed high = with("3"), low = with("-2");
+    EXPECT_EQ(image_of(high, high.material().transmission_tex).f32()[0], 1.0f);
+    EXPECT_EQ(image_of(low, low.material().transmission_tex).f32()[0], 0.0f);
+}
+
 // Each product names one node twice: without a limit, reading would take 2^15 visits an input.
 TEST(mtlx, products_of_products_end)
 {
@@ -435,6 +447,9 @@ TEST(mtlx, faults_are_named)
              Fault{document("gltf_pbr", linked("roughness", "o", "channels=\"xy\""),
                             picture_graph("<output name=\"o\" type=\"float\" nodename=\"p\"/>")),
                    "channels \"xy\" are not read"},
+             Fault{document("gltf_pbr", linked("base_color", "o", "channels=\"bbb\""),
+                            picture_graph("<output name=\"o\" type=\"color3\" nodename=\"p\"/>")),
+                   "one channel of a picture is not read as a colour"},
              Fault{document("gltf_pbr", linked("alpha", "o"), picture_graph("<output name=\"o\" type=\"float\" nodename=\"p\"/>")),
                    "only as the alpha of the base colour's picture"},
              Fault{document("gltf_pbr", number("roughness", "1e400")), "is no number"},
