@@ -1,5 +1,5 @@
-// Thin films: turned titanium under oxide of growing thickness, the colours that anodising gives, and two balls of black
-// glass under lustre: one with an even film, and one whose film runs down and gathers.
+// Thin films: turned titanium under oxide of growing thickness, in the colours that anodising gives. Before it lie two balls of black
+// glass under lustre. One film is even; the other one runs down and gathers.
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
 #include "core/scene/texture.h"

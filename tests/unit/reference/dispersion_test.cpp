@@ -26,16 +26,6 @@ glm::vec3 prism_sky(const glm::vec3& d)
     return glm::vec3(std::exp(-6.0f * (d.x + 1.0f)));
 }
 
-glm::dvec3 prism_colour(const Frame& frame)
-{
-    glm::dvec3 sum(0.0);
-    const int count = frame.color.width * frame.color.height;
-    for (int i = 0; i < count; ++i)
-        for (int c = 0; c < 3; ++c)
-            sum[c] += static_cast<double>(frame.color.f32()[i * frame.color.channels + c]);
-    return sum / static_cast<double>(count);
-}
-
 Stage ball_of(const Material& glass)
 {
     Stage stage(ball_scene(glass, false), 1.0f, 2);
@@ -61,10 +51,10 @@ TEST(dispersion, each_channel_is_the_picture_of_its_index)
     for (float roughness : {0.0f, 0.3f})
         for (const char* technique : {"lobe_line", "split_isotropic", "mc"}) {
             const FrameDesc d = side_view(technique, 64);
-            const glm::dvec3 drawn = prism_colour(ball_of(clear_glass(roughness, kPrismIor, kPrismDispersion)).render(d, best_isa()));
+            const glm::dvec3 drawn = colour_of(ball_of(clear_glass(roughness, kPrismIor, kPrismDispersion)).render(d, best_isa()));
             glm::dvec3 own;
             for (int c = 0; c < 3; ++c)
-                own[c] = prism_colour(
+                own[c] = colour_of(
                     ball_of(clear_glass(roughness, kPrismIor + kHalfSpread * static_cast<float>(c - 1), 0.0f)).render(d, best_isa()))[c];
             std::printf("%-16s roughness %.1f: %.4f %.4f %.4f, of their indices %.4f %.4f %.4f\n", technique,
                         static_cast<double>(roughness), drawn.x, drawn.y, drawn.z, own.x, own.y, own.z);
@@ -82,7 +72,7 @@ TEST(dispersion, mc_and_the_reference_agree_on_one_interface)
         stage.environment = environment_of(prism_sky, 64, stage.jobs);
         FrameDesc d = desc_of(8, 8, view_from({0.8f, 0.1f, 0.6f}, 0.02f));
         d.technique = "mc", d.samples = 1024;
-        const glm::dvec3 drawn = prism_colour(stage.render(d, best_isa()));
+        const glm::dvec3 drawn = colour_of(stage.render(d, best_isa()));
         for (ReferenceStrategy strategy : {ReferenceStrategy::mis, ReferenceStrategy::brdf}) {
             ReferenceOptions o;
             o.samples = 1024, o.strategy = strategy;

@@ -163,16 +163,6 @@ FrameDesc film_view(float cosine, const char* technique, int samples)
     return d;
 }
 
-glm::dvec3 colour_of(const Frame& frame) // mean over the pixels
-{
-    glm::dvec3 sum(0.0);
-    const int count = frame.color.width * frame.color.height;
-    for (int i = 0; i < count; ++i)
-        for (int c = 0; c < 3; ++c)
-            sum[c] += static_cast<double>(frame.color.f32()[i * frame.color.channels + c]);
-    return sum / static_cast<double>(count);
-}
-
 ReferenceOptions film_run(ReferenceMode mode, std::uint64_t samples)
 {
     ReferenceOptions o;

@@ -257,6 +257,16 @@ Estimate estimate(const Frame& frame)
     return e;
 }
 
+glm::dvec3 colour_of(const Frame& frame)
+{
+    glm::dvec3 sum(0.0);
+    const int count = frame.color.width * frame.color.height;
+    for (int i = 0; i < count; ++i)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += static_cast<double>(frame.color.f32()[i * frame.color.channels + c]);
+    return sum / static_cast<double>(count);
+}
+
 double mean_of(const Frame& frame)
 {
     double sum = 0.0;

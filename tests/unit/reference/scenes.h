@@ -38,7 +38,8 @@ struct Estimate {                       // of the mean over an image's pixels an
     double mean = 0.0, deviation = 0.0; // deviation: standard error of `mean`
 };
 Estimate estimate(const Frame& frame);
-double mean_of(const Frame& frame); // over all channels of all pixels
+double mean_of(const Frame& frame);       // over all channels of all pixels
+glm::dvec3 colour_of(const Frame& frame); // mean over all pixels
 
 struct ChannelEstimate { // of the means over an image's pixels
     glm::dvec3 mean{0.0}, deviation{0.0};
