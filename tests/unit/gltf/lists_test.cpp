@@ -53,7 +53,7 @@ void expect_read_and_checked(const std::string& where, const char* path, T fallb
     const Result<Scene> without = load(make(json::object(), ""));
     ASSERT_TRUE(without) << path << ": " << error_of(without);
     EXPECT_EQ(member(*without), fallback) << path;
-    const double value = most >= kAny ? 1.25 : 0.25;
+    const double value = most >= kAny || least >= 1.0 ? 1.25 : 0.25;
     const Result<Scene> with_it = load(make(filled<T>(value), path));
     ASSERT_TRUE(with_it) << path << ": " << error_of(with_it);
     EXPECT_EQ(member(*with_it), T(static_cast<float>(value))) << path;
