@@ -231,4 +231,4 @@ def near_the_truth(bench):
             bench.run("compare", "truth.png", picture, "--json", "c.json", "-q")
             flips.append(json.loads((bench.folder / "c.json").read_text())["flip_mean"])
         print(f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
-        check(flips[0] < 0.14 and flips[0] < 0.5 * flips[1], f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
+        check(flips[0] < 0.05 and flips[0] < 0.3 * flips[1], f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")

@@ -37,8 +37,8 @@ struct SurfaceMaterial {
     std::vector<Input> inputs;
 };
 
-// Reads a document. path: for errors. Errors (ExitCode::bad_input), each with the element's name: text that is no XML, another version than
-// 1.38 or 1.39, includes, surfaces of another kind or within node graphs, inputs that come from other nodes than pictures, constants,
+// Reads a document. path: for errors. Errors (ExitCode::bad_input), each with the element's name: text that is no XML; another version than
+// 1.38 or 1.39; includes, surfaces of another kind or within node graphs, inputs that come from other nodes than pictures, constants,
 // channels of these, and products with constants; values that are no finite numbers; colour spaces other than Rec.709, sRGB and ACEScg
 // (ACEScg for numbers alone); too many nodes; no material at all. Colours without a colour space are linear Rec.709. Inputs that are linked
 // to the geometry's own normal or tangent count as absent.

@@ -171,8 +171,8 @@ class Wardrobe {
     {
         const Result<const Image*> image = read(surface, input, false);
         BN_TRY(image);
-        const Result<TextureRef> ref =
-            place(*input.picture, key_of(*input.picture), [&] { return mtlx::channel_of(**image, *input.picture, most); });
+        const Result<TextureRef> ref = place(*input.picture, fmt::format("{} to {}", key_of(*input.picture), most),
+                                             [&] { return mtlx::channel_of(**image, *input.picture, most); });
         BN_TRY(ref);
         to = *ref;
         return {};
