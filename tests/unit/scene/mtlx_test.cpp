@@ -382,6 +382,18 @@ TEST(mtlx, shares_of_pictures_stay_in_their_range)
     EXPECT_EQ(image_of(low, low.material().transmission_tex).f32()[0], 0.0f);
 }
 
+TEST(mtlx, a_share_and_a_thickness_may_read_one_picture)
+{
+    const std::string product = "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"p\"/>" +
+                                number("in2", "400") + "</multiply><output name=\"o\" type=\"float\" nodename=\"m\"/>";
+    const Dressed d =
+        dressed(document("gltf_pbr", linked("iridescence", "o") + linked("iridescence_thickness", "o"), picture_graph(product)),
+                picture_of(255, 255, 255));
+    ASSERT_EQ(d.error, "");
+    EXPECT_EQ(image_of(d, d.material().iridescence_tex).f32()[0], 1.0f);
+    EXPECT_EQ(image_of(d, d.material().iridescence_thickness_tex).f32()[0], 400.0f);
+}
+
 // Each product names one node twice: without a limit, reading would take 2^15 visits an input.
 TEST(mtlx, products_of_products_end)
 {
