@@ -13,6 +13,7 @@
 
 #include "core/simd/half.h"
 #include "raster/vulkan/forward_shaders.h"
+#include "raster/vulkan/lab/lean_lights.h"
 #include "raster/vulkan/lab/shaders.h"
 #include "shading/surface/lobe_shape.t.h"
 
@@ -27,7 +28,8 @@ constexpr const char* kLeanTechniques[] = {
 
 // Traits of a material, as in surface.glsl.
 constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32, kUnlit = 64,
-                       kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048;
+                       kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048, kLamps = 4096,
+                       kAreas = 8192, kRoundLights = 16384;
 
 struct LeanFrame { // std140: frame.glsl
     glm::mat4 clip_from_world;
@@ -39,7 +41,7 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 place[2 * kTextureSlots];
 };
 static_assert(kTextureSlots == 19 && sizeof(LeanMaterial) == 736);
-constexpr std::uint32_t kTableSamplers = 4;  // albedo tables of set 0
+constexpr std::uint32_t kTableSamplers = 5;  // of set 0: albedo tables and transformed cosines
 constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
 
 // Vertex input: positions, then shading data.
@@ -69,14 +71,13 @@ glm::vec3 vec3(const float* v)
 }
 
 // Returns the frame's feature that the stages lack; null: none.
-const char* not_of_frame(const FrameDesc& desc, const FrameRecord& f)
+const char* not_of_frame(const FrameDesc& desc, const GpuScene& scene)
 {
+    const FrameRecord& f = scene.record();
     if (f.extracted_light_count > 0)
         return "extracted lights (EnvironmentOptions::extracted_lights off leaves them in the environment)";
-    if (f.light_count > 0)
-        return "punctual lights";
-    if (f.area_light_count > 0)
-        return "area lights (FrameDesc::area_way off)";
+    if (const char* lights = lights_that_lean_lacks(scene); lights)
+        return lights;
     if (f.lobe != lobe_with(kDefaultLobe))
         return "lobes other than the usual one (FrameDesc::brdf, FrameDesc::tilt, FrameDesc::masking)";
     if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || f.horizon != 0 || desc.specular_aa ||
@@ -112,9 +113,10 @@ const char* not_of_material(const MaterialRecord& m)
 }
 
 // Checks that the lean stages can draw the frame. Errors: ExitCode::unavailable, naming the missing feature.
-Status check_lean(const FrameDesc& desc, const FrameRecord& record, const std::vector<MaterialRecord>& materials)
+Status check_lean(const FrameDesc& desc, const GpuScene& scene)
 {
-    const char* missing = not_of_frame(desc, record);
+    const std::vector<MaterialRecord>& materials = scene.materials_of_frame();
+    const char* missing = not_of_frame(desc, scene);
     for (std::size_t i = 0; !missing && i < materials.size(); ++i)
         missing = not_of_material(materials[i]);
     if (missing)
@@ -134,7 +136,7 @@ class LeanDrawer final : public ForwardDrawer {
     void draw(VkCommandBuffer c, const NativeImages& native, VkSampleCountFlagBits samples, VkFormat color, const Band& band) override;
 
   private:
-    DeviceImage upload_table(const float* pairs, int width, int height, int depth);
+    DeviceImage upload_pairs(const float* pairs, int width, int height, int depth);
     const DeviceImage& slice(int first, int size); // size: texels along n.v
     void fill_materials(const FrameDesc& desc);
     void make_sets();
@@ -143,8 +145,8 @@ class LeanDrawer final : public ForwardDrawer {
     Pipelines& pipelines_;
     GpuScene& scene_;
     RenderInput input_;
-    Buffer positions_, shading_, frame_, materials_, grid_;
-    DeviceImage round_albedo_, width_albedo_;
+    Buffer positions_, shading_, frame_, materials_, grid_, lights_;
+    DeviceImage round_albedo_, width_albedo_, cosines_;
     std::map<int, DeviceImage> slices_;     // by MaterialRecord::albedo_slice
     std::vector<Specialization> constants_; // by material
     VkSampler sampler_ = VK_NULL_HANDLE;
@@ -164,15 +166,15 @@ LeanDrawer::LeanDrawer(Context& context, Pipelines& pipelines, GpuScene& scene, 
     positions_ = make_filled_buffer(context, positions.data(), positions.size() * sizeof(float), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     shading_ = make_filled_buffer(context, t.shading.data(), t.shading.size() * sizeof(ShadingVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     frame_ = Buffer(context, sizeof(LeanFrame), Buffer::Place::host, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    round_albedo_ = upload_table(input.dfg.pairs.data(), input.dfg.size, input.dfg.size, 1);
-    width_albedo_ = upload_table(lobe_albedo_pairs(), kLobeAlbedoSize, kLobeAlbedoSize, kLobeAlbedoSize * kLobeAlbedoSize / 4);
+    round_albedo_ = upload_pairs(input.dfg.pairs.data(), input.dfg.size, input.dfg.size, 1);
+    width_albedo_ = upload_pairs(lobe_albedo_pairs(), kLobeAlbedoSize, kLobeAlbedoSize, kLobeAlbedoSize * kLobeAlbedoSize / 4);
     auto sampler = vk_struct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
     sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
     sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     BN_VK(vkCreateSampler(context.device(), &sampler, nullptr, &sampler_));
 }
 
-// Makes set 0: frame, material, grid, albedo tables. Set 1 is that of native samplers.
+// Makes set 0: frame, material, grid, albedo tables, lights, transformed cosines. Set 1 is that of native samplers.
 void LeanDrawer::make_layouts()
 {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -183,7 +185,9 @@ void LeanDrawer::make_layouts()
         {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
         {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
         {5, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
+        {6, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+        {8, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}};
     auto set = vk_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.bindingCount = static_cast<std::uint32_t>(std::size(bindings)), set.pBindings = bindings;
     BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &set_layout_));
@@ -204,7 +208,7 @@ LeanDrawer::~LeanDrawer()
 }
 
 // Uploads pairs as halves, which keep three digits.
-DeviceImage LeanDrawer::upload_table(const float* pairs, int width, int height, int depth)
+DeviceImage LeanDrawer::upload_pairs(const float* pairs, int width, int height, int depth)
 {
     const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(depth);
     std::vector<std::uint16_t> two(2 * count);
@@ -213,19 +217,7 @@ DeviceImage LeanDrawer::upload_table(const float* pairs, int width, int height, 
     ImageShape shape;
     shape.format = VK_FORMAT_R16G16_SFLOAT;
     shape.width = width, shape.height = height, shape.depth = depth;
-    shape.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    DeviceImage image(context_, shape);
-    const Buffer staging(context_, two.size() * sizeof(std::uint16_t), Buffer::Place::host);
-    std::memcpy(staging.data(), two.data(), two.size() * sizeof(std::uint16_t));
-    VkBufferImageCopy copy = {};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    copy.imageExtent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), static_cast<std::uint32_t>(depth)};
-    VkCommandBuffer c = context_.begin();
-    change_layout(c, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(c, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    change_layout(c, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    context_.submit(c);
-    return image;
+    return upload_halves(context_, two, shape);
 }
 
 const DeviceImage& LeanDrawer::slice(int first, int size)
@@ -234,7 +226,7 @@ const DeviceImage& LeanDrawer::slice(int first, int size)
     if (known != slices_.end())
         return known->second;
     const float* const pairs = scene_.lobe_slices().data() + 2 * static_cast<std::size_t>(first);
-    return slices_[first] = upload_table(pairs, size, size / 2, 1);
+    return slices_[first] = upload_pairs(pairs, size, size / 2, 1);
 }
 
 // Returns the matrix to clip space with y down, with the rows of View; see clip_position (shading/kernels/vertex.k.h).
@@ -335,6 +327,9 @@ void LeanDrawer::fill_materials(const FrameDesc& desc)
         trait(desc.override_anisotropy, kOneEta);
         trait(m.roughness_fixed != 0, kFactorRoughness);
         trait(m.phong_slice >= 0, kPhongTable);
+        trait(f.light_count > 0, kLamps);
+        trait(f.area_light_count > 0, kAreas);
+        trait(m.lights_lobe == lobe_with(kRoundLobe), kRoundLights);
         const bool gridded = f.grid_count > 0;
         constants_.push_back({std::max(lean_technique(m.technique), 0), gridded ? f.grid_count : m.samples, textures, traits});
     }
@@ -342,7 +337,7 @@ void LeanDrawer::fill_materials(const FrameDesc& desc)
 
 void LeanDrawer::prepare(const FrameDesc& desc)
 {
-    if (const Status drawn = check_lean(desc, scene_.record(), scene_.materials_of_frame()); !drawn)
+    if (const Status drawn = check_lean(desc, scene_); !drawn)
         throw VulkanError{drawn.error()};
     const LeanFrame frame = lean_frame(scene_.record());
     std::memcpy(frame_.data(), &frame, sizeof frame);
@@ -351,6 +346,12 @@ void LeanDrawer::prepare(const FrameDesc& desc)
         grid_ = Buffer(context_, grid.size() * sizeof(GridSample), Buffer::Place::host);
     if (!grid.empty())
         std::memcpy(grid_.data(), grid.data(), grid.size() * sizeof(GridSample));
+    const std::vector<glm::vec4> lights = lean_lights(scene_);
+    if (lights_.bytes() < lights.size() * sizeof(glm::vec4))
+        lights_ = Buffer(context_, lights.size() * sizeof(glm::vec4), Buffer::Place::host);
+    std::memcpy(lights_.data(), lights.data(), lights.size() * sizeof(glm::vec4));
+    if (cosines_.view() == VK_NULL_HANDLE)
+        cosines_ = upload_cosines(context_, input_);
     fill_materials(desc);
     make_sets();
 }
@@ -362,7 +363,7 @@ void LeanDrawer::make_sets()
     vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
     pool_ = VK_NULL_HANDLE;
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * count},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * count},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kTableSamplers * count}};
     auto pool = vk_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = count, pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes)), pool.pPoolSizes = sizes;
@@ -376,28 +377,32 @@ void LeanDrawer::make_sets()
         const bool material = m < all.size();
         const DeviceImage& own =
             material && all[m].albedo_slice >= 0 ? slice(all[m].albedo_slice, kLobeSliceSize) : round_albedo_; // placeholder, never fetched
+        const DeviceImage& phong = material && all[m].phong_slice >= 0 ? slice(all[m].phong_slice, kLobeAlbedoSize) : round_albedo_;
         const VkDescriptorBufferInfo buffers[] = {{frame_.handle(), 0, VK_WHOLE_SIZE},
                                                   {material ? materials_.handle() : frame_.handle(), material ? m * kMaterialStride : 0,
                                                    material ? VkDeviceSize{kMaterialStride} : VK_WHOLE_SIZE},
-                                                  {grid_.handle(), 0, VK_WHOLE_SIZE}};
-        const DeviceImage& phong = material && all[m].phong_slice >= 0 ? slice(all[m].phong_slice, kLobeAlbedoSize) : round_albedo_;
+                                                  {grid_.handle(), 0, VK_WHOLE_SIZE},
+                                                  {lights_.handle(), 0, VK_WHOLE_SIZE}};
         VkDescriptorImageInfo images[kTableSamplers];
-        const DeviceImage* const tables[] = {&round_albedo_, &own, &width_albedo_, &phong};
+        const DeviceImage* const tables[] = {&round_albedo_, &own, &width_albedo_, &phong, &cosines_};
         for (std::uint32_t i = 0; i < kTableSamplers; ++i)
             images[i] = {sampler_, tables[i]->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        VkWriteDescriptorSet writes[7];
-        for (std::uint32_t b = 0; b < 7; ++b) {
-            writes[b] = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-            writes[b].dstSet = sets_[m], writes[b].dstBinding = b, writes[b].descriptorCount = 1;
-            writes[b].descriptorType = b < 2    ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                       : b == 2 ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                                : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-            if (b < 3)
-                writes[b].pBufferInfo = &buffers[b];
-            else
-                writes[b].pImageInfo = &images[b - 3];
-        }
-        vkUpdateDescriptorSets(context_.device(), 7, writes, 0, nullptr);
+        std::vector<VkWriteDescriptorSet> writes;
+        const auto write = [&](std::uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo* buffer,
+                               const VkDescriptorImageInfo* image) {
+            auto w = vk_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+            w.dstSet = sets_[m], w.dstBinding = binding, w.descriptorCount = 1, w.descriptorType = type;
+            w.pBufferInfo = buffer, w.pImageInfo = image;
+            writes.push_back(w);
+        };
+        write(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, &buffers[0], nullptr);
+        write(1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, &buffers[1], nullptr);
+        write(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, &buffers[2], nullptr);
+        for (std::uint32_t i = 0; i < 4; ++i)
+            write(3 + i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nullptr, &images[i]);
+        write(7, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, &buffers[3], nullptr);
+        write(8, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, nullptr, &images[4]);
+        vkUpdateDescriptorSets(context_.device(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
     }
 }
 

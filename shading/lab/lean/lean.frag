@@ -1,8 +1,9 @@
-// Shades a fragment under the environment as an engine does: see frame.glsl.
+// Shades a fragment under the environment and the lights as an engine does: see frame.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shading/lab/lean/surface.glsl"
 #include "shading/lab/lean/techniques.glsl"
+#include "shading/lab/lean/lights.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -39,13 +40,14 @@ void main()
     // Add the specular and the diffuse environment light
     Surface s = surface_of(base);
     vec3 light = specular_of(s) * frame.scale.x;
-    if (has(kDiffuse)) {
-        vec3 kept = s.dielectric_f0 * s.dfg.x + s.dielectric_f90 * s.dfg.y;
-        float passed = 1.0 - max(kept.r, max(kept.g, kept.b));
-        light += s.diffuse * (passed * frame.scale.y) * textureLod(cubes[1], s.n, 0.0).rgb;
-    }
-    // Apply occlusion, then add emission
+    if (has(kDiffuse))
+        light += s.diffuse * (diffuse_share(s) * frame.scale.y) * textureLod(cubes[1], s.n, 0.0).rgb;
+    // Apply occlusion, then add lights and emission
     light *= s.occlusion;
+    if (has(kLamps))
+        light += light_of_lamps(s);
+    if (has(kAreas))
+        light += light_of_areas(s);
     if (has(kEmits))
         light += s.emissive;
     radiance = vec4(light, 1.0);

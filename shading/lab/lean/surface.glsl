@@ -10,7 +10,8 @@ layout(constant_id = 2) const int kTextures = 0; // a bit per used slot (core/sc
 layout(constant_id = 3) const int kTraits = 0; // the material's traits, see below
 
 const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32,
-          kUnlit = 64, kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048;
+          kUnlit = 64, kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048, kLamps = 4096,
+          kAreas = 8192, kRoundLights = 16384;
 const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8;
 
 bool has(int trait) { return (kTraits & trait) != 0; }

@@ -203,17 +203,18 @@ vec3 lobe_line(Surface s)
     vec2 e = h >= 0.0 ? vec2(d + h, shear) : vec2(abs(shear), shear < 0.0 ? h - d : d - h);
     line.along = line.alpha * e * (sqrt(1.0 - ratio) * inversesqrt(max(dot(e, e), 1e-30)));
     // Set up level, width and corrections
-    float width = sqrt(l1 * ratio) / line.o.z, square = width * width, grazing = 0.8 + 0.2 * line.o.z;
-    line.level = (0.6 - 0.08 * ratio) * width * grazing;
-    line.widen = 1.4 * width * width * grazing;
-    line.axis = line.o * (1.0 + 0.45 * square * line.o.z * line.o.z) - vec3(0.0, 0.0, 1.55 * square * line.o.z);
-    line.upright = 0.44 * square * line.o.z * line.o.z;
-    line.lift = 1.3 * square;
+    float width = sqrt(l1 * ratio) / line.o.z, square = width * width, grazing = (0.78 + 0.22 * line.o.z) * width;
+    line.level = (0.66 - 0.13 * ratio) * grazing;
+    line.widen = 1.29 * width * grazing;
+    line.axis = line.o * (1.0 + 0.64 * square * line.o.z * line.o.z) - vec3(0.0, 0.0, 1.19 * square * line.o.z);
+    line.upright = 0.13 * square * line.o.z * line.o.z;
+    line.lift = 1.92 * square;
     float extent = sqrt((1.0 - ratio) / max(ratio, 1e-12));
     line.even = extent / (extent + 6.0);
     line.stretch = length(vec3(p, line.o.z));
     // Take the middle sample, then pairs on both sides
-    float count = min(1.0 + 1.6 * extent, float(kSamples - (kSamples % 2 == 0 ? 1 : 0)));
+    float count = min(1.0 + 4.0 * extent, float(kSamples - (kSamples % 2 == 0 ? 1 : 0)));
+    line.level *= 1.0 + 0.7 / count;
     float size = 2.0 / count;
     LineSum sum = LineSum(vec3(0.0), vec3(0.0));
     line_sample(s, line, 0.0, 1.0, sum);
@@ -264,14 +265,14 @@ vec3 as_mc(Surface s)
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < kSamples; ++i) {
-        vec2 d = normalize(wide * vec2(grid[3 * i], grid[3 * i + 1]));
-        float e = dot(n, d * d), lg = grid[3 * i + 2] / (e + 1.0);
+        vec2 d = normalize(wide * vec2(grid[18 * i], grid[18 * i + 4])); // the first of four sets in a block
+        float e = dot(n, d * d), lg = grid[18 * i + 8] / (e + 1.0);
         float less = lg > -0.01 ? lg * (1.0 + lg * (0.5 + lg * 0.16666667)) : exp(lg) - 1.0; // cosine - 1
         vec3 h = vec3(d * sqrt(max(-less * (less + 2.0), 0.0)), less + 1.0);
         float oh = dot(o, h);
         vec3 wi = mirror(o, h);
         float weight = oh > 0.0 && wi.z > 0.0 ? wi.z / max(max(o.z, wi.z), 1e-4) : 0.0;
-        float lod = max(term + 0.5 * log2(max(oh, 1e-4)) - e * lg * 0.72134752, 0.0);
+        float lod = floor(max(term + 0.5 * log2(max(oh, 1e-4)) - e * lg * 0.72134752, 0.0) + 0.5);
         sum += textureLod(cubes[2], to_world(s, wi), lod).rgb * fresnel(s, oh) * weight;
         weights += weight;
     }

@@ -1,18 +1,40 @@
-// The lean shaders refuse what they do not draw. Skipped where lavapipe is missing.
+// The lean shaders refuse what they do not draw, and light scenes as the tile renderer does. Skipped where lavapipe is missing.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "core/scene/builtin/builtin.h"
 #include "raster/vulkan/lab/lean.h"
+#include "shading/lang/records.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
 namespace {
 
-void change_nothing(FrameDesc&) {}
+Result<std::shared_ptr<VulkanDevice>> lean_device()
+{
+    VulkanOptions options;
+    options.device = "lavapipe", options.use_cache = false;
+    options.pipeline = VulkanPipeline::forward, options.sampler = VulkanSampler::native;
+    options.shaders = lean_shaders();
+    return open_vulkan_device(options);
+}
+
+// Returns the mean absolute difference over the mean of `truth`.
+double difference(const Image& truth, const Image& picture)
+{
+    const std::size_t values = static_cast<std::size_t>(truth.width * truth.height * truth.channels);
+    double off = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < values; ++i) {
+        off += static_cast<double>(std::abs(truth.f32()[i] - picture.f32()[i]));
+        all += static_cast<double>(truth.f32()[i]);
+    }
+    return off / all;
+}
 
 struct Refused {
     const char* scene;
@@ -22,18 +44,14 @@ struct Refused {
 
 TEST(lean, refuses_what_it_does_not_draw)
 {
-    VulkanOptions options;
-    options.device = "lavapipe", options.use_cache = false;
-    options.pipeline = VulkanPipeline::forward, options.sampler = VulkanSampler::native;
-    options.shaders = lean_shaders();
-    const Result<std::shared_ptr<VulkanDevice>> device = open_vulkan_device(options);
+    const Result<std::shared_ptr<VulkanDevice>> device = lean_device();
     if (!device)
         GTEST_SKIP() << device.error().line();
     const Refused all[] = {{"spheres", [](FrameDesc& d) { d.tilt_rad = glm::vec2(0.2f, 0.0f); }, "FrameDesc::tilt"},
                            {"spheres", [](FrameDesc& d) { d.fresnel = 1; }, "FrameDesc::fresnel"},
                            {"spheres", [](FrameDesc& d) { d.seed = 7; }, "FrameDesc::seed"},
                            {"bumps", [](FrameDesc& d) { d.horizon = 0; }, "normal maps so strong"},
-                           {"sphere", change_nothing, "punctual lights"}};
+                           {"lights", [](FrameDesc& d) { d.area_way = kAreaWay_mc; }, "FrameDesc::area_way"}};
     for (const Refused& refused : all) {
         SCOPED_TRACE(refused.needle);
         Result<Scene> scene = make_builtin_scene(refused.scene);
@@ -49,6 +67,33 @@ TEST(lean, refuses_what_it_does_not_draw)
         ASSERT_FALSE(frame);
         EXPECT_EQ(frame.error().code, ExitCode::unavailable);
         EXPECT_NE(frame.error().line().find(refused.needle), std::string::npos) << frame.error().line();
+    }
+}
+
+// Area lights of each shape by filtered textures, and a lamp, on anisotropic and round lobes.
+TEST(lean, lights_as_the_tile_renderer_does)
+{
+    const Result<std::shared_ptr<VulkanDevice>> device = lean_device();
+    if (!device)
+        GTEST_SKIP() << device.error().line();
+    struct Drawn {
+        const char* scene;
+        const char* technique;
+    };
+    for (const Drawn& drawn : {Drawn{"lights", "lobe_line"}, Drawn{"lights", "split_isotropic"}, Drawn{"spheres", "lobe_line"}}) {
+        SCOPED_TRACE(drawn.scene);
+        Result<Scene> scene = make_builtin_scene(drawn.scene);
+        ASSERT_TRUE(scene);
+        add_lamp(*scene, glm::vec3(0.4f, 1.3f, 0.8f), 3.0f);
+        const Stage stage(std::move(*scene), 0.0f, 2);
+        Result<std::unique_ptr<Renderer>> renderer = make_vulkan_renderer(stage.input(), *device);
+        ASSERT_TRUE(renderer) << renderer.error().line();
+        FrameDesc desc;
+        desc.width = 160, desc.height = 100, desc.msaa = 1, desc.technique = drawn.technique;
+        desc.view = auto_frame(stage.tables, desc.width, desc.height);
+        const Result<Frame> frame = (*renderer)->render(desc);
+        ASSERT_TRUE(frame) << frame.error().line();
+        EXPECT_LT(difference(stage.render(desc, best_isa()).color, frame->color), 0.01);
     }
 }
 
