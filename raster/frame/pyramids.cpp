@@ -7,6 +7,7 @@
 #include "core/jobs/activity.h"
 #include "core/scene/heights.h"
 #include "core/simd/half.h"
+#include "raster/frame/coat_normals.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/far_normals.h"
 #include "shading/bake/mip/anisotropy.h"
@@ -177,6 +178,15 @@ std::int32_t first_that_keeps(const Scene& scene, const SceneMips& mips, std::si
     });
 }
 
+// Returns the first material whose coat's normals spread alike.
+std::int32_t first_with_coat(const Scene& scene, const SceneMips& mips, std::size_t material)
+{
+    return first_alike(material, [&](std::size_t i) {
+        const Material& of = scene.materials[i];
+        return std::tuple(of.clearcoat_normal_tex.texture, of.clearcoat_normal_scale, coat_gain(of, mips.of(i)));
+    });
+}
+
 // Contents of a material's texture slot, and the texture that places them.
 struct Held {
     PyramidKey key;
@@ -198,6 +208,8 @@ std::optional<Held> held_by(const Scene& scene, const SceneMips& all, std::size_
     Held held = {{ref.texture, use.encoding, use.tensor_power}, &ref};
     if (use.slot == kNormalTex && kept_weights_of(scene, m, mips).any)
         held.key.keeps = true, held.key.material = first_that_keeps(scene, all, material);
+    if (use.slot == kCoatNormalTex && coat_gain(m, mips) > 0.0f)
+        held.key.coat = true, held.key.material = first_with_coat(scene, all, material);
     if (use.slot == kBaseColorTex || use.slot == kMetalRoughTex) {
         held.key.kaiser = mips.kaiser;
         if (held.key.coupled = is_coupled(scene, m, mips, ref); held.key.coupled)
@@ -452,6 +464,7 @@ void bind_textures(const Scene& scene, const SceneMips& all, std::size_t materia
     const Moments moments = moments_of(scene, m, mips, overridden);
     to.moments = moments.kind;
     to.level_gain = moments.filtered ? gain_of_taps(mips.filter, mips.kappa) : -1.0f;
+    to.coat_spread = coat_gain(m, mips) > 0.0f;
     to.frame_map = is_filtered(scene, m, mips) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
     put_far_normals(scene, m, mips, to);
@@ -462,6 +475,10 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
     if (key.filtered)
         return filtered_pyramid(scene, mips, texture, key, *levels[static_cast<std::size_t>(key.material)]);
+    if (key.coat) {
+        const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
+        return coat_pyramid(scene, m, coat_gain(m, mips.of(static_cast<std::size_t>(key.material))));
+    }
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     if (key.moments == kNoMoments && key.tensor_power == 0 && !key.keeps) {
         TextureRef ref;

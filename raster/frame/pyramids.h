@@ -42,6 +42,7 @@ struct PyramidKey {
     bool coupled = false;          // colours: weighted by that material's normals
     bool kaiser = false;           // colours: filtered with ColourKernel::kaiser
     bool keeps = false;            // normals: alpha of the levels is the light share that facets keep, for that material
+    bool coat = false;             // a coat's normals: alpha of the levels is their spread (coat_normals.h), for that material
     bool operator==(const PyramidKey&) const = default;
 };
 

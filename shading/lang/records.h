@@ -196,6 +196,7 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     float tilt_slope[2];             // mean slopes of the summed tilt, along tangent and bitangent
     int tilt_mapped, moments;        // a texture holds slopes; kNoMoments...
     float level_gain;                // how much the spread of normals between taps widens lobes, by mip filter; -1: unfiltered
+    int coat_spread;                 // the alpha of the coat's normal map widens the coat's lobe
     int relief;                      // the normal map's alpha holds heights, and the frame uses them
     float relief_depth;              // depth of height 0, in lengths of texture coordinates
     int emitter;                     // as in core/scene's Material: the area light that it shows, if any

@@ -28,8 +28,16 @@ BN_FN void clearcoat_inputs(material_ref m, BN_IN(texture_fetches) t, BN_INOUT(m
     r.coat_roughness = splat(the_material(m).clearcoat_roughness);
     if (texture_used(m, kCoatRoughnessTex))
         r.coat_roughness = r.coat_roughness * texel_of(t, kCoatRoughnessTex).y;
-    if (texture_used(m, kCoatNormalTex))
-        r.coat_normal_map = scaled_normal(texel_of(t, kCoatNormalTex), splat(the_material(m).clearcoat_normal_scale));
+    if (!texture_used(m, kCoatNormalTex))
+        return;
+    real4 normal = texel_of(t, kCoatNormalTex);
+    r.coat_normal_map = scaled_normal(normal, splat(the_material(m).clearcoat_normal_scale));
+    // Widen the lobe by the spread of the normals below the texel
+    if (the_material(m).coat_spread != 0) {
+        real alpha = r.coat_roughness * r.coat_roughness;
+        real wider = sqrt(alpha * alpha + normal.w);
+        r.coat_roughness = min(sqrt(wider), lit(1.0));
+    }
 }
 
 // Returns the directional albedo of the coat's lobe.

@@ -1,10 +1,14 @@
 """KHR_materials_clearcoat: in files, in both renderers, in the reference, on a device."""
 
+import json
+
 import gltf_files as files
 from brdf_cases import against_files
 from fresnel_cases import CLOSE
 from harness import case, check
 from input_cases import refuse, scratch
+from mip_cases import grain
+from mip_zoom_cases import wide_floor
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
@@ -95,3 +99,24 @@ def devices(bench):
     check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4"))
     light = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided")
     check_equal(parity(bench, mapped, *small, *light, "--msaa", "1", "--technique", "bent_normal"))
+
+@case("coat.mip_filters_widen_it_by_its_normals", budget=30)
+def widened(bench):
+    """A grained coat on a black floor, seen from afar: filters come nearer to the reference, whose rays read the map's own texels."""
+    needs_embree(bench)
+    floor = wide_floor(24)
+    coat = {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.25, "clearcoatNormalTexture": {"index": 0}}
+    floor["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 1, "roughnessFactor": 1},
+                           "extensions": {"KHR_materials_clearcoat": coat}}]
+    floor["extensionsUsed"] = ["KHR_materials_clearcoat"]
+    scratch(bench, "grain.png", grain(128, 0.3))
+    floor["images"], floor["textures"] = [{"uri": "grain.png"}], [{"source": 0}]
+    words = (scratch(bench, "floor.gltf", files.text(floor)), "--eye", "0,3,4", "--target", "0,0,0", "--fov", "35", "--size", "48x36", "--env", "builtin:sky",
+             "--env-size", "64", "--env-samples", "64", "--no-background", "-q")
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 512, "-o", "truth.pfm", timeout=300.0).expect(0)
+    error = {}
+    for name in ("box", "lean", "kappa", "leadr", "ssgt"):
+        bench.run("render", *words, "--mip-filter", name, "--msaa", "8", "--technique", "mc", "--samples", 256, "-o", name + ".pfm", timeout=300.0).expect(0)
+        found = json.loads(bench.run("compare", "truth.pfm", name + ".pfm", "--json", "-").expect(0).out)
+        error[name] = found["flip_mean"]
+    check(error["kappa"] < 0.6 * error["box"] and max(error.values()) == error["box"], f"{error}")
