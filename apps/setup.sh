@@ -1,5 +1,5 @@
 # Installs what is missing of packages.txt. Sourced by apps/demo and tests/run; no other file names packages.
-#   burnish_setup GROUP...     groups: build, test, wasm
+#   burnish_setup GROUP...     groups: build, test, wasm, cluster
 # BURNISH_NO_INSTALL=1 skips it. Ends the calling script with code 2 where the packages cannot be installed.
 
 burnish_packages() # GROUP...: their packages, one a line

@@ -127,6 +127,8 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     for (const char* option : {"--maps", "--per-set", "--two-lobes"})
         if (given.given(option))
             return fail(usage_error(option, "is of --mip"));
+    if (const Status pieces = check_piece_options(arguments.plain.pieces); !pieces)
+        return fail(pieces.error());
     const Result<ChartOptions> checked = check_chart_options(arguments, given);
     if (!checked)
         return fail(checked.error());
@@ -135,15 +137,15 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
         if (const Status found = check_renderer(options.renderer); !found)
             return fail(found.error());
     Report report(options.base.quiet, options.base.verbosity);
-    Result<ChartCheckpoint> checkpoint = ChartCheckpoint::open(options.folder, report);
-    if (!checkpoint)
-        return fail(checkpoint.error());
+    ChartCheckpoint checkpoint;
     const auto jobs = std::make_shared<const Jobs>(options.base.threads);
-    const Result<MeasuredChart> measured = measure_chart(options, jobs, *checkpoint, report);
+    const Result<MeasuredChart> measured = measure_chart(options, jobs, checkpoint, report);
     if (!measured)
         return fail(measured.error());
+    if (measured->pieces)
+        return *measured->pieces;
     if (measured->stopped) {
-        report.event("stopped", fmt::format("the same command goes on from {}; no report was written", checkpoint->file("rows.json")));
+        report.event("stopped", fmt::format("the same command goes on from {}; no report was written", checkpoint.file("rows.json")));
         return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     const ChartReport& chart = measured->report;
@@ -153,7 +155,7 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
         report.warning(
             fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));
     const std::string live = options.live ? live_html(chart, options, given, report) : "";
-    if (const Status written = write_report(chart, live, *checkpoint, report); !written)
+    if (const Status written = write_report(chart, live, checkpoint, report); !written)
         return fail(written.error());
     if (const std::uint64_t bad = pictures_with_nan(chart))
         return fail(

@@ -5,15 +5,13 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <limits>
-#include <memory>
 
-#include "apps/chart/cpu_load.h"
+#include "apps/chart/chart.h"
 #include "apps/chart/noise.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/open.h"
-#include "apps/cli/stop_signal.h"
 #include "apps/options/parameters.h"
 #include "apps/options/scene_view.h"
-#include "apps/options/scene_with_view.h"
 #include "apps/render/cached_reference.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
@@ -46,51 +44,7 @@ std::string error_text(double relative_error)
     return std::isfinite(relative_error) ? fmt::format(", +- {:.2g} %", 100.0 * relative_error) : "";
 }
 
-class Chart {
-  public:
-    Chart(const ChartOptions& options, std::shared_ptr<const Jobs> jobs, ChartCheckpoint& checkpoint, Report& report)
-        : options_(options), jobs_(jobs), checkpoint_(checkpoint), report_(report), stop_(watch_stop_signals()),
-          settings_(settings_of(options.techniques, options.sweeps.samples))
-    {
-    }
-    Status load_all();
-    Status measure(); // returns early, without an error, after a signal
-    bool stopped() const { return stop_.load(); }
-    ChartReport take();
-
-  private:
-    struct Place { // rows of one place are compared with each other
-        const SceneWithView& scene;
-        Session& tile;
-        FrameDesc desc; // for the compared pictures, without technique and samples
-        std::string env;
-        Cell cell;
-        std::uint64_t key = 0; // hash of scene, environment, view and overrides
-    };
-    Status measure_pair(const SceneWithView& scene, const std::shared_ptr<const Environment>& environment, const std::string& env);
-    Status measure_place(const Place& place);
-    Result<Frame> reference(const Place& place, ReferenceNoise& noise);
-    Status find_errors(const Place& place, const Frame& truth, ChartRow& row);
-    Status time_rows(const Place& place, std::vector<ChartRow>& rows);
-    Status write_small(const std::string& file, const Image& linear, bool errors);
-    ChartRow new_row(const Place& place, const Setting& setting) const;
-    FrameDesc desc_of(const Place& place, const Setting& setting) const;
-    FrameDesc timed_desc_of(const Place& place, const Setting& setting) const;
-
-    const ChartOptions& options_;
-    std::shared_ptr<const Jobs> jobs_;
-    ChartCheckpoint& checkpoint_;
-    Report& report_;
-    const std::atomic<bool>& stop_;
-    std::vector<Setting> settings_;
-    std::vector<SceneWithView> scenes_;
-    std::vector<std::shared_ptr<const Environment>> environments_;
-    std::uint64_t program_ = program_hash(); // ignores rows of other builds: their kernels may differ
-    int picture_width_ = 0;
-    std::unique_ptr<Progress> progress_;
-    CpuLoadMeter load_; // while frames are timed
-    ChartReport out_;
-};
+} // namespace
 
 // Reads every file before measuring: an unreadable last file must not cost minutes.
 Status Chart::load_all()
@@ -116,70 +70,90 @@ Status Chart::load_all()
     out_.display_flip = options_.display_flip;
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
+    if (options_.runs == 0)
+        out_.machine = {version(), "", "", 0, {}}; // errors are the same on every machine
+    picture_width_ = picture_width(scenes_.size() * environments_.size() * options_.cells.size() * settings_.size());
     return {};
+}
+
+std::vector<Chart::Spot> Chart::spots() const
+{
+    std::vector<Spot> all;
+    for (std::size_t s = 0; s < scenes_.size(); ++s)
+        for (std::size_t e = 0; e < environments_.size(); ++e)
+            for (std::size_t c = 0; c < options_.cells.size(); ++c)
+                all.push_back({s, e, c});
+    return all;
 }
 
 Status Chart::measure()
 {
     const std::size_t places = scenes_.size() * environments_.size() * options_.cells.size();
-    picture_width_ = picture_width(places * settings_.size());
     report_.event("chart", fmt::format("{}: {} of {} at {}, {} each", counted(places * settings_.size(), "row"),
                                        counted(settings_.size(), "setting"), counted(options_.techniques.size(), "technique"),
                                        counted(places, "place"), counted(static_cast<std::uint64_t>(options_.runs), "run")));
     progress_ =
         std::make_unique<Progress>("chart", places * settings_.size() * static_cast<std::size_t>(options_.runs + 1), options_.base.quiet);
-    for (const auto& scene : scenes_)
-        for (std::size_t e = 0; e < environments_.size(); ++e) {
-            if (const Status done = measure_pair(scene, environments_[e], options_.envs[e]); !done)
-                return done;
-            if (stopped())
-                return {};
-        }
+    for (const Spot& spot : spots()) {
+        BN_TRY(at_place(spot, [&](const Place& place) { return measure_place(place); }));
+        BN_TRY(checkpoint_->save());
+        if (stopped())
+            return {};
+    }
     progress_.reset();
     return {};
 }
 
-Status Chart::measure_pair(const SceneWithView& scene, const std::shared_ptr<const Environment>& environment, const std::string& env)
+// Calls `use` with a place, whose session is made.
+Status Chart::at_place(const Spot& spot, const std::function<Status(const Place&)>& use)
 {
+    const SceneWithView& scene = scenes_[spot.scene];
+    const std::string& env = options_.envs[spot.environment];
     SessionOptions of_tile;
     of_tile.isa = options_.base.isa;
-    Result<Session> tile = Session::make({scene.data, environment, jobs_, {}}, of_tile);
-    BN_TRY(tile);
-    for (std::size_t i = 0; i < options_.cells.size(); ++i) {
-        RenderOptions options = options_.cell_options[i];
-        options.scene = scene.data->name;
-        // Make the swept parts of the session anew
-        if (options_.sweeps_environments || options_.sweeps_scenes) {
-            SessionParts parts = tile->parts();
-            if (options_.sweeps_environments) {
-                const auto own = open_environment(env, options.environment, options.limits, *jobs_);
-                BN_TRY(own);
-                parts.environment = *own;
-            }
-            if (options_.sweeps_scenes) {
-                const auto own = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
-                BN_TRY(own);
-                parts.scene = *own;
-            }
-            Result<Session> next = Session::make(std::move(parts), of_tile);
-            BN_TRY(next);
-            *tile = std::move(*next);
-        }
-        // Measure the place, and save
-        const Result<ChosenView> view = choose_view(options, tile->scene(), tile->tables());
-        BN_TRY(view);
-        Place place{scene, *tile, options.frame, env, options_.cells[i]};
-        place.desc.width = options_.error_width, place.desc.height = options_.error_height;
-        place.desc.view = view->view;
-        place.key = reference_key(tile->parts().input(), tile->drawn(place.desc), options_.base.reference);
-        if (const Status done = measure_place(place); !done)
-            return done;
-        if (const Status saved = checkpoint_.save(); !saved)
-            return saved;
-        if (stopped())
-            return {};
+    if (!tile_ || pair_ != std::pair(spot.scene, spot.environment)) {
+        Result<Session> tile = Session::make({scene.data, environments_[spot.environment], jobs_, {}}, of_tile);
+        BN_TRY(tile);
+        tile_ = std::move(*tile), pair_ = {spot.scene, spot.environment};
     }
-    return {};
+    RenderOptions options = options_.cell_options[spot.cell];
+    options.scene = scene.data->name;
+    // Make the swept parts of the session anew
+    if (options_.sweeps_environments || options_.sweeps_scenes) {
+        SessionParts parts = tile_->parts();
+        if (options_.sweeps_environments) {
+            const auto own = open_environment(env, options.environment, options.limits, *jobs_);
+            BN_TRY(own);
+            parts.environment = *own;
+        }
+        if (options_.sweeps_scenes) {
+            const auto own = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
+            BN_TRY(own);
+            parts.scene = *own;
+        }
+        Result<Session> next = Session::make(std::move(parts), of_tile);
+        BN_TRY(next);
+        tile_ = std::move(*next);
+    }
+    // Choose the view, and name the place by all that decides its pictures
+    const Result<ChosenView> view = choose_view(options, tile_->scene(), tile_->tables());
+    BN_TRY(view);
+    Place place{scene, *tile_, options.frame, env, options_.cells[spot.cell]};
+    place.desc.width = options_.error_width, place.desc.height = options_.error_height;
+    place.desc.view = view->view;
+    place.key = reference_key(tile_->parts().input(), tile_->drawn(place.desc), options_.base.reference);
+    return use(place);
+}
+
+std::string Chart::reference_name(const Place& place) const
+{
+    return fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
+}
+
+std::string Chart::reference_picture(const Place& place) const
+{
+    return checkpoint_->picture(
+        fmt::format("reference-{}-{}-{:g}", reference_name(place), picture_width_, static_cast<double>(options_.base.exposure_ev)));
 }
 
 Status Chart::measure_place(const Place& place)
@@ -193,17 +167,15 @@ Status Chart::measure_place(const Place& place)
         complete = complete && rows.back().measured.has_errors;
     }
     // Render the reference and compare, unless all is kept
-    const std::string cached_reference = fmt::format("{}-{}", hash_text(place.key), options_.reference_samples);
-    complete = complete && checkpoint_.references().count(cached_reference);
-    const std::string picture = checkpoint_.picture(
-        fmt::format("reference-{}-{}-{:g}", cached_reference, picture_width_, static_cast<double>(options_.base.exposure_ev)));
+    const std::string cached_reference = reference_name(place), picture = reference_picture(place);
+    complete = complete && checkpoint_->references().count(cached_reference);
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
         const Result<Frame> truth = reference(place, noise);
         BN_TRY(truth);
         if (stopped())
             return {};
-        checkpoint_.references()[cached_reference] = noise;
+        checkpoint_->references()[cached_reference] = noise;
         if (const Status written = write_small(picture, truth->color, false); !written)
             return written;
         for (ChartRow& row : rows) {
@@ -216,7 +188,7 @@ Status Chart::measure_place(const Place& place)
     } else {
         progress_->step(rows.size());
     }
-    out_.references[burnish::place(rows.front())] = {picture, checkpoint_.references().at(cached_reference)};
+    out_.references[burnish::place(rows.front())] = {picture, checkpoint_->references().at(cached_reference)};
     // Time the rows
     load_.begin();
     const Status timed = time_rows(place, rows);
@@ -270,10 +242,11 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
     const FrameDesc& timed = options_.base.frame;
+    const std::string machine = options_.runs ? fmt::format("{} {}", place.tile.device(), jobs_->threads()) : "";
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}{} {}", program_, place.key, place.tile.parts().environment->content_hash,
-                    options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size,
-                    place.tile.device(), jobs_->threads(), parameters_text(desc),
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}{}", program_, place.key, place.tile.parts().environment->content_hash,
+                    options_.reference_samples, desc.technique, desc.samples, timed.width, timed.height, desc.msaa, desc.tile_size, machine,
+                    parameters_text(desc),
                     options_.display_flip ? fmt::format("{} flip {} {}", describe(place.cell), options_.base.exposure_ev,
                                                         static_cast<int>(options_.base.resolve))
                                           : describe(place.cell));
@@ -281,10 +254,10 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
     row.key = hash_text(hash_bytes(text.data(), text.size()));
     row.scene = place.scene.data->name, row.env = place.env;
     row.setting = setting, row.cell = place.cell;
-    row.measured = checkpoint_.row(row.key);
+    row.measured = checkpoint_->row(row.key);
     const std::string name = fmt::format("{}-{}-{:g}", row.key, picture_width_, static_cast<double>(options_.base.exposure_ev));
-    row.picture = checkpoint_.picture(name);
-    row.error_map = checkpoint_.picture(name + "-flip");
+    row.picture = checkpoint_->picture(name);
+    row.error_map = checkpoint_->picture(name + "-flip");
     std::error_code ignored;
     row.measured.has_errors = row.measured.has_errors && fs::exists(row.picture, ignored) && fs::exists(row.error_map, ignored);
     return row;
@@ -297,7 +270,7 @@ Status Chart::write_small(const std::string& file, const Image& image, bool erro
 }
 
 // Returns the pattern figures over pixels that the scene covers whole.
-PatternFigures patterns_of(const Frame& frame, const Frame& truth, const Jobs& jobs)
+static PatternFigures patterns_of(const Frame& frame, const Frame& truth, const Jobs& jobs)
 {
     const Image test = with_coverage(frame.color, frame.triangle_ids, frame.through);
     const Image reference = with_alpha(truth.color, [&](std::size_t i) { return test.f32()[4 * i + 3]; });
@@ -337,10 +310,10 @@ Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
         if (!written)
             return written;
     row.measured.has_errors = true;
-    Measured& kept = checkpoint_.row(row.key);
+    Measured& kept = checkpoint_->row(row.key);
     kept.has_errors = true;
     kept.errors = e;
-    return checkpoint_.save_sometimes();
+    return checkpoint_->save_sometimes();
 }
 
 // Times all settings in turn, every other round in reverse order. A slow phase of the machine then slows all settings, and no setting
@@ -363,7 +336,7 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
     }
     for (std::size_t run = 0; run < runs; ++run) {
         for (const std::size_t i : order) {
-            Measured& kept = checkpoint_.row(rows[i].key);
+            Measured& kept = checkpoint_->row(rows[i].key);
             if (kept.ms.size() > run)
                 continue;
             const double before = process_cpu_ms();
@@ -377,11 +350,11 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
                 return {};
         }
         std::reverse(order.begin(), order.end());
-        if (const Status saved = checkpoint_.save_sometimes(); !saved)
+        if (const Status saved = checkpoint_->save_sometimes(); !saved)
             return saved;
     }
     for (ChartRow& row : rows) {
-        const Measured& kept = checkpoint_.row(row.key);
+        const Measured& kept = checkpoint_->row(row.key);
         row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
         row.measured.ms.resize(runs); // an earlier chart may have had more runs
         row.measured.cpu_ms.resize(runs);
@@ -393,21 +366,37 @@ ChartReport Chart::take()
 {
     mark_pareto(out_.rows);
     if (const std::optional<double> others = load_.others())
-        checkpoint_.others() = std::max(*others, checkpoint_.others().value_or(0.0));
-    out_.machine.others = checkpoint_.others();
+        checkpoint_->others() = std::max(*others, checkpoint_->others().value_or(0.0));
+    out_.machine.others = checkpoint_->others();
     return std::move(out_);
 }
-
-} // namespace
 
 Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, ChartCheckpoint& checkpoint,
                                     Report& report)
 {
+    const auto open_checkpoint = [&]() -> Status {
+        Result<ChartCheckpoint> opened = ChartCheckpoint::open(options.folder, report);
+        BN_TRY(opened);
+        checkpoint = std::move(*opened);
+        return {};
+    };
+    if (!any_pieces(options.pieces)) // before scenes are read: a folder that cannot be written must not cost minutes
+        BN_TRY(open_checkpoint());
     Chart chart(options, jobs, checkpoint, report);
     BN_TRY(chart.load_all());
+    if (any_pieces(options.pieces)) {
+        const Result<std::vector<JobPiece>> pieces = chart.pieces();
+        BN_TRY(pieces);
+        if (!options.pieces.merge)
+            return MeasuredChart{{}, false, run_pieces(options.pieces, kept_words(), *pieces, report)};
+        const auto files = finished_pieces(options.pieces, kept_words(), *pieces);
+        BN_TRY(files);
+        BN_TRY(open_checkpoint());
+        BN_TRY(chart.take(*files, *pieces));
+    }
     report.release();
     BN_TRY(chart.measure());
-    MeasuredChart measured_chart{chart.take(), chart.stopped()};
+    MeasuredChart measured_chart{chart.take(), chart.stopped(), {}};
     BN_TRY(checkpoint.save());
     return measured_chart;
 }

@@ -2,6 +2,7 @@
 // of the surfaces.
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "apps/chart/chart_checkpoint.h"
 #include "apps/chart/options.h"
@@ -11,9 +12,11 @@ namespace burnish {
 
 struct MeasuredChart {
     ChartReport report;
-    bool stopped = false; // by a signal; all rows are kept, the report is incomplete
+    bool stopped = false;           // by a signal; all rows are kept, the report is incomplete
+    std::optional<int> pieces = {}; // exit code, where pieces were listed or made in the report's place
 };
 
+// Opens the checkpoint, unless pieces alone are listed or made.
 Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shared_ptr<const Jobs>& jobs, ChartCheckpoint& checkpoint,
                                     Report& report);
 

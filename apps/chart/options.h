@@ -22,11 +22,12 @@ struct ChartOptions {
     int runs = 9;                                            // timed runs of every setting
     std::uint64_t reference_samples = 4096;                  // a pixel
     std::string folder;
-    bool live = false;      // the page draws its rows anew
-    std::string renderer;   // for the page; empty: beside the program
-    bool mip = false;       // measures mip filters, not frames
-    std::string maps;       // folder of photographed materials for --mip
-    int per_set = 1000;     // materials at most
+    bool live = false;    // the page draws its rows anew
+    std::string renderer; // for the page; empty: beside the program
+    bool mip = false;     // measures mip filters, not frames
+    std::string maps;     // folder of photographed materials for --mip
+    int per_set = 1000;   // materials at most
+    PieceOptions pieces;
     bool two_lobes = false; // also measures two lobes a texel, on crossed grain
 };
 

@@ -74,7 +74,8 @@ std::vector<Figure> figures_of(const RowList& rows)
          plot_samples(rows, Quantity::flip, Layout::wide), plot_samples(rows, Quantity::flip, Layout::narrow)},
         {"samples-time", "Time by number of samples.", plot_samples(rows, Quantity::time, Layout::wide),
          plot_samples(rows, Quantity::time, Layout::narrow)}};
-    std::erase_if(figures, [](const Figure& f) { return f.wide.empty(); });
+    const bool timed = !rows.front()->measured.ms.empty();
+    std::erase_if(figures, [&](const Figure& f) { return f.wide.empty() || (!timed && f.name.find("time") != std::string::npos); });
     return figures;
 }
 
@@ -140,7 +141,7 @@ std::string table_html(const RowList& rows)
             fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
                         "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "",
-                        escaped(describe(row->cell)), number(ms_of(*row)), number(p95_of(*row)), number(median(row->measured.cpu_ms)),
+                        escaped(describe(row->cell)), number(ms_of(*row)), number(p95_of(*row)), number(cpu_ms_of(*row)),
                         number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs), known(100.0 * e.pattern_rms),
                         known(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
     }
@@ -185,13 +186,13 @@ Status add_row(const ChartRow& row, Json& rows)
     for (const Result<std::string>* uri : {&picture, &error})
         if (!*uri)
             return uri->error();
-    rows[row.key] = {
-        {"technique", row.setting.technique},
-        {"setting", setting_text(row)},
-        {"text", describe(row)},
-        {"figures", fmt::format("{} ms, FLIP {}, p99 {}", number(ms_of(row)), number(flip_of(row)), number(row.measured.errors.flip_p99))},
-        {"picture", *picture},
-        {"error", *error}};
+    rows[row.key] = {{"technique", row.setting.technique},
+                     {"setting", setting_text(row)},
+                     {"text", describe(row)},
+                     {"figures", fmt::format("{}FLIP {}, p99 {}", row.measured.ms.empty() ? "" : number(ms_of(row)) + " ms, ",
+                                             number(flip_of(row)), number(row.measured.errors.flip_p99))},
+                     {"picture", *picture},
+                     {"error", *error}};
     return {};
 }
 
@@ -236,14 +237,20 @@ std::string heading(const ChartReport& report)
                   "than they are alone.</strong></p>\n",
                   100.0 * *m.others)
             : "";
+    const std::string times =
+        report.runs == 0
+            ? fmt::format("No frames were timed; burnish {}.", escaped(m.version))
+            : fmt::format(
+                  "Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} on {}, {}, {} thread{}; "
+                  "burnish {}.",
+                  report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa),
+                  m.threads, m.threads == 1 ? "" : "s", escaped(m.version));
     return fmt::format(
-        "<h1>Speed against accuracy</h1>\n<p>Times are of frames of {} x {} pixels, {} samples a pixel: medians of {} interleaved frame{} "
-        "on {}, {}, {} thread{}; burnish {}. Errors are of pictures of {} x {} pixels: {} against Monte Carlo "
+        "<h1>Speed against accuracy</h1>\n<p>{} Errors are of pictures of {} x {} pixels: {} against Monte Carlo "
         "references of at least {} samples a pixel.</p>\n{}"
         "<p>Point at a mark, or go to it with the Tab and arrow keys, to see its picture; Enter shows it among the pictures below.</p>\n"
         "<noscript><p>The pictures need JavaScript; the charts and figures do not.</p></noscript>\n",
-        report.width, report.height, report.msaa, report.runs, report.runs == 1 ? "" : "s", escaped(m.processor), escaped(m.isa), m.threads,
-        m.threads == 1 ? "" : "s", escaped(m.version), report.error_width, report.error_height,
+        times, report.error_width, report.error_height,
         report.display_flip ? "FLIP of pictures as they are shown" : "HDR-FLIP of linear pixels", report.reference_samples, busy);
 }
 

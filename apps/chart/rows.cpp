@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/options/parameters.h"
@@ -57,13 +58,9 @@ Json noise_json(const ReferenceNoise& noise)
 
 Json row_json(const ChartReport& report, const ChartRow& row)
 {
-    Json json = {{"scene", row.scene},
-                 {"env", row.env},
-                 {"technique", row.setting.technique},
-                 {"settings", settings_json(report, row)},
-                 {"ms_median", ms_of(row)},
-                 {"ms_p95", p95_of(row)},
-                 {"cpu_ms_median", median(row.measured.cpu_ms)}};
+    Json json = {
+        {"scene", row.scene},      {"env", row.env},        {"technique", row.setting.technique}, {"settings", settings_json(report, row)},
+        {"ms_median", ms_of(row)}, {"ms_p95", p95_of(row)}, {"cpu_ms_median", cpu_ms_of(row)}};
     json.update(errors_json(row.measured.errors));
     json["pareto"] = row.pareto;
     return json;
@@ -91,12 +88,17 @@ double flip_of(const ChartRow& row)
 
 double ms_of(const ChartRow& row)
 {
-    return median(row.measured.ms);
+    return row.measured.ms.empty() ? std::numeric_limits<double>::quiet_NaN() : median(row.measured.ms);
 }
 
 double p95_of(const ChartRow& row)
 {
-    return percentile_95(row.measured.ms);
+    return row.measured.ms.empty() ? std::numeric_limits<double>::quiet_NaN() : percentile_95(row.measured.ms);
+}
+
+double cpu_ms_of(const ChartRow& row)
+{
+    return row.measured.cpu_ms.empty() ? std::numeric_limits<double>::quiet_NaN() : median(row.measured.cpu_ms);
 }
 
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points)

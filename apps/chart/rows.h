@@ -72,8 +72,9 @@ std::optional<double> number_in(const std::string& value); // value of a swept o
 std::string place(const ChartRow& row);                    // scene, environment and cell as one text; rows of one place are compared
 
 double flip_of(const ChartRow& row);
-double ms_of(const ChartRow& row);
+double ms_of(const ChartRow& row); // median; NaN without runs, as the next two
 double p95_of(const ChartRow& row);
+double cpu_ms_of(const ChartRow& row); // median
 
 // Returns the points on the Pareto front: no other point is as good in both coordinates and better in one. Non-finite points are never on
 // it.

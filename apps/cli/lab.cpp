@@ -20,6 +20,11 @@ void keep_words(const std::vector<std::string>& words)
     kept = words;
 }
 
+const std::vector<std::string>& kept_words()
+{
+    return kept;
+}
+
 int start_lab()
 {
     return start_lab(kept);

@@ -11,6 +11,7 @@ int start_lab(const std::vector<std::string>& words);
 // The same with the words of keep_words().
 int start_lab();
 void keep_words(const std::vector<std::string>& words);
+const std::vector<std::string>& kept_words();
 
 // The part of a subcommand that burnish-lab alone holds. Without it, the call goes to burnish-lab with the same words.
 template <class... Arguments> class LabPart {

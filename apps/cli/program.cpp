@@ -164,6 +164,11 @@ int fail_by_exception()
 
 } // namespace
 
+int run_words(const std::vector<std::string>& words)
+{
+    return run(words);
+}
+
 int run_program(int argc, char** argv)
 {
     // Turns a file-size limit into a failed write with a message; the default kills the process.

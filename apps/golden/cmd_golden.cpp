@@ -168,7 +168,7 @@ int conclude(std::vector<GoldenResult> results, const std::string& live, NewResu
 
 int check(const GoldenArguments& arguments, Report& report)
 {
-    const Result<Shard> shard = read_shard(arguments.shard);
+    const Result<Share> shard = arguments.shard.empty() ? Result<Share>(Share()) : parse_share(arguments.shard);
     if (!shard)
         return fail(shard.error());
     if (arguments.live)
@@ -179,7 +179,7 @@ int check(const GoldenArguments& arguments, Report& report)
         return fail(manifest.error());
     std::vector<GoldenRow> rows;
     for (std::size_t i = 0; i < manifest->rows.size(); ++i)
-        if (i % shard->count == shard->index)
+        if (shard->holds(i))
             rows.push_back(manifest->rows[i]);
     std::vector<std::string> inputs = arguments.paths;
     for (const GoldenRow& row : manifest->rows)
@@ -369,7 +369,7 @@ int merge(const GoldenArguments& arguments, Report& report)
         return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
                           fmt::format("{} of {} shards are given", arguments.paths.size(), shards.rbegin()->first)});
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(arguments.paths, {Shard{}, manifest}); !made)
+    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest}); !made)
         return fail(made.error());
     for (const std::string& folder : arguments.paths)
         for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {
@@ -415,7 +415,9 @@ OptionTable golden_option_table(GoldenArguments& to)
     table.add("Goldens",
               {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
                {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
-               {"--shard", "I/N", "Makes every N-th row alone, from the I-th; merge joins the shards' results", text(to.shard), ""},
+               {"--shard", "I/N",
+                "Makes every N-th row alone, from the I-th; auto: as the engine's environment says; merge joins the shards' results",
+                text(to.shard), ""},
                {"--live", "", "check: put the renderer into the page, which then draws scenes that differ anew: see burnish export page",
                 flag(to.live)},
                {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
@@ -55,18 +54,6 @@ Status move_into(const std::string& from, const std::string& to, const char* nam
 
 } // namespace
 
-Result<Shard> read_shard(const std::string& text)
-{
-    if (text.empty())
-        return Shard{};
-    unsigned index = 0, count = 0;
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%5u/%5u%n", &index, &count, &read) != 2 || read != static_cast<int>(text.size()) || index < 1 ||
-        index > count)
-        return usage_error("--shard", fmt::format("'{}' is no I/N with I from 1 to N", text));
-    return Shard{index - 1, count};
-}
-
 Result<ResultOrigin> origin_of_results(const std::string& folder)
 {
     constexpr std::uint64_t kMostMarkerBytes = 4096;
@@ -74,7 +61,7 @@ Result<ResultOrigin> origin_of_results(const std::string& folder)
     BN_TRY(bytes);
     const std::string text(bytes->begin(), bytes->end()), line = text.substr(0, text.find('\n'));
     const std::size_t blank = std::min(line.find(' '), line.size());
-    const Result<Shard> shard = read_shard(line.substr(0, blank));
+    const Result<Share> shard = parse_share(line.substr(0, blank));
     BN_TRY(shard);
     return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size()))};
 }

@@ -4,19 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "apps/pieces/share.h"
 #include "core/base/descriptor.h"
 #include "core/base/result.h"
 
 namespace burnish {
 
-struct Shard {
-    std::size_t index = 0, count = 1;
-};
-Result<Shard> read_shard(const std::string& text); // "2/3"; empty: all. Errors: ExitCode::usage
-
 // What a folder of results says of itself.
 struct ResultOrigin {
-    Shard shard;
+    Share shard;
     std::string manifest; // manifest_hash() of its rows
 };
 Result<ResultOrigin> origin_of_results(const std::string& folder);

@@ -9,6 +9,7 @@
 #include "apps/cli/option.h"
 #include "apps/cli/parse.h"
 #include "apps/options/show.h"
+#include "apps/pieces/pieces.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "core/image/colour.h"
@@ -96,6 +97,7 @@ struct RenderArguments {
     std::optional<std::int64_t> samples; // none: the default of the technique or the reference
     std::string animate;                 // in the syntax of --animate
     int steps = 60;                      // for --animate
+    PieceOptions pieces;
 };
 
 // Returns all options of `burnish render`. Other subcommands take rows from this table. `to` must outlive the table.

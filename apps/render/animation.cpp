@@ -1,19 +1,28 @@
 // Picture sequences: options that change from one picture to the next, or a turntable.
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/cli/lab.h"
 #include "apps/cli/numbered.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/options/animate.h"
 #include "apps/options/scene_view.h"
+#include "apps/pieces/packed.h"
+#include "apps/pieces/pieces.h"
 #include "apps/render/picture.h"
 #include "apps/render/planned.h"
+#include "core/base/check.h"
+#include "core/base/clock.h"
+#include "core/base/file.h"
 #include "core/image/io/apng.h"
 #include "core/image/io/image_io.h"
+#include "raster/reference/scene_key.h"
 
 namespace burnish {
 namespace {
@@ -167,6 +176,136 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
     return parts;
 }
 
+// A row of pictures with all that draws them.
+struct Row {
+    Animation& animation;
+    Session& session; // has the parts of step `at`
+    const std::vector<View>& turntable;
+    const std::vector<MaterialTechnique>& planned;
+    const RenderFigures& figures;
+    std::optional<Error>& lost_checkpoint;
+    int at = 0;
+};
+
+Result<Rendered> draw_step(Row& row, const Step& step, int i)
+{
+    // Make the session's changed parts anew
+    const bool lights = row.animation.lights_change(), scene = row.animation.scene_changes();
+    if (i != row.at && (lights || scene)) {
+        Result<SessionParts> parts = parts_of_step(step.options, row.session.parts(), lights, scene);
+        BN_TRY(parts);
+        Result<Session> next = Session::make(std::move(*parts), session_options(step.options, row.lost_checkpoint));
+        BN_TRY(next);
+        row.session = std::move(*next);
+    }
+    row.at = i;
+    const Result<View> view = view_of_step(step, i, row.session, row.turntable);
+    BN_TRY(view);
+    FrameDesc desc = step.options.frame;
+    desc.view = *view, desc.by_material = row.planned;
+    return render_frames(step.options, desc, row.session, row.figures);
+}
+
+Image shown_picture(const Step& step, const Rendered& rendered)
+{
+    return display_picture(rendered.color, step.options.tonemap, step.options.exposure_ev, rendered.parts, step.options.resolve);
+}
+
+// Writes the files that hold all pictures.
+Status write_movies(const std::vector<std::string>& paths, const MovingPicture& movie, Report& report)
+{
+    for (const std::string& path : paths) {
+        const std::vector<std::uint8_t> bytes = movie.bytes();
+        BN_TRY(write_file(path, std::string(bytes.begin(), bytes.end())));
+        report.wrote(path);
+    }
+    return {};
+}
+
+// Draws a step into a piece: its files, and its picture in moving ones.
+Status write_step(Row& row, int i, const std::string& file, const std::string& key)
+{
+    const Step step = std::move(*row.animation.step(i));
+    const Result<Rendered> rendered = draw_step(row, step, i);
+    BN_TRY(rendered);
+    if (rendered->figures.nan_pixels)
+        return Error{ExitCode::not_finite, step.options.scene, fmt::format("step {}", i),
+                     fmt::format("{} pixels are NaN or Inf", rendered->figures.nan_pixels)};
+    Packed packed;
+    for (const std::string& path : step.options.outputs) {
+        const std::string own = fmt::format("{}.{}.{}", file, packed.files.size(), extension_of(path));
+        BN_TRY(write_rendered(own, *rendered, step.options));
+        Result<std::vector<std::uint8_t>> bytes = take_file(own);
+        BN_TRY(bytes);
+        packed.files.push_back({path, std::move(*bytes)});
+    }
+    if (!row.animation.movies().empty()) {
+        const Image shown = shown_picture(step, *rendered);
+        packed.json = Json({{"width", shown.width}, {"height", shown.height}, {"channels", shown.channels}}).dump();
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(shown.bytes.data());
+        packed.files.push_back({"", {bytes, bytes + shown.bytes.size()}});
+    }
+    return write_piece(file, key, pack(packed));
+}
+
+// Returns the steps' pieces. The key holds the command, since any option may change a picture.
+std::vector<JobPiece> row_pieces(Row& row, const RenderOptions& first, const std::vector<std::string>& words)
+{
+    const std::uint64_t scene = reference_key(row.session.parts().input(), row.session.drawn(first.frame), first.reference);
+    const auto rate = std::make_shared<std::optional<double>>();
+    std::vector<JobPiece> pieces;
+    for (int i = 0; i < row.animation.count(); ++i) {
+        const std::string key = piece_key(fmt::format("step {} {:016x} {}", i, scene, shell_words(words)));
+        const auto seconds = [&row, rate] {
+            const double begin = wall_ms();
+            if (!*rate && draw_step(row, std::move(*row.animation.step(0)), 0))
+                *rate = (wall_ms() - begin) * 1e-3;
+            return rate->value_or(0.0);
+        };
+        pieces.push_back({key, seconds, [&row, i, key](const std::string& file) { return write_step(row, i, file, key); }});
+    }
+    return pieces;
+}
+
+// Writes the files of all steps from their pieces.
+Status merge_row(Row& row, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces, int fps, Report& report)
+{
+    MovingPicture movie(fps);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        Result<Packed> packed = unpack(*content, files[i]);
+        BN_TRY(packed);
+        for (const PackedFile& file : packed->files) {
+            if (!file.name.empty()) {
+                BN_TRY(write_file_atomic(file.name, file.bytes.data(), file.bytes.size()));
+                report.wrote(file.name);
+                continue;
+            }
+            const Json size = Json::parse(packed->json);
+            Image shown = make_image(size["width"], size["height"], size["channels"], PixelType::u8);
+            BN_CHECK(shown.bytes.size() == file.bytes.size());
+            std::memcpy(shown.bytes.data(), file.bytes.data(), file.bytes.size());
+            BN_TRY(movie.add(row.animation.movies()[0], shown));
+        }
+    }
+    return write_movies(row.animation.movies(), movie, report);
+}
+
+int run_row_pieces(const PieceOptions& options, Row& row, const RenderOptions& first, Report& report)
+{
+    const std::vector<std::string>& words = kept_words();
+    const std::vector<JobPiece> pieces = row_pieces(row, first, job_words(words));
+    if (!options.merge)
+        return run_pieces(options, words, pieces, report);
+    const auto files = finished_pieces(options, words, pieces);
+    if (!files)
+        return fail(files.error());
+    report.release();
+    const Status merged = merge_row(row, *files, pieces, first.fps, report);
+    return merged ? 0 : fail(merged.error());
+}
+
 } // namespace
 
 int run_animation(RenderArguments& arguments, OptionTable& given)
@@ -198,6 +337,9 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
     const Result<std::vector<MaterialTechnique>> planned = plan_first_step(*row->step(0), *session, turntable, figures, report);
     if (!planned)
         return fail(planned.error());
+    Row drawn{*row, *session, turntable, *planned, figures, lost_checkpoint};
+    if (any_pieces(arguments.pieces))
+        return run_row_pieces(arguments.pieces, drawn, first, report);
     report.release();
     Json steps = Json::array();
     RenderFigures last = figures;
@@ -206,22 +348,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
     // Render each step
     for (int i = 0; i < row->count(); ++i) {
         const Step step = std::move(*row->step(i));
-        // Make the session's changed parts anew
-        if (i > 0 && (row->lights_change() || row->scene_changes())) {
-            Result<SessionParts> parts = parts_of_step(step.options, session->parts(), row->lights_change(), row->scene_changes());
-            if (!parts)
-                return fail(parts.error());
-            Result<Session> next = Session::make(std::move(*parts), session_options(step.options, lost_checkpoint));
-            if (!next)
-                return fail(next.error());
-            *session = std::move(*next);
-        }
-        const Result<View> view = view_of_step(step, i, *session, turntable);
-        if (!view)
-            return fail(view.error());
-        FrameDesc desc = step.options.frame;
-        desc.view = *view, desc.by_material = *planned;
-        const Result<Rendered> rendered = render_frames(step.options, desc, *session, figures);
+        const Result<Rendered> rendered = draw_step(drawn, step, i);
         if (!rendered)
             return fail(rendered.error());
         last = rendered->figures;
@@ -234,10 +361,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
             if (const Status written = write_rendered(path, *rendered, step.options); !written)
                 return fail(written.error());
         if (!row->movies().empty())
-            if (const Status added =
-                    movie.add(row->movies()[0], display_picture(rendered->color, step.options.tonemap, step.options.exposure_ev,
-                                                                rendered->parts, step.options.resolve));
-                !added)
+            if (const Status added = movie.add(row->movies()[0], shown_picture(step, *rendered)); !added)
                 return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),
                      fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
@@ -246,13 +370,8 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
             return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
                               fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
     }
-    // Write the files that hold all pictures
-    for (const std::string& path : row->movies()) {
-        const std::vector<std::uint8_t> bytes = movie.bytes();
-        if (const Status written = write_file(path, std::string(bytes.begin(), bytes.end())); !written)
-            return fail(written.error());
-        report.wrote(path);
-    }
+    if (const Status written = write_movies(row->movies(), movie, report); !written)
+        return fail(written.error());
     // Write the statistics with one entry a step
     if (first.stats_file.empty())
         return 0;

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_view.h"
 #include "apps/render/picture.h"
 #include "apps/render/planned.h"
+#include "apps/render/reference_pieces.h"
 #include "core/image/io/image_io.h"
 #include "raster/frame/upload.h"
 
@@ -115,8 +117,26 @@ int finish(const RenderOptions& options, const Rendered& rendered, Report& repor
     return written ? code : fail(written.error());
 }
 
+// Refuses options that go with no pieces, or pieces where there is one picture alone.
+Status check_pieces(const RenderArguments& arguments, const OptionTable& given, bool row)
+{
+    BN_TRY(check_piece_options(arguments.pieces));
+    if (!any_pieces(arguments.pieces))
+        return {};
+    for (const char* other : {"--checkpoint", "--frames", "--trace", "--plan", "--plan-out", "--verify", "--risks"})
+        if (given.given(other))
+            return usage_error(other, "cannot be combined with pieces");
+    if (given.given("--stats") && row)
+        return usage_error("--stats", "cannot be combined with pieces of a row: its times are of one process");
+    if (!row && arguments.plain.backend != "reference")
+        return usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate and --turntable have");
+    return {};
+}
+
 int run_render(RenderArguments& arguments, OptionTable& given)
 {
+    if (const Status pieces = check_pieces(arguments, given, arguments.plain.turntable || !arguments.animate.empty()); !pieces)
+        return fail(pieces.error());
     if (arguments.plain.turntable || !arguments.animate.empty())
         return run_animation(arguments, given);
     if (given.given("--steps"))
@@ -126,6 +146,8 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     if (!checked)
         return fail(checked.error());
     checked->mips.frames_override = sets_materials(checked->frame);
+    if (any_pieces(arguments.pieces))
+        checked->reference.part = std::make_shared<ReferencePart>();
     const RenderOptions& options = *checked;
     if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
         return fail(paths.error());
@@ -158,6 +180,17 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     desc.view = view->view;
     if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
+    // List or make pieces of the picture, or take over all of them
+    if (any_pieces(arguments.pieces)) {
+        const std::vector<JobPiece> pieces = reference_pieces(options, desc, *session);
+        if (!arguments.pieces.merge)
+            return run_pieces(arguments.pieces, kept_words(), pieces, report);
+        const auto files = finished_pieces(arguments.pieces, kept_words(), pieces);
+        if (!files)
+            return fail(files.error());
+        if (const Status taken = take_reference_pieces(options, *files, pieces); !taken)
+            return fail(taken.error());
+    }
     // Plan the frame, render it and write the outputs
     const Result<std::optional<Plan>> plan = plan_frame(options, desc, *session, report);
     if (!plan)
@@ -187,7 +220,9 @@ int run_render(RenderArguments& arguments, OptionTable& given)
 Command render_command()
 {
     auto arguments = std::make_shared<RenderArguments>();
-    return {"render", "Render a scene to pictures", render_option_table(*arguments), kFooter,
+    OptionTable table = render_option_table(*arguments);
+    table.add("Pieces, for several processes", piece_options(arguments->pieces));
+    return {"render", "Render a scene to pictures", std::move(table), kFooter,
             [arguments](OptionTable& given) { return run_render(*arguments, given); }};
 }
 

@@ -30,6 +30,12 @@ std::uint32_t least_passes(const Accumulator& a)
     return a.passes.empty() ? 0 : *std::min_element(a.passes.begin(), a.passes.end());
 }
 
+std::uint32_t least_passes(const Accumulator& a, std::size_t first, std::size_t count)
+{
+    const auto begin = a.passes.begin() + static_cast<std::ptrdiff_t>(first);
+    return count ? *std::min_element(begin, begin + static_cast<std::ptrdiff_t>(count)) : 0;
+}
+
 std::uint32_t most_passes(const Accumulator& a)
 {
     return a.passes.empty() ? 0 : *std::max_element(a.passes.begin(), a.passes.end());

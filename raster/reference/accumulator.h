@@ -22,7 +22,8 @@ struct Accumulator {
 
 // Returns block `index` with the passes that it lacks up to `until_pass`.
 PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass);
-std::uint32_t least_passes(const Accumulator& a); // minimum over the blocks
+std::uint32_t least_passes(const Accumulator& a);                                       // minimum over the blocks
+std::uint32_t least_passes(const Accumulator& a, std::size_t first, std::size_t count); // over some
 std::uint32_t most_passes(const Accumulator& a);
 
 Image mean_image(const Accumulator& a);     // f32 RGB

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/base/file.h"
 #include "core/base/result.h"
@@ -16,6 +17,11 @@ Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumu
 // Parses a checkpoint into an accumulator with equal size. Leaves the accumulator unchanged if the key differs or the bytes are damaged.
 // path: name for errors.
 Status parse_checkpoint(const std::uint8_t* data, std::size_t size, const std::string& path, std::uint64_t key, Accumulator& into);
+
+// Returns the state of `count` blocks from `first` on.
+std::vector<std::uint8_t> blocks_of(const Accumulator& a, std::uint64_t key, std::uint32_t first, std::uint32_t count);
+// Takes over such a state. Leaves the accumulator unchanged if the key or the size differs.
+Status take_blocks(const std::vector<std::uint8_t>& bytes, std::uint64_t key, Accumulator& into);
 
 // Reads a checkpoint into an accumulator with equal size. A missing file is not an error. Returns true if a checkpoint was read.
 Result<bool> read_checkpoint(const std::string& path, std::uint64_t key, Accumulator& into, Links links = Links::follow);

@@ -54,6 +54,8 @@ Status check_options(const ReferenceOptions& o)
         return Error{ExitCode::usage, "", "", "samples must lie in 1..2^32"};
     if (o.shades < 1 || o.shades > kPassShades)
         return Error{ExitCode::usage, "", "", "shades must lie in 1..4"};
+    if (o.part && o.target_error > 0.0)
+        return Error{ExitCode::usage, "", "", "ReferenceOptions::target_error is of whole pictures"};
     if (o.bounces < 0)
         return Error{ExitCode::usage, "", "", "bounces must not be negative"};
     return {};
@@ -174,11 +176,13 @@ bool keeps(const ReferenceOptions& options)
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
 {
     constexpr std::uint32_t kFewestPasses = 8; // before the error estimate is trusted
-    const auto passes = static_cast<std::uint32_t>((options_.samples + pass_samples() - 1) / pass_samples());
+    ReferencePart* const part = options_.part.get();
+    const std::uint64_t samples = part && part->samples ? part->samples : options_.samples;
+    const auto passes = static_cast<std::uint32_t>((samples + pass_samples() - 1) / pass_samples());
     const std::uint32_t round = passes_in_round(desc, pass_samples());
     Accumulator a(desc.width, desc.height);
     const bool kept_up = keeps(options_);
-    const std::uint64_t key = kept_up ? reference_key(input_, desc, options_) : 0;
+    const std::uint64_t key = kept_up || part ? reference_key(input_, desc, options_) : 0;
     const std::string file = kept_up ? file_of(options_, key) : "";
     // Resume from a checkpoint
     if (kept_up) {
@@ -186,9 +190,15 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         BN_TRY(resumed);
         stats.resumed = *resumed;
     }
-    std::uint32_t done = least_passes(a);
+    // Take over the parts of others
+    for (const std::vector<std::uint8_t>& other : part ? part->others : std::vector<std::vector<std::uint8_t>>())
+        BN_TRY(take_blocks(other, key, a));
+    const BlockRange range =
+        part && part->count ? BlockRange{part->first, std::size_t{part->first} + part->count} : BlockRange{0, a.passes.size()};
+    BN_CHECK(range.end <= a.passes.size());
+    std::uint32_t done = least_passes(a, range.begin, range.end - range.begin);
     stats.samples_before = done * pass_samples();
-    const std::size_t slices = (a.passes.size() + kBlocksInSlice - 1) / kBlocksInSlice; // of a pass
+    const std::size_t slices = (range.end - range.begin + kBlocksInSlice - 1) / kBlocksInSlice; // of a pass
     Progress progress("passes", passes > done ? (passes - done) * slices : 0, options_.quiet);
     Clock::time_point written = Clock::now();
     // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
@@ -202,15 +212,15 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     const auto run_round = [&] {
         const std::uint32_t until = std::min(passes, done - done % round + round);
         const TraceSpan round_span("passes");
-        for (std::size_t begin = 0; begin < a.passes.size() && !stopped(); begin += kBlocksInSlice) {
-            advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, a.passes.size())});
+        for (std::size_t begin = range.begin; begin < range.end && !stopped(); begin += kBlocksInSlice) {
+            advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, range.end)});
             progress.step(until - done);
             if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
                 static_cast<void>(static_cast<bool>(write())); // the last write decides
                 written = Clock::now();
             }
         }
-        done = least_passes(a);
+        done = least_passes(a, range.begin, range.end - range.begin);
     };
     try {
         while (done < passes && !good_enough() && !stopped())
@@ -220,6 +230,8 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         throw;
     }
     stats.stopped = stopped() && done < passes;
+    if (part && part->count && !stats.stopped)
+        part->made = blocks_of(a, key, part->first, part->count);
     // Write the last checkpoint
     const Status kept = write();
     if (!kept && (stats.stopped || !options_.lost_checkpoint))
@@ -283,6 +295,11 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 }
 
 } // namespace
+
+std::uint32_t reference_blocks(int width, int height)
+{
+    return static_cast<std::uint32_t>(((width + kBlockSide - 1) / kBlockSide) * ((height + kBlockSide - 1) / kBlockSide));
+}
 
 bool reference_available()
 {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "raster/frame/frame.h"
@@ -18,22 +19,33 @@ namespace burnish {
 enum class ReferenceMode : std::int32_t { direct, shadowed, path };
 enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // choice of directions to the environment
 
+// A part of a picture: blocks of 8x8 pixels in rows, from the top left. Parts put together give the bits of a picture that one process
+// makes.
+struct ReferencePart {
+    std::uint32_t first = 0, count = 0;            // blocks to integrate; count 0: all
+    std::uint64_t samples = 0;                     // a pixel, in place of ReferenceOptions::samples; 0: those
+    std::vector<std::uint8_t> made;                // filled by Renderer::render(): the blocks' state
+    std::vector<std::vector<std::uint8_t>> others; // states from other processes, taken over before integration
+};
+std::uint32_t reference_blocks(int width, int height); // of a picture
+
 struct ReferenceOptions {
     ReferenceMode mode = ReferenceMode::direct;
     ReferenceStrategy strategy = ReferenceStrategy::mis;
-    int bounces = 8;                  // path mode: most bounces between surfaces
-    std::uint64_t samples = 1024;     // per pixel; rounded up to whole passes
-    bool own_rays = false;            // by a tree of our own, not Embree's
-    bool ids_only = false;            // triangle ids alone: no light, and no colour
-    bool area_lights_only = false;    // no other light, and a black background
-    bool lamps_only = false;          // punctual lights alone, and extracted lights as points; a black background
-    int shades = 4;                   // light samples at each of a pass's 16 camera positions, 1 to 4
-    bool full_textures = false;       // textures at full detail, not filtered over a pixel's footprint
-    double target_error = 0.0;        // above 0: stop early, once mean_relative_error() is not above it
-    std::string checkpoint;           // file; empty: none
-    std::string checkpoint_folder;    // replaces `checkpoint`: a file per picture in this folder, checkpoint_of()
-    double checkpoint_seconds = 60.0; // between two writes
-    bool own_checkpoint = false;      // the folder is ours: follow no link in it
+    int bounces = 8;                     // path mode: most bounces between surfaces
+    std::uint64_t samples = 1024;        // per pixel; rounded up to whole passes
+    bool own_rays = false;               // by a tree of our own, not Embree's
+    bool ids_only = false;               // triangle ids alone: no light, and no colour
+    bool area_lights_only = false;       // no other light, and a black background
+    bool lamps_only = false;             // punctual lights alone, and extracted lights as points; a black background
+    int shades = 4;                      // light samples at each of a pass's 16 camera positions, 1 to 4
+    bool full_textures = false;          // textures at full detail, not filtered over a pixel's footprint
+    std::shared_ptr<ReferencePart> part; // what each render() integrates; null: the whole picture
+    double target_error = 0.0;           // above 0: stop early, once mean_relative_error() is not above it
+    std::string checkpoint;              // file; empty: none
+    std::string checkpoint_folder;       // replaces `checkpoint`: a file per picture in this folder, checkpoint_of()
+    double checkpoint_seconds = 60.0;    // between two writes
+    bool own_checkpoint = false;         // the folder is ours: follow no link in it
     // Called if the picture is finished but its checkpoint cannot be written. Without this function the failure is the picture's error.
     std::function<void(const Error&)> lost_checkpoint;
     const std::atomic<bool>* stop = nullptr; // set by another thread or a signal: end soon, keep all work in the checkpoint

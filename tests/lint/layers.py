@@ -20,7 +20,7 @@ ROOMS = {
     "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
-    "apps": ("report", "cli", "options", "info", "risks", "plan", "render", "serve", "live", "compare", "golden", "export", "wasm", "bake", "chart", "parity", "profile",
+    "apps": ("report", "cli", "pieces", "options", "info", "risks", "plan", "render", "serve", "live", "compare", "golden", "export", "wasm", "bake", "chart", "parity", "profile",
              "lab/mip", "lab/train", "lab/atlas", "lab/conform", "lab/plot", "lab/race", "lab/ltc", "lab", "examples"),
 }
 # Known exceptions: a file, the room that it includes out of order, and why.

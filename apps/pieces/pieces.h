@@ -1,0 +1,57 @@
+// Long jobs in pieces, for processes that share a folder: on one machine, under a cluster's engine, or in a CI matrix. The key of a piece
+// is the hash of all that decides its content, so equal pieces of two jobs are one. A piece appears complete or not at all. A merge puts
+// the pieces together to the files that one process writes.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/option.h"
+#include "apps/cli/report.h"
+
+namespace burnish {
+
+struct PieceOptions {
+    bool list = false, take = false, merge = false;
+    std::string shard, piece;         // a share, or one piece's key
+    std::vector<std::string> folders; // of the pieces; several for a merge
+};
+
+std::vector<Option> piece_options(PieceOptions& to);
+bool any_pieces(const PieceOptions& o);
+// Checks what can be checked before any file is opened.
+Status check_piece_options(const PieceOptions& o);
+
+struct JobPiece {
+    std::string key;                                // 16 hexadecimal digits
+    std::function<double()> seconds;                // estimated time on this machine, s
+    std::function<Status(const std::string&)> make; // writes this file, atomically
+};
+
+// Returns the key of a piece from the text of all that decides its content. The program's version joins it.
+std::string piece_key(const std::string& text);
+
+// Lists pieces, or makes those that the options name. Returns the exit code. words: the command, from its subcommand on.
+int run_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces, Report& report);
+
+// Returns the pieces' files, in order. Where some are missing, prints a command for each on standard output; the error has
+// ExitCode::golden_missing.
+Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
+                                                 const std::vector<JobPiece>& pieces);
+
+// Writes a piece: `content` behind the version, the key and a hash. read_piece() refuses damage, and pieces of another version by name.
+Status write_piece(const std::string& file, const std::string& key, const std::vector<std::uint8_t>& content);
+Result<std::vector<std::uint8_t>> read_piece(const std::string& file, const std::string& key);
+
+// Returns words that a shell reads as these.
+std::string shell_words(const std::vector<std::string>& words);
+// Returns a command without its options of pieces.
+std::vector<std::string> without_pieces(const std::vector<std::string>& words);
+// The same without what changes no file of the job either: threads, instruction set, messages.
+std::vector<std::string> job_words(const std::vector<std::string>& words);
+
+// The command that a folder's pieces belong to, from its subcommand on. Errors: no job, several, or of another version.
+Result<std::vector<std::string>> job_of(const std::string& folder);
+
+} // namespace burnish

@@ -1,0 +1,19 @@
+// Scripts that run a job's pieces under a cluster's engine, then merge them.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+struct SubmitOptions {
+    std::string engine;
+    int shards = 8;
+    int at_once = 0; // 0: all
+    std::string work = "pieces";
+    std::vector<std::string> words; // a subcommand and its options, without those of pieces
+};
+
+std::vector<std::string> submit_engines();
+std::string submit_script(const SubmitOptions& options);
+
+} // namespace burnish

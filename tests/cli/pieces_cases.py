@@ -1,0 +1,324 @@
+"""Jobs in pieces: the files of one process, whatever the shares, their order, and what dies on the way."""
+
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+from fault_cases import REFERENCE, needs_embree, preloaded
+from harness import Skipped, case, check
+
+PICTURE = ("render", "builtin:plate", "--backend", "reference", "--size", "48x32", "--samples", "8192", "--env-size", "16", "--env-samples", "16", "-q")
+ROW = ("render", "builtin:plate", "--animate", "roughness=0.1:0.6", "--steps", "5", "--size", "48x32", "--env-size", "16", "--env-samples", "16", "-q")
+CHART = ("chart", "builtin:plate", "--techniques", "split_isotropic,bent_normal", "--sweep", "roughness=0.2,0.4,0.6", "--size", "96x64",
+         "--error-size", "48x32", "--reference-samples", "64", "--env-size", "16", "--env-samples", "16", "--runs", "0", "-q")
+
+
+def files_of(folder):
+    """Returns {name: bytes} of a file, or of all files of a folder."""
+    if folder.is_file():
+        return {"": folder.read_bytes()}
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def pieces_of(bench, words):
+    """Returns the list of --pieces as tuples: key, seconds, command."""
+    lines = [line.split(" ", 2) for line in bench.run(*words, "--pieces", "--work", "w").expect(0).out.splitlines()]
+    check(all(re.fullmatch("[0-9a-f]{16}", key) and float(seconds) >= 0 and command.startswith("burnish ") for key, seconds, command in lines), f"{lines}")
+    return lines
+
+
+def shell(bench, line):
+    """Runs a line of the list as a shell does, with this program."""
+    return subprocess.run(["sh", "-c", line.replace("burnish ", f"{bench.program} ", 1)], cwd=bench.folder, env=bench.environment({}),
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
+
+
+def one_and_pieces(bench, words, outputs):
+    """Makes the outputs by one process in "one", then in "two" by shares out of order, single commands and a merge. Compares all."""
+    (bench.folder / "one").mkdir()
+    (bench.folder / "two").mkdir()
+    at = lambda folder: [word for name in outputs for word in ("-o", f"{folder}/{name}")]
+    bench.run(*words, *at("one")).expect(0)
+    words = (*words, *at("two"))
+    pieces = pieces_of(bench, words)
+    check(len({key for key, _, _ in pieces}) == len(pieces) > 2, f"{pieces}")
+    merged = bench.run("merge", "w")
+    merged.expect(4)
+    bench.run(*words, "--shard", "3/3", "--work", "w", "--threads", "1", "--isa", "scalar").expect(0)
+    bench.run(*words, "--shard", "auto", "--work", "w", env={"PMI_RANK": "0", "PMI_SIZE": "3"}).expect(0)
+    missing = bench.run("merge", "w").expect(5)
+    missing.expect_one_line("missing")
+    commands = missing.out.splitlines()
+    key_of = lambda command: re.search(" --piece ([0-9a-f]{16}) ", command)[1]
+    check(commands and {key_of(command) for command in commands} <= {key for key, _, _ in pieces}, f"{commands}")
+    check(not any((bench.folder / "two").iterdir()), "a merge of less than all wrote a file")
+    for line in commands:
+        check(shell(bench, line).returncode == 0, line)
+    bench.run("merge", "w").expect(0)
+    one, two = files_of(bench.folder / "one"), files_of(bench.folder / "two")
+    check(one.keys() == two.keys() and one, f"{one.keys()} and {two.keys()}")
+    for name, data in one.items():
+        check(data == two[name], f"{name} has other bytes")
+    return words
+
+
+@case("pieces.of_a_reference_make_its_bytes", budget=20)
+def reference(bench):
+    needs_embree(bench)
+    one_and_pieces(bench, PICTURE, ("o.exr", "o.png"))
+
+
+@case("pieces.of_a_row_make_its_bytes")
+def row(bench):
+    one_and_pieces(bench, ROW, ("o_%d.png", "o.exr".replace("o.", "o_%d."), "o.apng"))
+
+
+@case("pieces.of_a_chart_make_its_bytes", budget=20)
+def chart(bench):
+    needs_embree(bench)
+    one_and_pieces(bench, CHART, ("report",))
+
+
+@case("pieces.of_a_timed_chart_keep_their_times")
+def timed(bench):
+    needs_embree(bench)
+    words = (*CHART, "--runs", "2", "-o", "report")
+    bench.run(*words, "--take", "--work", "w").expect(0)
+    bench.run("merge", "w").expect(0)
+    report = json.loads((bench.folder / "report/report.json").read_text())
+    check(all(row["ms_median"] > 0 for row in report["rows"]) and report["machine"]["processor"], f"{report['machine']}")
+    again = files_of(bench.folder / "report")
+    bench.run("merge", "w", "-o", "other").expect(0)
+    other = files_of(bench.folder / "other")
+    check(again["report.csv"] == other["report.csv"] and again["report.html"] == other["report.html"], "a second merge made another report")
+
+
+@case("pieces.damaged_or_of_another_version_are_named")
+def damaged(bench):
+    words = (*ROW, "-o", "o_%d.png")
+    bench.run(*words, "--take", "--work", "w").expect(0)
+    files = sorted((bench.folder / "w").glob("*.piece"))
+    check(len(files) == 5, f"{files}")
+    whole = files[0].read_bytes()
+    files[0].write_bytes(whole[:-1] + b"?")
+    found = bench.run("merge", "w").expect(5)
+    check(files[0].name in found.err and "damaged" in found.err and files[0].stem in found.out, found.describe())
+    version = whole[8:whole.index(b"\n")]
+    files[0].write_bytes(whole.replace(version, b"0.0.1", 1))
+    found = bench.run("merge", "w").expect(5)
+    check("0.0.1" in found.err and not (bench.folder / "o_0.png").exists(), found.describe())
+    files[0].write_bytes(whole)
+    bench.run("merge", "w").expect(0)
+    job, = (bench.folder / "w").glob("job-*.json")
+    text = job.read_text()
+    job.write_text(text.replace(version.decode(), "0.0.1"))
+    bench.run("merge", "w").expect(4).expect_one_line("0.0.1")
+    job.write_text("{")
+    bench.run("merge", "w").expect(4).expect_one_line("is not a job")
+    job.write_text(text)
+    bench.run(*ROW[:-1], "--fov", "30", "-o", "o_%d.png", "--shard", "1/5", "--work", "w").expect(0)
+    several = bench.run("merge", "w").expect(4)
+    several.expect_one_line("several jobs")
+    check(len(several.out.splitlines()) == 2, several.describe())
+    check(shell(bench, next(line for line in several.out.splitlines() if "fov" not in line)).returncode == 0, "the command of one job fails")
+
+
+@case("pieces.wrong_words_are_named", "input")
+def wrong(bench):
+    row = (*ROW, "-o", "o_%d.png")
+    for words, needle in (((*row, "--shard", "0/4"), "1..4"), ((*row, "--shard", "5/4"), "1..4"), ((*row, "--shard", "1/0"), "1 or more"),
+                          ((*row, "--shard", "auto"), "SLURM_ARRAY_TASK_ID"), ((*row, "--shard", "x"), "I/N"),
+                          ((*row, "--shard", "1/2", "--take"), "--take"), ((*row, "--work", "w"), "--shard"),
+                          ((*row, "--take", "--work", "a", "--work", "b"), "--merge"), ((*row, "--piece", "12", "--work", "w"), "no piece"),
+                          ((*row, "--take", "--stats", "s.json"), "--stats"), (("render", "builtin:plate", "--pieces"), "--backend"),
+                          ((*REFERENCE, "--checkpoint", "c.part", "--pieces"), "--checkpoint"),
+                          (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
+                          (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
+                          (("submit", "--for", "lsf", "--", *row), "slurm")):
+        if "reference" in words:
+            needs_embree(bench)
+        bench.run(*words).expect(2).expect_one_line(needle)
+    bench.run("merge", "none").expect(4).expect_one_line("none")
+    (bench.folder / "empty").mkdir()
+    bench.run("merge", "empty").expect(4).expect_one_line("holds no job")
+    bench.run("render", "gone.glb", *ROW[2:], "-o", "o_%d.png", "--shard", "1/2", "--work", "w").expect(4).expect_one_line("gone.glb")
+
+
+def taken_and_killed(bench, words, output, kills, seed):
+    """Workers take pieces; random ones die by kill -9 at random moments. The last ones finish, and a merge writes the one process' bytes."""
+    bench.run(*words, "-o", "one.bin".replace("bin", output), "--threads", "1").expect(0)
+    words, chance = (*words, "--threads", "1", "-o", "two." + output, "--take", "--work", "w"), random.Random(seed)
+    start = lambda: subprocess.Popen([bench.program, *words], cwd=bench.folder, env=bench.environment({}), stdin=subprocess.DEVNULL,
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    workers, killed = [start(), start()], 0
+    while killed < kills:
+        time.sleep(chance.uniform(0.0, 0.4))
+        at = chance.randrange(len(workers))
+        workers[at].kill()
+        killed += workers[at].wait() == -signal.SIGKILL
+        workers[at] = start()
+    for worker in workers:
+        check(worker.wait(timeout=400) == 0, "a worker fails")
+    bench.run("merge", "w").expect(0)
+    check((bench.folder / ("one." + output)).read_bytes() == (bench.folder / ("two." + output)).read_bytes(), "other bytes after kills")
+    check(not list((bench.folder / "w").glob("*.lease")), "a lease is left")
+
+
+@case("pieces.survive_killed_workers", budget=60)
+def killed(bench):
+    needs_embree(bench)
+    taken_and_killed(bench, (*PICTURE, "--samples", "65536"), "exr", 3, 5)
+
+
+@case("pieces.survive_twenty_killed_workers", tier="nightly")
+def killed_often(bench):
+    needs_embree(bench)
+    taken_and_killed(bench, (*PICTURE, "--samples", "524288"), "exr", 20, 6)
+
+
+@case("pieces.of_a_full_disk_are_made_later")
+def full_disk(bench):
+    """A worker and a merge whose files may not grow: exit code 7, nothing half. The same commands again finish."""
+    words = (*ROW, "-o", "o_%d.exr")
+    bench.run(*words, "--take", "--work", "w", file_size=2048).expect(7)
+    check(not list((bench.folder / "w").glob("*.piece")), "a piece is there")
+    bench.run(*words, "--take", "--work", "w").expect(0)
+    bench.run("merge", "w", file_size=2048).expect(7)
+    check(not list(bench.folder.glob("o_*.exr")), "a picture is there")
+    bench.run("merge", "w").expect(0)
+    check(len(list(bench.folder.glob("o_*.exr"))) == 5, "pictures are missing")
+
+
+@case("pieces.merge_twice_at_once")
+def twice(bench):
+    words = (*ROW, "-o", "o_%d.png", "-o", "o.apng")
+    bench.run(*words, "--take", "--work", "w").expect(0)
+    merges = [subprocess.Popen([bench.program, "merge", "w"], cwd=bench.folder, env=bench.environment({}), stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for _ in range(2)]
+    check([merge.wait(timeout=120) for merge in merges] == [0, 0], "a merge beside another fails")
+    whole = (bench.folder / "o.apng").read_bytes()
+    shutil.copytree(bench.folder / "w", bench.folder / "a")
+    (bench.folder / "b").mkdir()
+    for i, path in enumerate(sorted((bench.folder / "a").glob("*.piece"))):
+        if i % 2:
+            path.rename(bench.folder / "b" / path.name)
+    for order in (("a", "b"), ("b", "a")):
+        if order[0] == "b":
+            shutil.copy(next((bench.folder / "a").glob("job-*.json")), bench.folder / "b")
+        (bench.folder / "o.apng").unlink()
+        bench.run("merge", *order).expect(0)
+        check((bench.folder / "o.apng").read_bytes() == whole, f"{order} gives other bytes")
+
+
+def tool(name):
+    if not shutil.which(name):
+        raise Skipped(f"{name} is not installed")
+    return name
+
+
+def script(bench, engine, words, *more):
+    text = bench.run("submit", "--for", engine, *more, "--work", "w", "--", *words).expect(0).out
+    (bench.folder / "burnish").symlink_to(bench.program)
+    (bench.folder / "run.sh").write_text(text)
+    return text
+
+
+def by_script(bench, engine, extra=None, *more):
+    """Runs the script of an engine, and compares with one process."""
+    bench.run(*ROW, "-o", "one_%d.png", "-o", "one.apng").expect(0)
+    script(bench, engine, (*ROW, "-o", "two_%d.png", "-o", "two.apng"), *more)
+    env = bench.environment({"PATH": f"{bench.folder}:/usr/sbin:/usr/bin:/bin", **(extra or {})})
+    done = subprocess.run(["sh", "run.sh"], cwd=bench.folder, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
+    check(done.returncode == 0, done.stdout + done.stderr)
+    return lambda: check((bench.folder / "one.apng").read_bytes() == (bench.folder / "two.apng").read_bytes(), "other bytes")
+
+
+@case("pieces.run_by_gnu_parallel", tier="nightly")
+def by_parallel(bench):
+    tool("parallel")
+    by_script(bench, "parallel", None, "--at-once", "2")()
+
+
+@case("pieces.run_by_mpirun", tier="nightly")
+def by_mpirun(bench):
+    tool("mpirun")
+    by_script(bench, "mpi", {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}, "--shards", "3")()
+
+
+SLURM = """ClusterName=here
+SlurmctldHost={host}(127.0.0.1)
+AuthType=auth/none
+CredType=cred/none
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SlurmUser=root
+SlurmdUser=root
+SlurmctldPidFile={at}/ctld.pid
+SlurmdPidFile={at}/d.pid
+SlurmdSpoolDir={at}/spool
+StateSaveLocation={at}/state
+SlurmctldPort={port}
+SlurmdPort={other}
+InactiveLimit=0
+ReturnToService=2
+NodeName={host} NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
+PartitionName=all Nodes={host} Default=YES State=UP OverSubscribe=YES
+"""
+
+
+def output_of(words, env, wait=60):
+    return subprocess.run(words, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=wait).stdout
+
+
+@case("pieces.run_by_slurm", tier="nightly")
+def by_slurm(bench):
+    """Both daemons on this machine, without users, keys and control groups. One task of the array is killed."""
+    tool("slurmctld")
+    if os.getuid() != 0:
+        raise Skipped("Slurm's daemons need the superuser")
+    ports = random.Random(os.getpid()).randrange(20000, 30000, 2)
+    at, host = bench.folder / "slurm", socket.gethostname().split(".")[0]
+    for name in ("spool", "state"):
+        (at / name).mkdir(parents=True)
+    (at / "slurm.conf").write_text(SLURM.format(host=host, at=at, port=ports, other=ports + 1))
+    env = bench.environment({"PATH": f"{bench.folder}:/usr/sbin:/usr/bin:/bin", "SLURM_CONF": str(at / "slurm.conf"),
+                             "XDG_CACHE_HOME": str(bench.folder / "own")}) # references are made anew
+    daemons = [subprocess.Popen([name, "-D"], env=env, stdin=subprocess.DEVNULL, stdout=open(at / (name + ".log"), "w"), stderr=subprocess.STDOUT)
+               for name in ("slurmctld", "slurmd")]
+    try:
+        until = time.monotonic() + 60
+        while "idle" not in output_of(["sinfo", "-h", "-o", "%T"], env):
+            check(time.monotonic() < until, "no node of Slurm: " + (at / "slurmctld.log").read_text()[-2000:] + (at / "slurmd.log").read_text()[-2000:])
+            time.sleep(0.5)
+        chart = (*CHART, "--reference-samples", "4096")
+        bench.run(*chart, "-o", "one", timeout=300).expect(0)
+        script(bench, "slurm", (*chart, "-o", "two"), "--shards", "4")
+        done = subprocess.run(["sh", "run.sh"], cwd=bench.folder, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+        check(done.returncode == 0, done.stdout + done.stderr)
+        killed = False
+        until = time.monotonic() + 300
+        while output_of(["squeue", "-h"], env):
+            check(time.monotonic() < until, "the jobs do not end")
+            if not killed:
+                killed = subprocess.run(["pkill", "-9", "-n", "-f", "burnish .*--take"], stdin=subprocess.DEVNULL).returncode == 0
+            time.sleep(0.2)
+        check(killed, "no task was there to be killed")
+        logs = "".join(path.read_text() for path in bench.folder.glob("slurm-*.out"))
+        check((bench.folder / "two/report.csv").exists(), f"no report: {logs}")
+        one, two = files_of(bench.folder / "one"), files_of(bench.folder / "two")
+        check(one == two, f"other files: {[name for name in one if one[name] != two.get(name)]}")
+    finally:
+        for daemon in reversed(daemons):
+            daemon.terminate()
+        for daemon in daemons:
+            daemon.wait(timeout=30)
