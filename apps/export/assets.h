@@ -5,6 +5,6 @@
 namespace burnish {
 
 extern const EmbeddedFile kFlatTechniques;
-extern const EmbeddedFile kThreeModule, kBabylonModule; // templates with @PLACES@
+extern const EmbeddedFile kThreeModule, kThreeNodeModule, kBabylonModule, kGodotShader, kBevyShader; // templates with @PLACES@
 
 } // namespace burnish

@@ -32,7 +32,8 @@ constexpr const char* kFooter =
 device divides and takes roots exactly. msl does too, if the compiler keeps the order of sums. essl, for OpenGL ES 3.00 and WebGL 2, and wgsl
 are equal up to rounding. The file documents its arguments and the functions that the engine provides.
 
-three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too.
+three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too. three-node is
+for three.js' renderer on WebGPU. godot, bevy: a shader for these engines, whose first lines say what it needs.
 
 page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
 those of this machine. It takes the options of the picture, as `burnish render` does.
@@ -106,10 +107,14 @@ std::vector<std::string> technique_names()
 
 // A module for an engine: a template with places for the technique's text.
 struct ExportModule {
-    const char* name;
+    const char *name, *language;
     const EmbeddedFile* text;
 };
-constexpr ExportModule kModules[] = {{"three", &kThreeModule}, {"babylon", &kBabylonModule}};
+constexpr ExportModule kModules[] = {{"three", "essl", &kThreeModule},
+                                     {"three-node", "wgsl-of-cube", &kThreeNodeModule},
+                                     {"babylon", "essl", &kBabylonModule},
+                                     {"godot", "essl", &kGodotShader},
+                                     {"bevy", "wgsl", &kBevyShader}};
 
 bool is_module(const std::string& what)
 {
@@ -225,7 +230,7 @@ std::string without_comments(const std::string& text)
 std::string module_text(const TechniqueInfo& technique, int samples, const ExportModule& module)
 {
     const std::string shader =
-        without_comments(shader_text(glsl_of_technique(technique, samples, std::string(module.name) == "three"), "essl"));
+        without_comments(shader_text(glsl_of_technique(technique, samples, std::string(module.name) == "three"), module.language));
     std::string text(module.text->bytes);
     for (const auto& [place, value] : {std::pair<std::string, std::string>{"@TECHNIQUE@", technique.name},
                                        {"@VERSION@", version()},
@@ -244,7 +249,7 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
     if (!arguments.scene.empty())
         return usage_error("SCENE", "is for a page");
     if (arguments.ltc && is_module(arguments.what))
-        return usage_error("--ltc", "is for languages; three brings area lights, babylon does not");
+        return usage_error("--ltc", "is for languages; three brings area lights, the other modules do not");
     const TechniqueInfo& technique = *find_technique(arguments.technique);
     const bool alone = is_module(arguments.what) && (technique.traits & kSharesSamples); // an engine's pixels do not share samples
     const int asked = arguments.samples > 0 ? arguments.samples : alone ? technique.most_samples : technique.default_samples;

@@ -72,7 +72,8 @@ bool is_vector(const std::string& type)
 
 class ShaderPrinter {
   public:
-    ShaderPrinter(const ShaderTree& tree, ShaderLanguage language) : tree_(tree), language_(language)
+    ShaderPrinter(const ShaderTree& tree, ShaderLanguage language, bool passes_cube)
+        : tree_(tree), language_(language), passes_cube_(passes_cube)
     {
         for (const Item& item : tree.items)
             if (item.kind == Item::Kind::prototype)
@@ -198,11 +199,12 @@ class ShaderPrinter {
     std::string call(const Expression& e)
     {
         if (engine_.count(e.text))
-            return fmt::format("{}({})", msl() ? "burnish_env." + engine_name(e.text) : e.text, list(e.of));
+            return fmt::format("{}({}{})", msl() ? "burnish_env." + engine_name(e.text) : e.text,
+                               passes_cube_ ? "burnish_cube, burnish_taps, " : "", list(e.of));
         if (e.function < 0)
             return made(e);
         const Item& function = tree_.items[static_cast<std::size_t>(e.function)];
-        std::string arguments = msl() && fetching_.count(e.function) ? "burnish_env" : "";
+        std::string arguments = fetching_.count(e.function) ? msl() ? "burnish_env" : passes_cube_ ? "burnish_cube, burnish_taps" : "" : "";
         for (std::size_t i = 0; i < e.of.size(); ++i)
             arguments += (arguments.empty() ? "" : ", ") + (wgsl() && function.variables[i].inout ? reference(e.of[i]) : argument(e.of[i]));
         return fmt::format("{}({})", function_name(e.function), arguments);
@@ -407,7 +409,10 @@ class ShaderPrinter {
 
     std::string parameters(const Item& item, int index)
     {
-        std::string text = msl() && fetching_.count(index) ? "thread const burnish_environment& burnish_env" : "";
+        std::string text = fetching_.count(index) ? msl()          ? "thread const burnish_environment& burnish_env"
+                                                    : passes_cube_ ? "burnish_cube: texture_cube<f32>, burnish_taps: sampler"
+                                                                   : ""
+                                                  : "";
         for (const ShaderVariable& parameter : item.variables) {
             ShaderVariable p = parameter;
             if (wgsl() && assigned_.count(p.name))
@@ -484,6 +489,7 @@ class ShaderPrinter {
     const ShaderTree& tree_;
     ShaderLanguage language_;
     std::set<std::string> engine_;              // functions that the engine provides
+    bool passes_cube_;                          // functions that fetch take a cube and its sampler first
     std::set<int> fetching_;                    // functions that call the engine's, themselves or by others
     std::set<std::string> made_;                // structs made from their members' values
     std::set<std::string> assigned_, pointers_; // parameters of the function in hand
@@ -508,10 +514,11 @@ std::string shader_text(const std::string& glsl, const std::string& language)
 {
     if (language == "essl")
         return essl_text(glsl);
-    BN_CHECK(language == "hlsl" || language == "msl" || language == "wgsl");
+    const bool passes_cube = language == "wgsl-of-cube";
+    BN_CHECK(language == "hlsl" || language == "msl" || language == "wgsl" || passes_cube);
     const ShaderLanguage kind = language == "hlsl" ? ShaderLanguage::hlsl : language == "msl" ? ShaderLanguage::msl : ShaderLanguage::wgsl;
     const ShaderTree tree = shader_tree_of(glsl);
-    return ShaderPrinter(tree, kind).text();
+    return ShaderPrinter(tree, kind, passes_cube).text();
 }
 
 } // namespace burnish

@@ -186,7 +186,7 @@ def wrong(bench):
         (("--sweep", "roughness=2"), "--sweep"),
         (("--sweep", "samples=1", "--sweep", "samples=2"), "twice"),
         (tuple(word for name in "abcdef" for word in ("--sweep", name + "=" + ",".join(map(str, range(64))))), "68719476736 places"),
-        (("--runs", "0"), "--runs"),
+        (("--runs", "-1"), "--runs"),
         (("--reference-samples", "0"), "--reference-samples"),
         (("--size", "0x4"), "--size"),
         (("--error-size", "0x4"), "--error-size"),

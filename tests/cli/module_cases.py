@@ -135,12 +135,13 @@ def nearer(bench):
 
 
 def project(bench, engine):
-    """Copies an example project into the case's folder, and writes its module as npm does before `start`."""
+    """Copies an example project into the case's folder, and writes its modules as npm does before `start`."""
     folder = bench.folder / engine
     shutil.copytree(ROOT / "apps/examples" / engine, folder)
-    words = json.loads((folder / "package.json").read_text())["scripts"]["prestart"].split()
-    check(words[0] == "burnish" and words[-2] == "-o", f"{words}")
-    bench.run(*words[1:-1], folder / words[-1]).expect(0)
+    for command in json.loads((folder / "package.json").read_text())["scripts"]["prestart"].split(" && "):
+        words = command.split()
+        check(words[0] == "burnish" and words[-2] == "-o", f"{words}")
+        bench.run(*words[1:-1], folder / words[-1]).expect(0)
     return folder
 
 
@@ -148,8 +149,9 @@ def project(bench, engine):
 def projects(bench):
     for engine in ("three", "babylon"):
         folder = project(bench, engine)
-        module = re.search(r"\{ improveAnisotropy \} = await import\('./(burnish_\w+\.js)'\)", (folder / "main.js").read_text())
-        check(module and (folder / module[1]).is_file(), f"{engine}: main.js imports no module that `prestart` writes")
+        modules = re.findall(r"import\('./(burnish_\w+\.js)'\)", (folder / "main.js").read_text())
+        check(len(modules) == (2 if engine == "three" else 1), f"{engine}: {modules}")
+        check(all((folder / module).is_file() for module in modules), f"{engine}: main.js imports a module that `prestart` does not write")
         check('src="main.js"' in (folder / "index.html").read_text(), f"{engine}: the page has no main.js")
 
 
@@ -209,6 +211,74 @@ def screenshots(bench, folder):
     return [folder / "with.png", folder / "without.png"]
 
 
+# The example's balls by WebGPU, into a target: browsers without a window show no canvas of WebGPU.
+NODE_PAGE = """<!DOCTYPE html><title>node</title><link rel="icon" href="data:,">
+<script type="importmap">{ "imports": { "three/webgpu": "./node_modules/three/build/three.webgpu.js", "three/tsl": "./node_modules/three/build/three.tsl.js" } }</script>
+<script type="module">
+import * as THREE from 'three/webgpu';
+import { height, studio, width } from './studio.js';
+import { improveAnisotropy } from './burnish_three_node.js';
+window.draw = async improve => {
+  const renderer = new THREE.WebGPURenderer(), wide = 900, high = 420;
+  await renderer.init();
+  if (!renderer.backend.isWebGPUBackend)
+    return 'no WebGPU';
+  renderer.setSize(wide, high);
+  const picture = new THREE.DataTexture(studio(), width, height, THREE.RGBAFormat, THREE.FloatType), balls = new THREE.Group(), scene = new THREE.Scene();
+  picture.magFilter = picture.minFilter = THREE.LinearFilter;
+  picture.mapping = THREE.EquirectangularReflectionMapping;
+  picture.needsUpdate = true;
+  scene.environment = new THREE.PMREMGenerator(renderer).fromEquirectangular(picture).texture;
+  for (let i = 0; i < 3; ++i) {
+    const shape = new THREE.SphereGeometry(1, 96, 64);
+    shape.computeTangents();
+    const metal = new THREE.MeshPhysicalMaterial({ color: [0xe8e4dc, 0xe6a35c, 0xd8b060][i], metalness: 1, roughness: 0.3, anisotropy: 0.8 });
+    metal.anisotropyRotation = [0, Math.PI / 2, Math.PI / 4][i];
+    const ball = new THREE.Mesh(shape, metal);
+    ball.position.x = 2.3 * (i - 1);
+    balls.add(ball);
+  }
+  scene.add(balls);
+  const count = improve ? improveAnisotropy(balls, { environment: scene.environment }) : 3;
+  const sphere = new THREE.Box3().setFromObject(scene).getBoundingSphere(new THREE.Sphere());
+  const camera = new THREE.PerspectiveCamera(30, wide / high, sphere.radius / 100, sphere.radius * 100);
+  camera.position.copy(sphere.center).add(new THREE.Vector3(0, 0.25, 1).normalize().multiplyScalar(sphere.radius * 2.2));
+  camera.lookAt(sphere.center);
+  const target = new THREE.RenderTarget(wide, high, { type: THREE.FloatType });
+  renderer.setRenderTarget(target);
+  await renderer.renderAsync(scene, camera);
+  window.pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, wide, high);
+  return `${count} materials`;
+};
+</script>
+"""
+
+
+def node_pictures(bench, folder):
+    """Returns the balls with the node and without it."""
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    (folder / "node.html").write_text(NODE_PAGE)
+    (bench.folder / "profile").mkdir(exist_ok=True)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder)) as host:
+        threading.Thread(target=host.serve_forever, daemon=True).start()
+        with Browser(bench.folder, webgl=True) as browser:
+            browser.visit(f"http://127.0.0.1:{host.server_address[1]}/node.html")
+            browser.until("Boolean(window.draw)", 60.0)
+            for name, improve in (("with", "true"), ("without", "false")):
+                said = browser.value(f"draw({improve})")
+                if said == "no WebGPU":
+                    raise Skipped(said)
+                check(said == "3 materials", f"{said}; {browser.faults}")
+                rows = [browser.value(f"Array.from(pixels.subarray({3600 * y}, {3600 * y + 3600}))") for y in range(420)]
+                (folder / f"{name}.pfm").write_bytes(b"PF\n900 420\n-1.0\n" + b"".join(
+                    struct.pack("<2700f", *(row[4 * x + c] for x in range(900) for c in range(3))) for row in reversed(rows)))
+        host.shutdown()
+    return [folder / "with.pfm", folder / "without.pfm"]
+
+
 @case("export.example_projects_draw_near_the_truth", tier="nightly")
 def near_the_truth(bench):
     needs_embree(bench)
@@ -222,13 +292,82 @@ def near_the_truth(bench):
                 "writeFileSync('studio.hdr', Buffer.from(await studio_file().arrayBuffer())); console.log('1');")
     far = 2.2 * math.sqrt(3.3 ** 2 + 2) / math.sqrt(1 + 0.25 ** 2)  # where main.js puts the camera
     bench.run("render", "balls.gltf", "--env", "studio.hdr", "--eye", f"0,{0.25 * far},{far}", "--target", "0,0,0", "--fov", "30", "--size", "900x420",
-              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "truth.png", "-q", timeout=600).expect(0)
-    for engine in ("babylon", "three"):
-        folder = bench.folder / engine if engine == "babylon" else project(bench, engine)
-        (folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
+              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "truth.png", "-o", "truth.pfm", "-q", timeout=600).expect(0)
+    for engine, pictures_of in (("babylon", screenshots), ("three", screenshots), ("three", node_pictures)):
+        folder = bench.folder / engine if (bench.folder / engine).exists() else project(bench, engine)
+        if not (folder / "node_modules").exists():
+            (folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
         flips = []
-        for picture in screenshots(bench, folder):
-            bench.run("compare", "truth.png", picture, "--json", "c.json", "-q")
+        for picture in pictures_of(bench, folder):
+            bench.run("compare", "truth.png" if pictures_of == screenshots else "truth.pfm", picture, "--json", "c.json", "-q")
             flips.append(json.loads((bench.folder / "c.json").read_text())["flip_mean"])
-        print(f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
-        check(flips[0] < 0.05 and flips[0] < 0.3 * flips[1], f"{engine}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
+        name = f"{engine}, {pictures_of.__name__}"
+        print(f"{name}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
+        check(flips[0] < 0.05 and flips[0] < 0.3 * flips[1], f"{name}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")
+
+
+BEVY = """struct VertexOutput { @builtin(position) position: vec4<f32>, @location(0) world_tangent: vec4<f32> };
+struct FragmentOutput { @location(0) color: vec4<f32> };
+struct Material { base_color: vec4<f32>, perceptual_roughness: f32, metallic: f32 };
+struct PbrInput { N: vec3<f32>, V: vec3<f32>, diffuse_occlusion: vec3<f32>, material: Material };
+fn pbr_input_from_standard_material(in: VertexOutput, is_front: bool) -> PbrInput {
+    return PbrInput(in.position.xyz, in.position.zyx, vec3<f32>(1.0), Material(in.position, 0.4, 1.0));
+}
+fn alpha_discard(material: Material, color: vec4<f32>) -> vec4<f32> { return color; }
+fn apply_pbr_lighting(input: PbrInput) -> vec4<f32> { return input.material.base_color; }
+fn main_pass_post_lighting_processing(input: PbrInput, color: vec4<f32>) -> vec4<f32> { return color; }
+"""
+COMPILE = """async function run() {
+    const adapter = navigator.gpu && await navigator.gpu.requestAdapter();
+    if (!adapter)
+        return {skipped: "no WebGPU"};
+    const device = await adapter.requestDevice();
+    const faults = (await device.createShaderModule({code: shader}).getCompilationInfo()).messages.filter(m => m.type == "error");
+    return {error: faults.map(m => m.lineNum + ": " + m.message).join("\\n")};
+}"""
+
+
+@case("export.shaders_for_engines_on_webgpu_compile", budget=15)
+def on_webgpu(bench):
+    for what in ("three-node", "bevy"):
+        bench.run("export", what, "--technique", "lobe_line", "-o", what).expect(0)
+    module = (bench.folder / "three-node").read_text()
+    texts = re.findall(r"/\* wgsl \*/`(.*?)`", module, re.S)
+    check(len(texts) == 2 and "@" not in re.sub(r"@(TECHNIQUE|SAMPLES)@", "@", texts[1]), "places are left, or parts are missing")
+    bevy = re.sub(r"#import .*?\n}\n", BEVY, (bench.folder / "bevy").read_text(), flags=re.S)
+    check("#import" not in bevy and "FragmentOutput {" in bevy, "the stand-ins are not in place")
+    with Browser(bench.folder, webgl=True) as browser:
+        for name, text in (("three-node", "\n".join(texts)), ("bevy", bevy)):
+            page = bench.folder / "page.html"
+            page.write_text(f"<!doctype html><title>shader</title><script>const shader = {json.dumps(text)};\n{COMPILE}</script>")
+            browser.open(page)
+            found = browser.value("run()")
+            if found.get("skipped"):
+                raise Skipped(found["skipped"])
+            check(not found["error"], f"{name}: {found['error'][:1500]}")
+
+
+# What Godot declares for fragment(), and the words that GLSL has not.
+GODOT = """#version 310 es
+precision highp float;
+precision highp int;
+vec3 NORMAL, VIEW, TANGENT, BINORMAL, ALBEDO;
+vec2 UV;
+mat4 INV_VIEW_MATRIX;
+float METALLIC, ROUGHNESS, ANISOTROPY;
+vec4 RADIANCE;
+"""
+
+
+@case("export.shader_for_godot_compiles_as_glsl")
+def godot(bench):
+    if not shutil.which("glslc"):
+        raise Skipped("no glslc here")
+    bench.run("export", "godot", "--technique", "lobe_line", "-o", "burnish.gdshader").expect(0)
+    text = (bench.folder / "burnish.gdshader").read_text()
+    check(text.count("shader_type spatial;") == 1 and "precise" not in text, "no shader of Godot")
+    text = re.sub(r"^uniform (\w+) (\w+)[^;]*;", r"uniform highp \1 \2;", text.replace("shader_type spatial;", ""), flags=re.M)
+    (bench.folder / "burnish.frag").write_text(GODOT + text + "layout(location = 0) out vec4 seen;\nvoid main() { fragment(); seen = RADIANCE; }\n")
+    done = subprocess.run(["glslc", "-w", "--target-env=opengl", "-fauto-map-locations", "-fauto-bind-uniforms", bench.folder / "burnish.frag", "-o", bench.folder / "burnish.spv"],
+                          capture_output=True, text=True)
+    check(done.returncode == 0, done.stderr[:1500])

@@ -55,7 +55,7 @@ RUNS = {
              (("mip", MAPPED, "--format", "png-levels", "-o", "textures"), (0,)), (("mip", MAPPED, "--format", "exr-mip", "-o", "levels"), (0,))],
     "train": [(("mip", "--steps", "1", "--only-maps", "maps", "-o", "w.mipnet", "-q"), (0,)),
               (("mip", "--steps", "1", "--only-maps", "maps", "--size", "1x8", "--loss", "l2", "--tone", "log", "--levels", "2", "-o", "x.mipnet", "-q"), (0,))],
-    "export": [*(((what, "--technique", "lobe_line", "-o", f"l.{what}"), (0,)) for what in ("essl", "hlsl", "msl", "wgsl", "three", "babylon")),
+    "export": [*(((what, "--technique", "lobe_line", "-o", f"l.{what}"), (0,)) for what in ("essl", "hlsl", "msl", "wgsl", "three", "three-node", "babylon", "godot", "bevy")),
                (("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,)),
                (("page", "builtin:plate", *BARE, "-o", "p.html"), (0, 77))],
     "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],

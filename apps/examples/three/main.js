@@ -1,12 +1,13 @@
 // Brushed metal under an environment in three.js, with and without a technique of burnish. ?model=FILE.glb opens another model, ?sky=FILE.hdr
-// another environment.
+// another environment; ?webgpu draws by WebGPU.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
 import { height, studio, width } from './studio.js';
 
-const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
+const asked = new URLSearchParams(location.search), gpu = asked.has('webgpu'), state = document.getElementById('state'), improved = document.getElementById('improved');
+const api = gpu ? await import('three/webgpu') : THREE; // its renderer
 let renderer, improveAnisotropy;
 
 function studio_texture() {
@@ -20,7 +21,7 @@ function studio_texture() {
 async function environment() {
   const picture = asked.has('sky') ? await new HDRLoader().setDataType(THREE.FloatType).loadAsync(asked.get('sky')) : studio_texture();
   picture.mapping = THREE.EquirectangularReflectionMapping;
-  return new THREE.PMREMGenerator(renderer).fromEquirectangular(picture).texture;
+  return new api.PMREMGenerator(renderer).fromEquirectangular(picture).texture;
 }
 
 // Returns three brushed balls: highlights run around the first one, from pole to pole on the second one, and aslant on the third one.
@@ -50,13 +51,16 @@ async function scene_of(light, improve) {
   scene.add(thing);
   // Meshes from code have texture coordinates that grow upwards
   if (improve)
-    state.textContent = `${improveAnisotropy(thing, { glTF: asked.has('model') })} materials improved`;
+    state.textContent = `${improveAnisotropy(thing, gpu ? { environment: light } : { glTF: asked.has('model') })} materials improved`;
   return scene;
 }
 
 try {
-  ({ improveAnisotropy } = await import('./burnish_three.js')); // written by `npm start`
-  renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  ({ improveAnisotropy } = await (gpu ? import('./burnish_three_node.js') : import('./burnish_three.js'))); // written by `npm start`
+  renderer = gpu ? new api.WebGPURenderer({ antialias: true }) : new api.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  await renderer.init?.();
+  if (gpu && !renderer.backend.isWebGPUBackend)
+    throw new Error('this browser has no WebGPU');
   document.body.append(renderer.domElement);
   const light = await environment(), scenes = [await scene_of(light, false), await scene_of(light, true)];
   // Look at the model from a little above

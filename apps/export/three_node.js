@@ -1,0 +1,105 @@
+// @TECHNIQUE@ in three.js' renderer on WebGPU: image light of materials with anisotropy. From burnish @VERSION@ (Apache License 2.0).
+//
+//     import { improveAnisotropy } from './burnish_three_node.js';
+//     improveAnisotropy(scene, { environment });
+//
+// Takes an object with all below it, or an array of these. environment: the texture that PMREMGenerator made, as in
+// scene.environment. Returns the number of materials changed; call it before the first frame, and again for what you load later. A
+// MeshPhysicalMaterial or MeshPhysicalNodeMaterial with anisotropy is replaced by a node material with the technique. Others stay. Meshes
+// need tangents. Works with WebGPURenderer on WebGPU; tried with release 187. Throws for an environment that PMREMGenerator did not make.
+import { ClampToEdgeWrapping, DataTexture, LinearFilter, MeshPhysicalNodeMaterial, PhysicalLightingModel, RGFormat, UnsignedByteType } from 'three/webgpu';
+import { alphaT, anisotropyT, cameraWorldMatrix, cubeTexture, diffuseColor, materialEnvIntensity, materialEnvRotation, metalness, mix, normalView,
+         positionViewDirection, roughness, sampler, specularColor, specularF90, texture, vec2, vec3, wgsl, wgslFn } from 'three/tsl';
+
+// Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
+const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
+const albedoTexture = new DataTexture(albedo, 200, 200, RGFormat, UnsignedByteType);
+albedoTexture.minFilter = albedoTexture.magFilter = LinearFilter;
+albedoTexture.wrapS = albedoTexture.wrapT = ClampToEdgeWrapping;
+albedoTexture.needsUpdate = true;
+
+const technique = wgsl(/* wgsl */`
+@SHADER@
+const burnish_levels = 9;
+// Cubes of three.js on WebGPU run the other way along x.
+fn burnish_radiance(burnish_cube: texture_cube<f32>, burnish_taps: sampler, cube: i32, direction: vec3<f32>, lod: f32) -> vec4<f32> {
+    let rough = clamp(lod / f32(burnish_levels - 1), 0.0, 1.0);
+    let level = f32(textureNumLevels(burnish_cube) - 1u) * rough * (2.0 - rough);
+    return textureSampleLevel(burnish_cube, burnish_taps, vec3<f32>(-direction.x, direction.yz), level);
+}
+`);
+
+// Returns the light of the environment from the lobe. widths: along the grain and across.
+const imageLight = wgslFn(/* wgsl */`
+fn burnish_image_light(cube: texture_cube<f32>, taps: sampler, albedo: texture_2d<f32>, albedo_taps: sampler, n: vec3<f32>, v: vec3<f32>, grain: vec3<f32>,
+                       widths: vec2<f32>, f0: vec3<f32>, f90: vec3<f32>) -> vec3<f32> {
+    let mean = max(0.5 * (widths.x + widths.y), 1e-4);
+    let rough = sqrt(mean);
+    let anisotropy = clamp((widths.x - widths.y) / (2.0 * mean), -0.999, 0.999);
+    let along = grain - n * dot(n, grain);
+    let other = cross(n, select(vec3<f32>(0.0, 1.0, 0.0), vec3<f32>(1.0, 0.0, 0.0), abs(n.x) < 0.5));
+    let tangent = normalize(select(other, along, dot(along, along) > 1e-6));
+    let at = burnish_albedo_place(n, v, tangent, rough, anisotropy);
+    let corner = textureSampleLevel(albedo, albedo_taps, at.xy, 0.0).rg;
+    let right = textureSampleLevel(albedo, albedo_taps, at.xy + vec2<f32>(0.1, 0.0), 0.0).rg;
+    let below = textureSampleLevel(albedo, albedo_taps, at.xy + vec2<f32>(0.0, 0.1), 0.0).rg;
+    let opposite = textureSampleLevel(albedo, albedo_taps, at.xy + vec2<f32>(0.1, 0.1), 0.0).rg;
+    let dfg = mix(mix(corner, right, at.z), mix(below, opposite, at.z), at.w);
+    let f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
+    let x = burnish_point_of(f, n, v, tangent, f0, f90, rough, anisotropy, dfg, 0);
+    return burnish_@TECHNIQUE@_specular(cube, taps, f, x);
+}
+`, [technique]);
+
+// The engine's lighting, with the technique's light in place of its one fetch.
+class Lighting extends PhysicalLightingModel {
+  indirectSpecular(builder) {
+    const { radiance, reflectedLight } = builder.context, { cube } = builder.material.burnish;
+    radiance.assign(vec3(0));
+    super.indirectSpecular(builder);
+    const world = direction => materialEnvRotation.mul(direction.transformDirection(cameraWorldMatrix));
+    const across = roughness.mul(roughness).max(1e-4);
+    const light = imageLight({
+      cube, taps: sampler(cube), albedo: texture(albedoTexture), albedo_taps: sampler(texture(albedoTexture)),
+      n: world(normalView), v: world(positionViewDirection), grain: world(anisotropyT), widths: vec2(alphaT.max(across), across),
+      f0: mix(specularColor, diffuseColor.rgb, metalness), f90: vec3(mix(specularF90, 1, metalness)),
+    });
+    reflectedLight.indirectSpecular.addAssign(light.mul(materialEnvIntensity));
+  }
+}
+
+// A material whose lighting model is the one above.
+class BurnishMaterial extends MeshPhysicalNodeMaterial {
+  setupLightingModel() {
+    return new Lighting(this.useClearcoat, this.useSheen, this.useIridescence, this.useAnisotropy, this.useTransmission, this.useDispersion,
+                        this.useRetroreflection, this.useDiffuseRoughness);
+  }
+}
+
+function improved(material, cube) {
+  if (!(material.isMeshPhysicalMaterial || material.isMeshPhysicalNodeMaterial) || !material.anisotropy || material.burnish)
+    return material;
+  const made = new BurnishMaterial();
+  for (const key in material)
+    if (key in made && !['type', 'uuid', 'id', 'version'].includes(key) && typeof material[key] !== 'function' && !key.startsWith('is'))
+      made[key] = material[key];
+  made.burnish = { cube };
+  return made;
+}
+
+export function improveAnisotropy(target, { environment } = {}) {
+  if (!environment?.isPMREMTexture)
+    throw new Error('burnish: environment is no texture of PMREMGenerator');
+  const cube = cubeTexture(environment), made = new Map();
+  const each = material => {
+    if (!made.has(material))
+      made.set(material, improved(material, cube));
+    return made.get(material);
+  };
+  for (const one of [target].flat())
+    one.traverse(object => {
+      if (object.material)
+        object.material = Array.isArray(object.material) ? object.material.map(each) : each(object.material);
+    });
+  return [...made].filter(([before, after]) => before !== after).length;
+}
