@@ -11,6 +11,7 @@
 #include "apps/chart/chart_checkpoint.h"
 #include "apps/chart/cpu_load.h"
 #include "apps/chart/options.h"
+#include "apps/cli/build.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/options/scene_with_view.h"
@@ -54,7 +55,7 @@ class Chart {
     std::string reference_name(const Place& place) const;
     std::string reference_picture(const Place& place) const;
     std::string key_of_piece(const Place& place) const;
-    double seconds_of_piece(const Spot& spot);
+    Result<double> seconds_of_piece(const Spot& spot);
     Status write_piece_of(const Spot& spot, const std::string& file, const std::string& key);
     Status take_piece(const Place& place, const Packed& packed, const std::string& file);
     Result<Frame> reference(const Place& place, ReferenceNoise& noise);

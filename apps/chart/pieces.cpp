@@ -29,10 +29,10 @@ std::string Chart::key_of_piece(const Place& place) const
 }
 
 // Estimates from a small reference, and one frame.
-double Chart::seconds_of_piece(const Spot& spot)
+Result<double> Chart::seconds_of_piece(const Spot& spot)
 {
     double seconds = 0.0;
-    static_cast<void>(static_cast<bool>(at_place(spot, [&](const Place& place) -> Status {
+    const Status measured = at_place(spot, [&](const Place& place) -> Status {
         constexpr int kProbeWidth = 64;
         SessionOptions of_reference;
         of_reference.backend = Backend::reference, of_reference.isa = options_.base.isa, of_reference.reference.samples = kPassSamples;
@@ -49,14 +49,15 @@ double Chart::seconds_of_piece(const Spot& spot)
         seconds = 1e-3 * ((middle - begin) * samples * pixels +
                           (wall_ms() - middle) * static_cast<double>(settings_.size()) * (options_.runs + 2));
         return {};
-    })));
+    });
+    BN_TRY(measured);
     return seconds;
 }
 
-// Measures a place into a piece. A killed process goes on from the folder beside it.
+// Measures a place into a piece, by way of a folder beside it. The reference of a killed process is kept in the cache.
 Status Chart::write_piece_of(const Spot& spot, const std::string& file, const std::string& key)
 {
-    const std::string folder = file + ".part";
+    const std::string folder = own_name_beside(file, ".part");
     Result<ChartCheckpoint> own = ChartCheckpoint::open(folder, report_);
     BN_TRY(own);
     ChartCheckpoint* const whole = std::exchange(checkpoint_, &*own);
@@ -88,13 +89,10 @@ Status Chart::write_piece_of(const Spot& spot, const std::string& file, const st
     });
     checkpoint_ = whole;
     progress_.reset();
-    BN_TRY(made);
-    if (stopped())
-        return {};
-    BN_TRY(write_piece(file, key, pack(packed)));
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    return {};
+    BN_TRY(made);
+    return stopped() ? Status() : write_piece(file, key, pack(packed));
 }
 
 // Takes over a piece's figures and pictures.

@@ -36,6 +36,7 @@ struct RenderOptions {
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
     FloorChoice floor = FloorChoice::usual;
+    bool in_pieces = false; // a signal ends the process between blocks of a reference, as with a checkpoint
     std::vector<std::string> outputs;
     std::vector<std::string> aov;       // layers of .exr outputs
     Shown show = Shown::light;          // false colour of 8-bit outputs

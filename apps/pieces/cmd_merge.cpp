@@ -29,7 +29,7 @@ struct MergeArguments {
 
 int run_merge(const MergeArguments& given)
 {
-    Result<std::vector<std::string>> words = job_of(given.folders.front());
+    Result<std::vector<std::string>> words = job_of(given.folders);
     if (!words)
         return fail(words.error());
     words->push_back("--merge");
@@ -49,8 +49,10 @@ Command merge_command()
     auto given = std::make_shared<MergeArguments>();
     OptionTable table;
     table.add("", {Option("DIR", "", "Folder of pieces; several are searched in turn", texts(given->folders)).must_be_given()});
-    table.add("Output", {Option("-o,--output", "FILE", "Write this too; a chart goes here instead", files(given->outputs)).is_output(),
-                         quiet_option(given->quiet)});
+    table.add("Output",
+              {Option("-o,--output", "FILE", "Write this too, in a format of the command; a chart goes here instead", files(given->outputs))
+                   .is_output(),
+               quiet_option(given->quiet)});
     return {"merge", "Put the pieces of a job together", std::move(table), kMergeFooter,
             [given](OptionTable&) { return run_merge(*given); }};
 }

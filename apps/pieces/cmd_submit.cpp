@@ -1,35 +1,49 @@
 // `burnish submit`: prints a script that runs a job's pieces under a cluster's engine.
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <memory>
 
 #include "apps/cli/command.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
-#include "apps/pieces/pieces.h"
 #include "apps/pieces/submit.h"
+#include "apps/pieces/words.h"
 
 namespace burnish {
 namespace {
 
 constexpr const char* kSubmitFooter =
-    R"(The command stands behind "--". Slurm's tasks take pieces from each other's rest, so a slow or dead one holds nobody. All scripts end with
-a merge, which makes what is missing and judges. The folder of the pieces must be one that all machines see.
+    R"(The command stands behind "--". Slurm's tasks take pieces from each other's rest, so a slow or dead one holds nobody. All scripts but that
+of k8s end with a merge, which makes what is missing and judges. The folder of the pieces must be one that all machines see.
 
 Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
   burnish submit --for parallel --at-once 2 -- render lamp.glb --backend reference --samples 4096 -o lamp.exr)";
 
+// True if a command has pieces: a reference, a row of pictures, or a chart of frames.
+bool has_pieces(const std::vector<std::string>& words)
+{
+    const auto has = [&](const std::string& option) {
+        return std::any_of(words.begin(), words.end(), [&](const std::string& w) { return w == option || w.starts_with(option + "="); });
+    };
+    const auto backend = std::find(words.begin(), words.end(), "--backend");
+    const bool reference =
+        (backend != words.end() && backend + 1 != words.end() && backend[1] == "reference") || has("--backend=reference");
+    if (words[0] == "render")
+        return reference || has("--animate") || has("--turntable");
+    return words[0] == "chart" && !has("--mip");
+}
+
 int run_submit(const SubmitOptions& given)
 {
-    constexpr const char* kWithPieces[] = {"render", "chart"};
     SubmitOptions options = given;
     options.words = without_pieces(given.words);
     if (options.words.size() != given.words.size())
         return fail(usage_error("COMMAND", "has options of pieces, which the script brings"));
-    if (std::none_of(std::begin(kWithPieces), std::end(kWithPieces), [&](const char* name) { return options.words[0] == name; }))
-        return fail(usage_error("COMMAND", "'" + options.words[0] + "' has no pieces: render and chart have"));
+    if (!has_pieces(options.words))
+        return fail(usage_error("COMMAND", "has no pieces: render --backend reference, --animate, --turntable, and chart have"));
+    if (const Status taken = check_submit(options); !taken)
+        return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);
     return 0;
 }

@@ -29,15 +29,7 @@ std::string host_name()
     return name;
 }
 
-// Returns a name that no other process has: machine, process, and a random number.
-std::string new_owner()
-{
-    std::random_device random;
-    const std::uint64_t number = (static_cast<std::uint64_t>(random()) << 32) | random();
-    return fmt::format("{} {} {:016x}", host_name(), ::getpid(), number);
-}
-
-// True if a lease's owner ran on this machine and runs no more.
+// True if a lease's owner ran on this machine and runs no more. content: MACHINE PROCESS RANDOM COUNT.
 bool owner_ended(const std::string& content)
 {
     std::istringstream words(content);
@@ -61,9 +53,14 @@ Result<bool> make_new(const std::string& file, const std::string& content)
     const Descriptor made(::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
     if (!made && errno == EEXIST)
         return false;
-    if (!made || ::write(made.get(), content.data(), content.size()) != static_cast<ssize_t>(content.size()))
+    if (!made)
         return Error{ExitCode::output_failed, file, "", std::strerror(errno)};
-    return true;
+    errno = ENOSPC; // of a short write
+    if (::write(made.get(), content.data(), content.size()) == static_cast<ssize_t>(content.size()))
+        return true;
+    const Error failed = {ExitCode::output_failed, file, "", std::strerror(errno)};
+    ::unlink(file.c_str());
+    return failed;
 }
 
 } // namespace
@@ -96,7 +93,14 @@ void Lease::beat()
     }
 }
 
-Leases::Leases(LeaseTimes times) : times_(times), owner_(new_owner()) {}
+std::string new_process_name()
+{
+    std::random_device random;
+    const std::uint64_t number = (static_cast<std::uint64_t>(random()) << 32) | random();
+    return fmt::format("{} {} {:016x}", host_name(), ::getpid(), number);
+}
+
+Leases::Leases(std::string owner, LeaseTimes times) : owner_(std::move(owner)), times_(times) {}
 
 Result<std::unique_ptr<Lease>> Leases::take(const std::string& file)
 {

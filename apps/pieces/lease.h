@@ -15,6 +15,9 @@
 
 namespace burnish {
 
+// Returns a name that no other process has: machine, process, and a random number.
+std::string new_process_name();
+
 struct LeaseTimes {
     std::chrono::milliseconds beat{2000};   // between two signs of life
     std::chrono::milliseconds stale{20000}; // without a sign: the owner is dead
@@ -42,7 +45,8 @@ class Lease {
 // Takes leases in one folder.
 class Leases {
   public:
-    explicit Leases(LeaseTimes times = {});
+    // owner: this process, unlike any other: new_process_name().
+    explicit Leases(std::string owner, LeaseTimes times = {});
     // Returns the lease of `file`, null where another process holds it.
     Result<std::unique_ptr<Lease>> take(const std::string& file);
 
@@ -51,8 +55,8 @@ class Leases {
         std::string content;
         std::chrono::steady_clock::time_point since;
     };
+    std::string owner_;
     LeaseTimes times_;
-    std::string owner_; // this process, unlike any other
     std::map<std::string, Seen> seen_;
 };
 

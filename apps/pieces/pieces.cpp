@@ -6,13 +6,16 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "apps/cli/build.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/pieces/lease.h"
 #include "apps/pieces/share.h"
+#include "apps/pieces/words.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/version.h"
@@ -22,14 +25,21 @@ namespace burnish {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr std::uint64_t kMostPieceBytes = std::uint64_t{1} << 34;
 constexpr char kMagic[8] = {'B', 'N', 'P', 'I', 'E', 'C', 'E', '1'};
 constexpr std::chrono::milliseconds kWait{500}; // between two looks at other processes' pieces
+constexpr const char* kUsualFolder = "pieces";
 
 std::string hex(std::uint64_t value)
 {
     return fmt::format("{:016x}", value);
+}
+
+std::string hash_of(const std::string& text)
+{
+    return hex(hash_bytes(text.data(), text.size()));
 }
 
 std::string file_in(const std::string& folder, const std::string& key)
@@ -37,53 +47,22 @@ std::string file_in(const std::string& folder, const std::string& key)
     return folder + "/" + key + ".piece";
 }
 
-bool exists(const std::string& file)
+// Keeps the command in the folder, for `burnish merge`: once for a list of pieces. Errors: words that are not UTF-8.
+Status write_job(const std::string& folder, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces)
 {
-    std::error_code ignored;
-    return fs::exists(file, ignored);
-}
-
-// An option that changes no file of a job, and whether a value follows.
-struct PieceWord {
-    const char* name;
-    bool takes_value;
-};
-constexpr PieceWord kPieceWords[] = {{"--pieces", false}, {"--piece", true},  {"--shard", true},
-                                     {"--take", false},   {"--merge", false}, {"--work", true}};
-constexpr PieceWord kMachineWords[] = {{"--quiet", false}, {"--verbose", false}, {"--threads", true}, {"-t", true}, {"--isa", true}};
-
-// True for the letters q and v in one word, with t and its number behind them.
-bool says_how_much(const std::string& word)
-{
-    const std::size_t rest = word.size() > 1 && word[0] == '-' ? word.find_first_not_of("qv", 1) : 0;
-    return rest == std::string::npos ||
-           (rest > 0 && word[rest] == 't' && rest + 1 < word.size() && word.find_first_not_of("0123456789", rest + 1) == std::string::npos);
-}
-
-template <std::size_t N> std::vector<std::string> without(const PieceWord (&dropped)[N], const std::vector<std::string>& words)
-{
-    std::vector<std::string> kept;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::string name = words[i].substr(0, words[i].find('='));
-        const auto* const found = std::find_if(std::begin(dropped), std::end(dropped), [&](const PieceWord& w) { return name == w.name; });
-        if (found == std::end(dropped))
-            kept.push_back(words[i]);
-        else if (found->takes_value && words[i] == name)
-            ++i;
+    std::string keys;
+    for (const JobPiece& piece : pieces)
+        keys += piece.key;
+    const std::string file = fmt::format("{}/job-{}.json", folder, hash_of(keys));
+    if (std::error_code ignored; fs::exists(file, ignored))
+        return {};
+    std::string text;
+    try {
+        text = Json({{"burnish", version()}, {"build", hex(program_hash())}, {"words", job_words(words)}}).dump(1) + "\n";
+    } catch (const Json::type_error&) {
+        return usage_error("", "pieces take no words that are not UTF-8");
     }
-    return kept;
-}
-
-std::string job_text(const std::vector<std::string>& words)
-{
-    return nlohmann::json({{"burnish", version()}, {"words", words}}).dump(1) + "\n";
-}
-
-// Keeps the command in the folder, for `burnish merge`.
-Status write_job(const std::string& folder, const std::vector<std::string>& words)
-{
-    const std::string text = job_text(words), file = fmt::format("{}/job-{}.json", folder, hex(hash_bytes(text.data(), text.size())));
-    return exists(file) ? Status() : write_file_atomic(file, text.data(), text.size());
+    return write_file_atomic(file, text.data(), text.size());
 }
 
 // Returns the command that makes one piece.
@@ -92,8 +71,14 @@ std::string command_of(const PieceOptions& options, const std::vector<std::strin
     std::vector<std::string> all = {"burnish"};
     const std::vector<std::string> bare = without_pieces(words);
     all.insert(all.end(), bare.begin(), bare.end());
-    all.insert(all.end(), {"--piece", key, "--work", options.folders.empty() ? "pieces" : options.folders.front()});
+    all.insert(all.end(), {"--piece", key, "--work", options.folders.empty() ? kUsualFolder : options.folders.front()});
     return shell_words(all);
+}
+
+const std::string& process_name()
+{
+    static const std::string name = new_process_name();
+    return name;
 }
 
 bool stopped()
@@ -101,34 +86,60 @@ bool stopped()
     return watch_stop_signals().load();
 }
 
-Status make_piece(const JobPiece& piece, const std::string& folder, std::size_t at, std::size_t count, Report& report)
-{
-    const Activity activity(fmt::format("piece {} of {}", at + 1, count));
-    const std::string file = file_in(folder, piece.key);
-    if (exists(file))
+// Makes pieces in a folder. A whole piece is read once.
+class Maker {
+  public:
+    Maker(std::string folder, const std::vector<JobPiece>& pieces, Report& report)
+        : folder_(std::move(folder)), pieces_(pieces), report_(report)
+    {
+    }
+
+    std::string file(std::size_t i) const { return file_in(folder_, pieces_[i].key); }
+
+    bool whole(std::size_t i)
+    {
+        std::error_code ignored;
+        if (!whole_.count(i) && fs::exists(file(i), ignored) && read_piece(file(i), pieces_[i].key))
+            whole_.insert(i);
+        return whole_.count(i) > 0;
+    }
+
+    // A failure does not count where another process made the piece meanwhile.
+    Status make(std::size_t i)
+    {
+        const Activity activity(fmt::format("piece {} of {}", i + 1, pieces_.size()));
+        if (whole(i))
+            return {};
+        const Status made = pieces_[i].make(file(i));
+        if (!made && !whole(i))
+            return made;
+        if (!stopped())
+            report_.wrote(file(i));
         return {};
-    BN_TRY(piece.make(file));
-    if (!stopped())
-        report.wrote(file);
-    return {};
-}
+    }
+
+  private:
+    std::string folder_;
+    const std::vector<JobPiece>& pieces_;
+    Report& report_;
+    std::set<std::size_t> whole_;
+};
 
 // Takes pieces by lease until all are there.
-Status take_pieces(const std::string& folder, const std::vector<JobPiece>& pieces, Report& report)
+Status take_pieces(Maker& maker, std::size_t count)
 {
-    Leases leases;
+    Leases leases(process_name());
     bool waited = true;
     while (waited && !stopped()) {
         waited = false;
-        for (std::size_t i = 0; i < pieces.size() && !stopped(); ++i) {
-            const std::string file = file_in(folder, pieces[i].key);
-            if (exists(file))
+        for (std::size_t i = 0; i < count && !stopped(); ++i) {
+            if (maker.whole(i))
                 continue;
-            const Result<std::unique_ptr<Lease>> lease = leases.take(file + ".lease");
+            const Result<std::unique_ptr<Lease>> lease = leases.take(maker.file(i) + ".lease");
             BN_TRY(lease);
             waited = waited || !*lease;
             if (*lease)
-                BN_TRY(make_piece(pieces[i], folder, i, pieces.size(), report));
+                BN_TRY(maker.make(i));
         }
         if (waited) {
             const Activity activity("waiting for pieces of other processes");
@@ -138,36 +149,103 @@ Status take_pieces(const std::string& folder, const std::vector<JobPiece>& piece
     return {};
 }
 
-Status make_share(const PieceOptions& options, const std::vector<JobPiece>& pieces, Report& report)
+// Returns the pieces that one process makes by --piece or --shard, by number.
+Result<std::vector<std::size_t>> share_of_pieces(const PieceOptions& options, const std::vector<JobPiece>& pieces)
 {
-    const std::string& folder = options.folders.front();
-    if (options.take)
-        return take_pieces(folder, pieces, report);
+    std::vector<std::size_t> share;
     if (!options.piece.empty()) {
         const auto at = std::find_if(pieces.begin(), pieces.end(), [&](const JobPiece& p) { return p.key == options.piece; });
         if (at == pieces.end())
             return usage_error("--piece", fmt::format("'{}' is no piece of this command; --pieces lists them", options.piece));
-        return make_piece(*at, folder, static_cast<std::size_t>(at - pieces.begin()), pieces.size(), report);
+        share.push_back(static_cast<std::size_t>(at - pieces.begin()));
+    } else if (!options.shard.empty()) {
+        const Result<Share> asked = parse_share(options.shard);
+        BN_TRY(asked);
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            if (asked->holds(i))
+                share.push_back(i);
     }
-    const Result<Share> share = parse_share(options.shard);
+    return share;
+}
+
+Status make_pieces(const PieceOptions& options, const std::string& folder, const std::vector<std::string>& words,
+                   const std::vector<JobPiece>& pieces, Report& report)
+{
+    const Result<std::vector<std::size_t>> share = share_of_pieces(options, pieces);
     BN_TRY(share);
-    for (std::size_t i = 0; i < pieces.size() && !stopped(); ++i)
-        if (share->holds(i))
-            BN_TRY(make_piece(pieces[i], folder, i, pieces.size(), report));
+    BN_TRY(make_output_folder(folder));
+    BN_TRY(write_job(folder, words, pieces));
+    report.release();
+    Maker maker(folder, pieces, report);
+    if (options.take)
+        return take_pieces(maker, pieces.size());
+    for (const std::size_t i : *share)
+        if (!stopped())
+            BN_TRY(maker.make(i));
     return {};
+}
+
+Status list_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces)
+{
+    std::string lines;
+    for (const JobPiece& piece : pieces) {
+        const Result<double> seconds = piece.seconds();
+        BN_TRY(seconds);
+        lines += fmt::format("{} {:.3g} {}\n", piece.key, *seconds, command_of(options, words, piece.key));
+    }
+    std::fputs(lines.c_str(), stdout);
+    return {};
+}
+
+// Removes what lies beside finished pieces: leases, and files in the making of processes that died.
+void sweep(const std::vector<std::string>& folders, const std::vector<JobPiece>& pieces)
+{
+    std::set<std::string> keys;
+    for (const JobPiece& piece : pieces)
+        keys.insert(piece.key);
+    for (const std::string& folder : folders) {
+        std::vector<fs::path> left;
+        std::error_code failed, ignored;
+        for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+            if (const std::string name = at->path().filename(); name.find(".piece.") != std::string::npos && keys.count(name.substr(0, 16)))
+                left.push_back(at->path());
+        for (const fs::path& path : left)
+            fs::remove_all(path, ignored); // what stays does no harm
+    }
+}
+
+// Reads one job file.
+Result<std::vector<std::string>> read_job(const std::string& file)
+{
+    const auto refuse = [&](const std::string& reason) { return Error{ExitCode::bad_input, file, "", reason}; };
+    const Result<std::vector<std::uint8_t>> bytes = read_file(file, 1u << 20);
+    BN_TRY(bytes);
+    const Json job = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
+    const auto text = [&](const char* name) { return job.contains(name) && job[name].is_string() ? job[name].get<std::string>() : ""; };
+    const bool whole = job.is_object() && !text("burnish").empty() && job.contains("words") && job["words"].is_array() &&
+                       !job["words"].empty() &&
+                       std::all_of(job["words"].begin(), job["words"].end(), [](const Json& w) { return w.is_string(); });
+    if (!whole)
+        return refuse("is not a job");
+    if (text("burnish") != version())
+        return refuse(fmt::format("was made by burnish {}, and this is {}", text("burnish"), version()));
+    if (text("build") != hex(program_hash()))
+        return refuse(fmt::format("was made by another build of burnish {}", version()));
+    return job["words"].get<std::vector<std::string>>();
 }
 
 } // namespace
 
 std::vector<Option> piece_options(PieceOptions& to)
 {
-    return {{"--pieces", "", "List the pieces of the job: key, estimated seconds, command", flag(to.list)},
-            {"--shard", "I/N", "Make every N-th piece, from the I-th; auto: as the engine's environment says; auto/N: its index, of N",
-             text(to.shard)},
-            {"--take", "", "Take pieces that no other process has, until all are there", flag(to.take)},
-            {"--piece", "KEY", "Make one piece", text(to.piece)},
-            {"--merge", "", "Put the pieces together, and write the command's files", flag(to.merge)},
-            {"--work", "DIR", "Folder of the pieces, shared by all processes; may be repeated for --merge", texts(to.folders), "pieces"}};
+    return {
+        {"--pieces", "", "List the pieces of the job: key, estimated seconds, command", flag(to.list)},
+        {"--shard", "I/N", "Make every N-th piece, from the I-th; auto: as the engine's environment says; auto/N: its index, of N",
+         text(to.shard)},
+        {"--take", "", "Take pieces that no other process has, until all are there", flag(to.take)},
+        {"--piece", "KEY", "Make one piece", text(to.piece)},
+        {"--merge", "", "Put the pieces together, and write the command's files", flag(to.merge)},
+        {"--work", "DIR", "Folder of the pieces, shared by all processes; may be repeated for --merge", texts(to.folders), kUsualFolder}};
 }
 
 bool any_pieces(const PieceOptions& o)
@@ -188,62 +266,56 @@ Status check_piece_options(const PieceOptions& o)
                            "cannot be combined with another of --pieces, --shard, --take, --piece and --merge");
     if (o.folders.size() > 1 && !o.merge)
         return usage_error("--work", "may be repeated for --merge only");
-    if (!o.shard.empty()) {
-        const Result<Share> share = parse_share(o.shard);
-        BN_TRY(share);
-    }
+    if (!o.shard.empty())
+        BN_TRY(parse_share(o.shard));
     return {};
 }
 
 std::string piece_key(const std::string& text)
 {
-    const std::string all = std::string(version()) + "\n" + text;
-    return hex(hash_bytes(all.data(), all.size()));
+    return hash_of(fmt::format("{} {:016x}\n{}", version(), program_hash(), text));
+}
+
+std::string own_name_beside(const std::string& file, const std::string& extension)
+{
+    return file + "." + hash_of(process_name()) + extension;
 }
 
 int run_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces, Report& report)
 {
-    if (options.list) {
-        std::string lines;
-        for (const JobPiece& piece : pieces)
-            lines += fmt::format("{} {:.3g} {}\n", piece.key, piece.seconds(), command_of(options, words, piece.key));
-        std::fputs(lines.c_str(), stdout);
-        return 0;
-    }
-    report.release();
-    PieceOptions placed = options;
-    if (placed.folders.empty())
-        placed.folders = {"pieces"};
-    for (const Status& done : {make_output_folder(placed.folders.front()), write_job(placed.folders.front(), job_words(words))})
-        if (!done)
-            return fail(done.error());
-    if (const Status made = make_share(placed, pieces, report); !made)
-        return fail(made.error());
+    const std::string folder = options.folders.empty() ? kUsualFolder : options.folders.front();
+    const Status done = options.list ? list_pieces(options, words, pieces) : make_pieces(options, folder, words, pieces, report);
+    if (!done)
+        return fail(done.error());
     return stopped() ? 128 + stop_signal() : 0; // as a shell reports a process ended by a signal
 }
 
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces)
 {
-    const std::vector<std::string> folders = options.folders.empty() ? std::vector<std::string>{"pieces"} : options.folders;
+    const std::vector<std::string> folders = options.folders.empty() ? std::vector<std::string>{kUsualFolder} : options.folders;
     std::vector<std::string> files;
     std::string missing, refused; // commands; why a piece that is there does not count
     std::size_t absent = 0;
     for (const JobPiece& piece : pieces) {
-        const auto at = std::find_if(folders.begin(), folders.end(), [&](const std::string& f) { return exists(file_in(f, piece.key)); });
-        if (at != folders.end()) {
-            files.push_back(file_in(*at, piece.key));
-            const Result<std::vector<std::uint8_t>> content = read_piece(files.back(), piece.key);
-            if (content)
+        bool found = false;
+        for (auto folder = folders.begin(); folder != folders.end() && !found; ++folder) {
+            const std::string file = file_in(*folder, piece.key);
+            if (std::error_code ignored; !fs::exists(file, ignored))
                 continue;
-            if (refused.empty())
+            const Result<std::vector<std::uint8_t>> content = read_piece(file, piece.key);
+            if (found = static_cast<bool>(content); found)
+                files.push_back(file);
+            else if (refused.empty())
                 refused = " (" + content.error().line() + ")";
         }
-        missing += command_of(options, words, piece.key) + "\n";
-        ++absent;
+        if (!found)
+            missing += command_of(options, words, piece.key) + "\n", ++absent;
     }
-    if (!absent)
+    if (!absent) {
+        sweep(folders, pieces);
         return files;
+    }
     std::fputs(missing.c_str(), stdout);
     return Error{ExitCode::golden_missing, join(folders), "",
                  fmt::format("{} of {} pieces are missing{}; standard output has their commands", absent, pieces.size(), refused)};
@@ -284,69 +356,38 @@ Result<std::vector<std::uint8_t>> read_piece(const std::string& file, const std:
     return content;
 }
 
-std::string shell_words(const std::vector<std::string>& words)
+Result<std::vector<std::string>> job_of(const std::vector<std::string>& folders)
 {
-    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/:@%";
-    std::string line;
-    for (const std::string& word : words) {
-        line += line.empty() ? "" : " ";
-        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-            line += word;
-            continue;
-        }
-        line += "'";
-        for (const char c : word)
-            line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += "'";
+    std::set<std::string> names; // of equal jobs in several folders, one
+    std::vector<std::string> files;
+    for (const std::string& folder : folders) {
+        std::error_code failed;
+        for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+            if (const std::string name = at->path().filename();
+                name.starts_with("job-") && name.ends_with(".json") && names.insert(name).second)
+                files.push_back(at->path());
+        if (failed)
+            return Error{ExitCode::bad_input, folder, "", failed.message()};
     }
-    return line;
-}
-
-std::vector<std::string> without_pieces(const std::vector<std::string>& words)
-{
-    return without(kPieceWords, words);
-}
-
-std::vector<std::string> job_words(const std::vector<std::string>& words)
-{
-    std::vector<std::string> kept = without(kMachineWords, without_pieces(words));
-    std::erase_if(kept, says_how_much);
-    return kept;
-}
-
-Result<std::vector<std::string>> job_of(const std::string& folder)
-{
-    const auto refuse = [&](const std::string& reason) { return Error{ExitCode::bad_input, folder, "", reason}; };
-    std::vector<std::string> jobs;
-    std::error_code failed;
-    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
-        if (const std::string name = at->path().filename(); name.starts_with("job-") && name.ends_with(".json"))
-            jobs.push_back(at->path());
-    if (failed)
-        return refuse(failed.message());
-    if (jobs.empty())
+    const auto refuse = [&](const std::string& reason) { return Error{ExitCode::bad_input, join(folders), "", reason}; };
+    if (files.empty())
         return refuse("holds no job; --shard, --take and --piece write one");
-    std::sort(jobs.begin(), jobs.end());
+    std::sort(files.begin(), files.end());
     std::vector<std::vector<std::string>> commands;
-    for (const std::string& file : jobs) {
-        const Result<std::vector<std::uint8_t>> bytes = read_file(file, 1u << 20);
-        BN_TRY(bytes);
-        const nlohmann::json job = nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false);
-        const bool whole = job.is_object() && job.contains("burnish") && job["burnish"].is_string() && job.contains("words") &&
-                           job["words"].is_array() && !job["words"].empty() &&
-                           std::all_of(job["words"].begin(), job["words"].end(), [](const nlohmann::json& w) { return w.is_string(); });
-        if (!whole)
-            return Error{ExitCode::bad_input, file, "", "is not a job"};
-        if (job["burnish"] != version())
-            return Error{ExitCode::bad_input, file, "",
-                         fmt::format("was made by burnish {}, and this is {}", job["burnish"].get<std::string>(), version())};
-        commands.push_back(job["words"].get<std::vector<std::string>>());
+    for (const std::string& file : files) {
+        Result<std::vector<std::string>> words = read_job(file);
+        BN_TRY(words);
+        commands.push_back(std::move(*words));
     }
     if (commands.size() == 1)
         return commands.front();
     std::string all;
-    for (const std::vector<std::string>& words : commands)
-        all += "burnish " + shell_words(words) + " --merge --work " + shell_words({folder}) + "\n";
+    for (const std::vector<std::string>& words : commands) {
+        all += "burnish " + shell_words(words) + " --merge";
+        for (const std::string& folder : folders)
+            all += " --work " + shell_words({folder});
+        all += "\n";
+    }
     std::fputs(all.c_str(), stdout);
     return refuse("holds pieces of several jobs; standard output has a command that merges each");
 }

@@ -25,18 +25,20 @@ Status check_piece_options(const PieceOptions& o);
 
 struct JobPiece {
     std::string key;                                // 16 hexadecimal digits
-    std::function<double()> seconds;                // estimated time on this machine, s
-    std::function<Status(const std::string&)> make; // writes this file, atomically
+    std::function<Result<double>()> seconds;        // estimated time on this machine, s
+    std::function<Status(const std::string&)> make; // writes this file, atomically; nothing where a signal stopped the process
 };
 
-// Returns the key of a piece from the text of all that decides its content. The program's version joins it.
+// Returns the key of a piece from the text of all that decides its content. The program's build joins it.
 std::string piece_key(const std::string& text);
+// Returns a name beside a piece's that no other process uses, for what is in the making. A merge sweeps those of dead processes.
+std::string own_name_beside(const std::string& file, const std::string& extension);
 
 // Lists pieces, or makes those that the options name. Returns the exit code. words: the command, from its subcommand on.
 int run_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces, Report& report);
 
-// Returns the pieces' files, in order. Where some are missing, prints a command for each on standard output; the error has
-// ExitCode::golden_missing.
+// Returns the pieces' files, in order, and sweeps what dead processes left. Where some are missing, prints a command for each on standard
+// output; the error has ExitCode::golden_missing.
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces);
 
@@ -44,14 +46,7 @@ Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, co
 Status write_piece(const std::string& file, const std::string& key, const std::vector<std::uint8_t>& content);
 Result<std::vector<std::uint8_t>> read_piece(const std::string& file, const std::string& key);
 
-// Returns words that a shell reads as these.
-std::string shell_words(const std::vector<std::string>& words);
-// Returns a command without its options of pieces.
-std::vector<std::string> without_pieces(const std::vector<std::string>& words);
-// The same without what changes no file of the job either: threads, instruction set, messages.
-std::vector<std::string> job_words(const std::vector<std::string>& words);
-
-// The command that a folder's pieces belong to, from its subcommand on. Errors: no job, several, or of another version.
-Result<std::vector<std::string>> job_of(const std::string& folder);
+// Returns the command that a folder's pieces belong to, from its subcommand on. Errors: no job, several, or of another build.
+Result<std::vector<std::string>> job_of(const std::vector<std::string>& folders);
 
 } // namespace burnish

@@ -19,18 +19,19 @@ std::optional<std::uint64_t> whole(const std::string& text)
     return error == std::errc() && end == text.data() + text.size() && value <= kMostShares ? std::optional(value) : std::nullopt;
 }
 
-// Variables of an engine. last: the largest index or, without `counts`, the number of processes. Null: the engine does not tell.
+// Variables of an engine. first, last, step: of an array's indices. count: the number of tasks or processes. Null: the engine does not
+// tell.
 struct Engine {
-    const char *index, *first, *last, *step;
-    bool counts; // `last` is an index, to be taken with `first` and `step`
+    const char *index, *first, *last, *step, *count;
 };
 // Array tasks come before processes: each task of an array is one process too.
-constexpr Engine kEngines[] = {{"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP", true},
-                               {"SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE", true},
-                               {"OMPI_COMM_WORLD_RANK", nullptr, "OMPI_COMM_WORLD_SIZE", nullptr, false},
-                               {"PMI_RANK", nullptr, "PMI_SIZE", nullptr, false},
-                               {"SLURM_PROCID", nullptr, "SLURM_NTASKS", nullptr, false},
-                               {"JOB_COMPLETION_INDEX", nullptr, nullptr, nullptr, false}};
+constexpr Engine kEngines[] = {
+    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP", "SLURM_ARRAY_TASK_COUNT"},
+    {"SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE", nullptr},
+    {"OMPI_COMM_WORLD_RANK", nullptr, nullptr, nullptr, "OMPI_COMM_WORLD_SIZE"},
+    {"PMI_RANK", nullptr, nullptr, nullptr, "PMI_SIZE"},
+    {"SLURM_PROCID", nullptr, nullptr, nullptr, "SLURM_NTASKS"},
+    {"JOB_COMPLETION_INDEX", nullptr, nullptr, nullptr, nullptr}};
 
 // Returns the share that an engine tells. asked: the number of shares, where the user says it.
 Result<Share> share_of(const Engine& engine, std::uint64_t index, std::optional<std::uint64_t> asked, ReadVariable read)
@@ -39,15 +40,14 @@ Result<Share> share_of(const Engine& engine, std::uint64_t index, std::optional<
         const char* const text = name ? read(name) : nullptr;
         return text ? whole(text) : std::nullopt;
     };
-    const std::uint64_t first = number(engine.first).value_or(engine.first ? 1 : 0), step = number(engine.step).value_or(1);
-    const std::optional<std::uint64_t> last = number(engine.last);
+    const std::uint64_t first = number(engine.first).value_or(0), step = number(engine.step).value_or(1);
+    const std::optional<std::uint64_t> last = number(engine.last), told = number(engine.count);
     if (step == 0 || index < first || (index - first) % step != 0)
         return usage_error("--shard", fmt::format("auto: {} is {}, which is none of its array", engine.index, index));
-    std::optional<std::uint64_t> count = asked;
-    if (!count && last && engine.counts && *last >= first)
-        count = (*last - first) / step + 1;
-    else if (!count && last && !engine.counts)
-        count = *last;
+    const std::optional<std::uint64_t> of_array = last && *last >= first ? std::optional((*last - first) / step + 1) : std::nullopt;
+    if (!asked && told && of_array && *told != *of_array)
+        return usage_error("--shard", fmt::format("auto: the array has {} tasks of {} indices; --take needs no index", *told, *of_array));
+    const std::optional<std::uint64_t> count = asked ? asked : told ? told : of_array;
     if (!count)
         return usage_error("--shard", fmt::format("auto: {} tells the index alone; auto/N says how many shares there are", engine.index));
     const Share share = {(index - first) / step, *count};

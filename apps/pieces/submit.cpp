@@ -1,32 +1,40 @@
 #include "apps/pieces/submit.h"
 
 #include <algorithm>
+#include <cstring>
+#include <fmt/core.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "apps/pieces/pieces.h"
+#include "apps/cli/report.h"
+#include "apps/pieces/words.h"
 
 namespace burnish {
 namespace {
 
-// Places in a template: @COMMAND@, the burnish command as shell words; @JOB@, the same as one shell word with its share; @WORK@; @SHARDS@;
-// @LAST@, one less; @MOST@, as many as run at once; @SHARES@, 1, 2, ... with commas; @YAML@, the command's words as a list in JSON;
-// @MERGE@, a shell line that merges, makes what is missing, and merges again.
+// Places in a template: @COMMAND@, the burnish command as shell words; @TAKE@, one shell word that takes pieces; @SHARD@, the same as JSON,
+// for one share; @ARGS@, the command's words and its share as a list in JSON; @WORK@ and @WORKJSON@; @SHARDS@; @LAST@, one less; @MOST@, as
+// many as run at once; @SHARES@, 1, 2, ... with commas; @MERGE@, a shell line that merges, makes what is missing, and merges again;
+// @MERGEWORD@ and @MERGEJSON@.
 struct Script {
     const char *name, *text;
+    bool limits = true;  // how many run at once
+    int most_shards = 0; // 0: any number
 };
 constexpr Script kScripts[] = {
     {"slurm", R"(#!/bin/sh
 # Run by sh: submits an array, then a merge that waits for it.
 set -e
-array=$(sbatch --parsable --array=0-@LAST@%@MOST@ --requeue --wrap @JOB@)
-sbatch --dependency="afterany:$array" --wrap @MERGEJOB@
+array=$(sbatch --parsable --array=0-@LAST@%@MOST@ --requeue --wrap @TAKE@)
+sbatch --dependency="afterany:$array" --wrap @MERGEWORD@
 )"},
     {"mpi", R"(#!/bin/sh
 # Needs OpenMPI's mpirun; burnish itself uses no MPI. A rank that fails does not end the others: the merge finds what is missing.
 mpirun -n @SHARDS@ --mca orte_abort_on_non_zero_status 0 @COMMAND@ --shard auto --work @WORK@ || true
 @MERGE@
-)"},
+)",
+     false},
     {"parallel", R"(#!/bin/sh
 # Needs GNU parallel. Run again, it goes on with the pieces that are missing.
 set -e
@@ -52,7 +60,7 @@ spec:
         - name: burnish
           image: IMAGE
           workingDir: /job
-          command: ["sh", "-c", @SHARDJSON@]
+          command: ["sh", "-c", @SHARD@]
           volumeMounts: [{name: job, mountPath: /job}]
       volumes: [{name: job, persistentVolumeClaim: {claimName: CLAIM}}]
 # When this job is complete, run in the same folder: @MERGE@
@@ -76,8 +84,11 @@ steps:
         onRun:
           command: sh
           args: ["-c", @MERGEJSON@]
-)"},
-    {"github", R"(jobs:
+)",
+     false},
+    {"github", R"(name: burnish pieces
+on: workflow_dispatch
+jobs:
   pieces:
     runs-on: ubuntu-latest
     strategy:
@@ -88,9 +99,12 @@ steps:
     steps:
       - uses: actions/checkout@v4
       # Install burnish here.
-      - run: @COMMAND@ --shard ${{ matrix.share }}/@SHARDS@ --work @WORK@
+      - run: |
+          @COMMAND@ --shard ${{ matrix.share }}/@SHARDS@ --work @WORK@
       - uses: actions/upload-artifact@v4
-        with: {name: "pieces-${{ matrix.share }}", path: @WORK@}
+        with:
+          name: pieces-${{ matrix.share }}
+          path: @WORKJSON@
   merge:
     needs: pieces
     if: always()
@@ -99,18 +113,38 @@ steps:
       - uses: actions/checkout@v4
       # Install burnish here.
       - uses: actions/download-artifact@v4
-        with: {pattern: "pieces-*", path: @WORK@, merge-multiple: true}
-      - run: @MERGE@
-)"}};
+        with:
+          pattern: pieces-*
+          path: @WORKJSON@
+          merge-multiple: true
+      - run: |
+          @MERGE@
+)",
+     true, 256}};
 
-std::string replaced(std::string text, const std::string& place, const std::string& by)
+// Replaces each place of a template once: what a place holds is not read again.
+template <std::size_t N> std::string filled(const std::string& text, const std::pair<const char*, std::string> (&places)[N])
 {
-    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + by.size()))
-        text.replace(at, place.size(), by);
-    return text;
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto place = std::find_if(std::begin(places), std::end(places),
+                                        [&](const auto& p) { return text.compare(at, std::strlen(p.first), p.first) == 0; });
+        if (place == std::end(places)) {
+            out += text[at++];
+            continue;
+        }
+        out += place->second;
+        at += std::strlen(place->first);
+    }
+    return out;
 }
 
-std::string json(const nlohmann::json& value)
+const Script& script_of(const std::string& engine)
+{
+    return *std::find_if(std::begin(kScripts), std::end(kScripts), [&](const Script& s) { return engine == s.name; });
+}
+
+std::string as_json(const nlohmann::json& value)
 {
     return value.dump();
 }
@@ -125,33 +159,44 @@ std::vector<std::string> submit_engines()
     return names;
 }
 
+Status check_submit(const SubmitOptions& options)
+{
+    const Script& script = script_of(options.engine);
+    if (options.at_once && !script.limits)
+        return usage_error("--at-once", std::string(script.name) + " runs all at once");
+    if (script.most_shards && options.shards > script.most_shards)
+        return usage_error("--shards", fmt::format("{} takes at most {}", script.name, script.most_shards));
+    const std::string words = shell_words(options.words) + shell_words({options.work});
+    if (words.find("${{") != std::string::npos || words.find('\n') != std::string::npos)
+        return usage_error("COMMAND", "holds a line break or ${{, which a script would read otherwise");
+    return {};
+}
+
 std::string submit_script(const SubmitOptions& options)
 {
-    const auto engine = std::find_if(std::begin(kScripts), std::end(kScripts), [&](const Script& e) { return options.engine == e.name; });
     const std::string shards = std::to_string(options.shards), work = shell_words({options.work});
     const std::string command = "burnish " + shell_words(options.words);
-    const std::string merge = "burnish merge " + work + " > /dev/null || { burnish merge " + work + " | sh; burnish merge " + work + "; }";
+    const std::string once = command + " --merge --work " + work;
+    const std::string merge = once + " > /dev/null || { " + once + " | sh; " + once + "; }";
     std::vector<std::string> args = options.words;
     args.insert(args.end(), {"--shard", "{{Task.Param.Share}}/" + shards, "--work", options.work});
     std::string shares;
     for (int i = 1; i <= options.shards; ++i)
         shares += (i > 1 ? ", " : "") + std::to_string(i);
-    std::string text = engine->text;
     const std::pair<const char*, std::string> places[] = {{"@COMMAND@", command},
-                                                          {"@JOB@", shell_words({command + " --take --work " + work})},
-                                                          {"@SHARDJSON@", json(command + " --shard auto/" + shards + " --work " + work)},
-                                                          {"@MERGEJOB@", shell_words({merge})},
-                                                          {"@MERGEJSON@", json(merge)},
+                                                          {"@TAKE@", shell_words({command + " --take --work " + work})},
+                                                          {"@SHARD@", as_json(command + " --shard auto/" + shards + " --work " + work)},
+                                                          {"@MERGEWORD@", shell_words({merge})},
+                                                          {"@MERGEJSON@", as_json(merge)},
                                                           {"@MERGE@", merge},
-                                                          {"@ARGS@", json(args)},
+                                                          {"@ARGS@", as_json(args)},
+                                                          {"@WORKJSON@", as_json(options.work)},
                                                           {"@WORK@", work},
                                                           {"@SHARDS@", shards},
                                                           {"@SHARES@", shares},
                                                           {"@LAST@", std::to_string(options.shards - 1)},
                                                           {"@MOST@", std::to_string(options.at_once ? options.at_once : options.shards)}};
-    for (const auto& [place, by] : places)
-        text = replaced(text, place, by);
-    return text;
+    return filled(script_of(options.engine).text, places);
 }
 
 } // namespace burnish

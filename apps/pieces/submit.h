@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
+
 namespace burnish {
 
 struct SubmitOptions {
@@ -14,6 +16,8 @@ struct SubmitOptions {
 };
 
 std::vector<std::string> submit_engines();
+// Refuses what the engine does not take, and words that its script would read otherwise.
+Status check_submit(const SubmitOptions& options);
 std::string submit_script(const SubmitOptions& options);
 
 } // namespace burnish

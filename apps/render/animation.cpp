@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "apps/cli/lab.h"
@@ -17,9 +18,9 @@
 #include "apps/pieces/pieces.h"
 #include "apps/render/picture.h"
 #include "apps/render/planned.h"
-#include "core/base/check.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/image/io/apng.h"
 #include "core/image/io/image_io.h"
 #include "raster/reference/scene_key.h"
@@ -99,6 +100,7 @@ class Animation {
         Result<RenderOptions> options = check_render_options(arguments_, given_);
         BN_TRY(options);
         out.options = std::move(*options);
+        out.options.in_pieces = any_pieces(arguments_.pieces);
         std::vector<std::string> pictures;
         for (const std::string& output : out.options.outputs)
             if (!is_one_of(output, movies_))
@@ -222,49 +224,119 @@ Status write_movies(const std::vector<std::string>& paths, const MovingPicture& 
     return {};
 }
 
-// Draws a step into a piece: its files, and its picture in moving ones.
+// Formats of the row's pictures, each once.
+std::set<std::string> formats_of(const Step& step)
+{
+    std::set<std::string> formats;
+    for (const std::string& path : step.options.outputs)
+        formats.insert(extension_of(path));
+    return formats;
+}
+
+// Draws a step into a piece: its picture in each format, and in moving pictures.
 Status write_step(Row& row, int i, const std::string& file, const std::string& key)
 {
     const Step step = std::move(*row.animation.step(i));
     const Result<Rendered> rendered = draw_step(row, step, i);
     BN_TRY(rendered);
+    if (rendered->figures.frame.sampling.stopped)
+        return {};
     if (rendered->figures.nan_pixels)
         return Error{ExitCode::not_finite, step.options.scene, fmt::format("step {}", i),
                      fmt::format("{} pixels are NaN or Inf", rendered->figures.nan_pixels)};
     Packed packed;
-    for (const std::string& path : step.options.outputs) {
-        const std::string own = fmt::format("{}.{}.{}", file, packed.files.size(), extension_of(path));
+    for (const std::string& format : formats_of(step)) {
+        const std::string own = own_name_beside(file, "." + format);
         BN_TRY(write_rendered(own, *rendered, step.options));
         Result<std::vector<std::uint8_t>> bytes = take_file(own);
         BN_TRY(bytes);
-        packed.files.push_back({path, std::move(*bytes)});
+        packed.files.push_back({format, std::move(*bytes)});
     }
     if (!row.animation.movies().empty()) {
         const Image shown = shown_picture(step, *rendered);
-        packed.json = Json({{"width", shown.width}, {"height", shown.height}, {"channels", shown.channels}}).dump();
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(shown.bytes.data());
-        packed.files.push_back({"", {bytes, bytes + shown.bytes.size()}});
+        packed.json = Json({shown.width, shown.height, shown.channels}).dump();
+        packed.files.push_back({"shown", {bytes, bytes + shown.bytes.size()}});
     }
     return write_piece(file, key, pack(packed));
 }
 
-// Returns the steps' pieces. The key holds the command, since any option may change a picture.
-std::vector<JobPiece> row_pieces(Row& row, const RenderOptions& first, const std::vector<std::string>& words)
+// Returns a hash over the content of a file, or of all files of a folder. A missing one has a hash, too.
+std::uint64_t hash_of_files(const std::string& path)
 {
-    const std::uint64_t scene = reference_key(row.session.parts().input(), row.session.drawn(first.frame), first.reference);
+    std::vector<std::string> files;
+    std::error_code failed, ignored;
+    if (fs::is_directory(path, ignored))
+        for (fs::recursive_directory_iterator at(path, failed), end; !failed && at != end; at.increment(failed))
+            files.push_back(at->path());
+    else
+        files.push_back(path);
+    std::sort(files.begin(), files.end());
+    std::uint64_t hash = 0;
+    for (const std::string& file : files)
+        if (const Result<std::vector<std::uint8_t>> bytes = read_file(file, std::uint64_t{1} << 36); bytes)
+            hash = hash_bytes(bytes->data(), bytes->size(), hash);
+    return hash;
+}
+
+// Returns all that decides the row's pictures, as text: scene and light, and each given option by its name and texts. Files count by their
+// content. Outputs count by their formats.
+std::string text_of_row(const Row& row, const RenderOptions& first, const OptionTable& given)
+{
+    const SessionParts& parts = row.session.parts();
+    std::string text = fmt::format("{:016x} {:016x} {}", reference_key(parts.input(), row.session.drawn(first.frame), first.reference),
+                                   parts.environment->content_hash, row.animation.count());
+    for (const Option& option : given.options()) {
+        const bool elsewhere = option.output || option.group == "Machine" || option.name == "--quiet" || option.name == "--verbose" ||
+                               option.name == "SCENE" || option.group.starts_with("Pieces");
+        if (!option.given || elsewhere)
+            continue;
+        const bool file = option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder;
+        text += "\n" + option.name;
+        for (const std::string& word : option.texts)
+            text += file && !word.starts_with("builtin:") ? fmt::format(" {:016x}", hash_of_files(word)) : " " + word;
+    }
+    const std::set<std::string> formats = formats_of(std::move(*row.animation.step(0)));
+    for (const std::string& format : formats)
+        text += "\n" + format;
+    return text + (row.animation.movies().empty() ? "" : "\nshown");
+}
+
+std::vector<JobPiece> row_pieces(Row& row, const RenderOptions& first, const OptionTable& given)
+{
+    const std::string text = text_of_row(row, first, given);
     const auto rate = std::make_shared<std::optional<double>>();
     std::vector<JobPiece> pieces;
     for (int i = 0; i < row.animation.count(); ++i) {
-        const std::string key = piece_key(fmt::format("step {} {:016x} {}", i, scene, shell_words(words)));
-        const auto seconds = [&row, rate] {
+        const std::string key = piece_key(fmt::format("step {} {}", i, text));
+        const auto seconds = [&row, rate]() -> Result<double> {
             const double begin = wall_ms();
-            if (!*rate && draw_step(row, std::move(*row.animation.step(0)), 0))
+            if (!*rate) {
+                BN_TRY(draw_step(row, std::move(*row.animation.step(0)), 0));
                 *rate = (wall_ms() - begin) * 1e-3;
-            return rate->value_or(0.0);
+            }
+            return **rate;
         };
         pieces.push_back({key, seconds, [&row, i, key](const std::string& file) { return write_step(row, i, file, key); }});
     }
     return pieces;
+}
+
+// Returns a picture that write_step() packed.
+Result<Image> shown_of(const Packed& packed, const PackedFile& file, const std::string& path)
+{
+    const Error damaged = {ExitCode::bad_input, path, "", "is a damaged piece"};
+    const Json size = Json::parse(packed.json, nullptr, false);
+    if (!size.is_array() || size.size() != 3 ||
+        !std::all_of(size.begin(), size.end(), [](const Json& n) { return n.is_number_unsigned(); }))
+        return damaged;
+    const auto width = size[0].get<std::uint64_t>(), height = size[1].get<std::uint64_t>(), channels = size[2].get<std::uint64_t>();
+    if (width < 1 || height < 1 || channels < 1 || channels > 4 || width > file.bytes.size() || height > file.bytes.size() ||
+        width * height * channels != file.bytes.size())
+        return damaged;
+    Image shown = make_image(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels), PixelType::u8);
+    std::memcpy(shown.bytes.data(), file.bytes.data(), file.bytes.size());
+    return shown;
 }
 
 // Writes the files of all steps from their pieces.
@@ -276,26 +348,33 @@ Status merge_row(Row& row, const std::vector<std::string>& files, const std::vec
         BN_TRY(content);
         Result<Packed> packed = unpack(*content, files[i]);
         BN_TRY(packed);
-        for (const PackedFile& file : packed->files) {
-            if (!file.name.empty()) {
-                BN_TRY(write_file_atomic(file.name, file.bytes.data(), file.bytes.size()));
-                report.wrote(file.name);
-                continue;
-            }
-            const Json size = Json::parse(packed->json);
-            Image shown = make_image(size["width"], size["height"], size["channels"], PixelType::u8);
-            BN_CHECK(shown.bytes.size() == file.bytes.size());
-            std::memcpy(shown.bytes.data(), file.bytes.data(), file.bytes.size());
-            BN_TRY(movie.add(row.animation.movies()[0], shown));
+        const auto part = [&](const std::string& name) {
+            return std::find_if(packed->files.begin(), packed->files.end(), [&](const PackedFile& f) { return f.name == name; });
+        };
+        const Step step = std::move(*row.animation.step(static_cast<int>(i)));
+        for (const std::string& path : step.options.outputs) {
+            const auto found = part(extension_of(path));
+            if (found == packed->files.end())
+                return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
+            BN_TRY(write_file_atomic(path, found->bytes.data(), found->bytes.size()));
+            report.wrote(path);
         }
+        if (row.animation.movies().empty())
+            continue;
+        const auto found = part("shown");
+        if (found == packed->files.end())
+            return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
+        const Result<Image> shown = shown_of(*packed, *found, files[i]);
+        BN_TRY(shown);
+        BN_TRY(movie.add(row.animation.movies()[0], *shown));
     }
     return write_movies(row.animation.movies(), movie, report);
 }
 
-int run_row_pieces(const PieceOptions& options, Row& row, const RenderOptions& first, Report& report)
+int run_row_pieces(const PieceOptions& options, Row& row, const RenderOptions& first, const OptionTable& given, Report& report)
 {
     const std::vector<std::string>& words = kept_words();
-    const std::vector<JobPiece> pieces = row_pieces(row, first, job_words(words));
+    const std::vector<JobPiece> pieces = row_pieces(row, first, given);
     if (!options.merge)
         return run_pieces(options, words, pieces, report);
     const auto files = finished_pieces(options, words, pieces);
@@ -339,7 +418,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
         return fail(planned.error());
     Row drawn{*row, *session, turntable, *planned, figures, lost_checkpoint};
     if (any_pieces(arguments.pieces))
-        return run_row_pieces(arguments.pieces, drawn, first, report);
+        return run_row_pieces(arguments.pieces, drawn, first, given, report);
     report.release();
     Json steps = Json::array();
     RenderFigures last = figures;

@@ -123,7 +123,7 @@ Status check_pieces(const RenderArguments& arguments, const OptionTable& given, 
     BN_TRY(check_piece_options(arguments.pieces));
     if (!any_pieces(arguments.pieces))
         return {};
-    for (const char* other : {"--checkpoint", "--frames", "--trace", "--plan", "--plan-out", "--verify", "--risks"})
+    for (const char* other : {"--checkpoint", "--target-error", "--frames", "--trace", "--plan", "--plan-out", "--verify", "--risks"})
         if (given.given(other))
             return usage_error(other, "cannot be combined with pieces");
     if (given.given("--stats") && row)
@@ -147,7 +147,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return fail(checked.error());
     checked->mips.frames_override = sets_materials(checked->frame);
     if (any_pieces(arguments.pieces))
-        checked->reference.part = std::make_shared<ReferencePart>();
+        checked->reference.part = std::make_shared<ReferencePart>(), checked->in_pieces = true;
     const RenderOptions& options = *checked;
     if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
         return fail(paths.error());

@@ -102,7 +102,7 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
     session.isa = options.isa;
     session.vulkan = options.vulkan;
     session.reference = options.reference;
-    if (session.backend == Backend::reference && (!options.reference.checkpoint.empty() || options.reference.part))
+    if (session.backend == Backend::reference && (!options.reference.checkpoint.empty() || options.in_pieces))
         session.reference.stop = &watch_stop_signals();
     session.reference.lost_checkpoint = [&lost_checkpoint](const Error& error) { lost_checkpoint = error; };
     return session;

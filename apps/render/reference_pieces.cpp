@@ -27,26 +27,28 @@ Result<Frame> render_blocks(const RenderOptions& options, FrameDesc desc, Sessio
 }
 
 // Returns the time of some passes over some blocks, s.
-double seconds_of_passes(const RenderOptions& options, const FrameDesc& desc, Session& session, std::uint32_t probes, std::uint64_t passes)
+Result<double> seconds_of_passes(const RenderOptions& options, const FrameDesc& desc, Session& session, std::uint32_t probes,
+                                 std::uint64_t passes)
 {
     const std::uint32_t blocks = reference_blocks(desc.width, desc.height);
     const double begin = wall_ms();
     for (std::uint32_t i = 0; i < probes; ++i)
-        static_cast<void>(
-            static_cast<bool>(render_blocks(options, desc, session, (2 * i + 1) * blocks / (2 * probes), 1, passes * kPassSamples)));
+        BN_TRY(render_blocks(options, desc, session, (2 * i + 1) * blocks / (2 * probes), 1, passes * kPassSamples));
     return (wall_ms() - begin) * 1e-3;
 }
 
 // Returns the time of one sample of one pixel on this machine, s. Two lengths of passes, so that a picture's own set-up does not count.
-double seconds_per_sample(const RenderOptions& options, const FrameDesc& desc, Session& session)
+Result<double> seconds_per_sample(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
     constexpr std::uint64_t kShort = 1, kLong = 9;
     const std::uint32_t blocks = reference_blocks(desc.width, desc.height), probes = std::min(kProbes, blocks);
-    static_cast<void>(seconds_of_passes(options, desc, session, 1, kShort)); // warms up
-    const double few = seconds_of_passes(options, desc, session, probes, kShort),
-                 many = seconds_of_passes(options, desc, session, probes, kLong);
+    BN_TRY(seconds_of_passes(options, desc, session, 1, kShort)); // warms up
+    const Result<double> few = seconds_of_passes(options, desc, session, probes, kShort);
+    BN_TRY(few);
+    const Result<double> many = seconds_of_passes(options, desc, session, probes, kLong);
+    BN_TRY(many);
     const double at_once = std::min<double>(session.parts().jobs->threads(), blocks);
-    return std::max(many - few, 0.0) / (probes * at_once * static_cast<double>(kPixelsOfBlock * kPassSamples * (kLong - kShort)));
+    return std::max(*many - *few, 0.0) / (probes * at_once * static_cast<double>(kPixelsOfBlock * kPassSamples * (kLong - kShort)));
 }
 
 } // namespace
@@ -63,9 +65,12 @@ std::vector<JobPiece> reference_pieces(const RenderOptions& options, const Frame
     for (std::uint32_t first = 0; first < blocks; first += each) {
         const std::uint32_t count = std::min(each, blocks - first);
         const std::string key = piece_key(fmt::format("reference {:016x} {} {} {}", picture, samples, first, count));
-        const auto seconds = [&options, desc, &session, rate, count, samples] {
-            if (!*rate)
-                *rate = seconds_per_sample(options, desc, session);
+        const auto seconds = [&options, desc, &session, rate, count, samples]() -> Result<double> {
+            if (!*rate) {
+                const Result<double> measured = seconds_per_sample(options, desc, session);
+                BN_TRY(measured);
+                *rate = *measured;
+            }
             return **rate * static_cast<double>(count * kPixelsOfBlock * samples);
         };
         const auto make = [&options, desc, &session, first, count, key](const std::string& file) -> Status {

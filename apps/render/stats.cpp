@@ -8,8 +8,6 @@
 
 #include "apps/cli/environment_text.h"
 #include "apps/options/parameters.h"
-#include "core/base/file.h"
-#include "core/base/hash.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/scene/gltf/extensions.h"
@@ -44,14 +42,6 @@ std::uint64_t peak_memory_bytes()
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
-}
-
-std::uint64_t program_hash()
-{
-    constexpr std::uint64_t kMaxProgramBytes = 1ull << 30;
-    const Result<std::vector<std::uint8_t>> bytes = read_file("/proc/self/exe", kMaxProgramBytes);
-    const std::string name = version();
-    return bytes ? hash_bytes(bytes->data(), bytes->size()) : hash_bytes(name.data(), name.size());
 }
 
 Json stats_json(const RenderOptions& options, const RenderFigures& figures)

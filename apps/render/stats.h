@@ -43,7 +43,6 @@ double percentile_95(std::vector<double> values); // nearest rank
 
 std::string hash_text(std::uint64_t hash); // 16 hexadecimal digits
 std::uint64_t peak_memory_bytes();         // peak resident size of this process
-std::uint64_t program_hash();              // over this executable's bytes: another build may render other pixels
 
 Json stats_json(const RenderOptions& options, const RenderFigures& figures);
 

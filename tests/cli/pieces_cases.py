@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import shlex
 import shutil
 import signal
 import socket
@@ -113,12 +114,16 @@ def damaged(bench):
     files[0].write_bytes(whole.replace(version, b"0.0.1", 1))
     found = bench.run("merge", "w").expect(5)
     check("0.0.1" in found.err and not (bench.folder / "o_0.png").exists(), found.describe())
-    files[0].write_bytes(whole)
+    check(shell(bench, found.out.strip()).returncode == 0 and files[0].read_bytes() == whole, "the printed command does not mend it")
+    files[1].write_bytes(b"x")
+    bench.run(*words, "--take", "--work", "w").expect(0)
     bench.run("merge", "w").expect(0)
     job, = (bench.folder / "w").glob("job-*.json")
     text = job.read_text()
     job.write_text(text.replace(version.decode(), "0.0.1"))
     bench.run("merge", "w").expect(4).expect_one_line("0.0.1")
+    job.write_text(re.sub('"build": "[0-9a-f]*"', '"build": "0123456789abcdef"', text))
+    bench.run("merge", "w").expect(4).expect_one_line("another build")
     job.write_text("{")
     bench.run("merge", "w").expect(4).expect_one_line("is not a job")
     job.write_text(text)
@@ -138,6 +143,13 @@ def wrong(bench):
                           ((*row, "--take", "--work", "a", "--work", "b"), "--merge"), ((*row, "--piece", "12", "--work", "w"), "no piece"),
                           ((*row, "--take", "--stats", "s.json"), "--stats"), (("render", "builtin:plate", "--pieces"), "--backend"),
                           ((*REFERENCE, "--checkpoint", "c.part", "--pieces"), "--checkpoint"),
+                          ((*REFERENCE, "--target-error", "0.1", "--take"), "--target-error"),
+                          (("submit", "--for", "mpi", "--", "render", "builtin:plate"), "no pieces"),
+                          (("submit", "--for", "mpi", "--", "chart", "--mip", "-o", "r"), "no pieces"),
+                          (("submit", "--for", "mpi", "--at-once", "2", "--", *row), "--at-once"),
+                          (("submit", "--for", "github", "--shards", "257", "--", *row), "256"),
+                          (("submit", "--for", "github", "--", "chart", "${{ secrets.all }}.glb", "-o", "r"), "${{"),
+                          ((*ROW, "-o", "\udcff_%d.png", "--take"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
                           (("submit", "--for", "lsf", "--", *row), "slurm")):
@@ -147,6 +159,8 @@ def wrong(bench):
     bench.run("merge", "none").expect(4).expect_one_line("none")
     (bench.folder / "empty").mkdir()
     bench.run("merge", "empty").expect(4).expect_one_line("holds no job")
+    bench.run(*row, "--piece", "0123456789abcdef", "--work", "w").expect(2)
+    check(not (bench.folder / "w").exists(), "a refused command leaves a job")
     bench.run("render", "gone.glb", *ROW[2:], "-o", "o_%d.png", "--shard", "1/2", "--work", "w").expect(4).expect_one_line("gone.glb")
 
 
@@ -214,6 +228,75 @@ def twice(bench):
         (bench.folder / "o.apng").unlink()
         bench.run("merge", *order).expect(0)
         check((bench.folder / "o.apng").read_bytes() == whole, f"{order} gives other bytes")
+
+
+def keys(bench, *words):
+    return [key for key, _, _ in pieces_of(bench, words)]
+
+
+@case("pieces.have_keys_by_content")
+def content(bench):
+    """Names of outputs, threads and messages change no key. Options and the content of files do, also where a path stays."""
+    own = keys(bench, *ROW, "-o", "o_%d.png")
+    for words in ((*ROW, "-o", "other_%d.png"), (*ROW, "-o", "o_%d.png", "-o", "p_%d.png", "-vt", "1"), (*ROW[:2], "-q", *ROW[2:-1], "-o", "o_%d.png", "--isa", "scalar")):
+        check(keys(bench, *words) == own, f"{words} change keys")
+    for words in ((*ROW, "-o", "o_%d.exr"), (*ROW, "-o", "o.apng"), (*ROW, "-o", "o_%d.png", "--exposure", "1"), (*ROW, "-o", "o_%d.png", "--technique", "mc"),
+                  (*ROW, "-o", "o_%d.png", "--no-background"), (*ROW[:4], "--steps", "6", *ROW[6:], "-o", "o_%d.png")):
+        check(not set(keys(bench, *words)) & set(own), f"{words} change no key")
+    row = ("render", "builtin:plate", "--animate", "roughness=0.1:0.6", "--steps", "3", "--size", "24x16", "-q", "-o", "o_%d.png", "--env", "baked")
+    found = []
+    for samples in ("16", "64"):
+        shutil.rmtree(bench.folder / "baked", ignore_errors=True)
+        bench.run("bake", "environment", "builtin:sky", "--env-size", "16", "--env-samples", samples, "-q", "-o", "baked").expect(0)
+        found.append(keys(bench, *row))
+    check(not set(found[0]) & set(found[1]), "another bake of the same light changes no key")
+
+
+@case("pieces.of_one_kind_are_made_twice_at_once", budget=20)
+def at_once(bench):
+    needs_embree(bench)
+    for words in ((*ROW[:4], "--steps", "20", *ROW[6:], "-o", "a_%d.png", "-o", "a_%d.exr"), (*CHART, "-o", "report")):
+        for _ in range(3):
+            shutil.rmtree(bench.folder / "w", ignore_errors=True)
+            both = [subprocess.Popen([bench.program, *words, "--shard", "1/1", "--work", "w"], cwd=bench.folder, env=bench.environment({}),
+                                     stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for _ in range(2)]
+            check([one.wait(timeout=200) for one in both] == [0, 0], "one of two equal shares fails")
+        bench.run("merge", "w").expect(0)
+
+
+@case("pieces.in_several_folders_are_found")
+def folders(bench):
+    words = (*ROW, "-o", "o_%d.png")
+    bench.run(*words, "--take", "--work", "b").expect(0)
+    first, *others = sorted((bench.folder / "b").glob("*.piece"))
+    (bench.folder / "a").mkdir()
+    (bench.folder / "a" / first.name).write_bytes(b"damaged")
+    (bench.folder / "a" / (others[0].name + ".lease")).write_text("elsewhere 1 0000000000000000 4\n")
+    (bench.folder / "b" / (first.name + ".0123456789abcdef.png")).write_bytes(b"half")
+    bench.run("merge", "a", "b", "-o", "other_%d.png").expect(0)
+    check((bench.folder / "other_3.png").read_bytes() == (bench.folder / "o_3.png").read_bytes(), "a further output is another picture")
+    check(bench.run("merge", "a").expect(4).err, "a folder without a job merges")
+    left = [path.name for folder in "ab" for path in (bench.folder / folder).iterdir() if ".piece." in path.name]
+    check(not left, f"left: {left}")
+
+
+@case("pieces.scripts_for_engines_are_what_the_engines_read")
+def scripts(bench):
+    import yaml
+    words = ("chart", "my #1: it's.glb", "--runs", "0", "-o", "r")
+    text = {engine: bench.run("submit", "--for", engine, "--shards", "3", "--work", "my, pieces", "--", *words).expect(0).out
+            for engine in ("slurm", "mpi", "parallel", "k8s", "openjd", "github")}
+    for engine in ("slurm", "mpi", "parallel"):
+        done = subprocess.run(["sh", "-n"], input=text[engine], capture_output=True, text=True)
+        check(done.returncode == 0, done.stderr)
+    github = yaml.safe_load(text["github"])["jobs"]
+    check(github["pieces"]["steps"][1]["run"].startswith("burnish chart 'my #1: it'\\''s.glb' ") and github["pieces"]["steps"][2]["with"]["path"] == "my, pieces", text["github"])
+    check(github["merge"]["needs"] == "pieces" and github["pieces"]["strategy"]["matrix"]["share"] == [1, 2, 3], text["github"])
+    k8s = yaml.safe_load(text["k8s"])
+    shell_line = k8s["spec"]["template"]["spec"]["containers"][0]["command"][2]
+    check(shlex.split(shell_line)[1:7] == list(words) and "auto/3" in shell_line and k8s["spec"]["completions"] == 3, text["k8s"])
+    openjd = yaml.safe_load(text["openjd"])
+    check(openjd["steps"][0]["script"]["actions"]["onRun"]["args"][:6] == list(words) and openjd["steps"][1]["dependencies"] == [{"dependsOn": "pieces"}], text["openjd"])
 
 
 def tool(name):

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/build.h"
 #include "apps/render/stats.h"
 #include "core/base/hash.h"
 #include "core/base/version.h"

@@ -20,7 +20,7 @@ TEST(lease, has_one_owner)
 {
     const TempFolder folder;
     const std::string file = folder.path("piece.lease");
-    Leases one, two;
+    Leases one(new_process_name()), two(new_process_name());
     Result<std::unique_ptr<Lease>> first = one.take(file);
     ASSERT_TRUE(first && *first);
     const Result<std::unique_ptr<Lease>> second = two.take(file);
@@ -36,7 +36,7 @@ TEST(lease, of_a_living_owner_stays)
 {
     const TempFolder folder;
     const std::string file = folder.path("piece.lease");
-    Leases one({5ms, 100ms}), two({5ms, 100ms});
+    Leases one(new_process_name(), {5ms, 100ms}), two(new_process_name(), {5ms, 100ms});
     const Result<std::unique_ptr<Lease>> first = one.take(file);
     ASSERT_TRUE(first && *first);
     for (int i = 0; i < 15; ++i) { // longer than a dead owner has
@@ -52,7 +52,7 @@ TEST(lease, of_a_dead_owner_is_taken_over)
     const TempFolder folder;
     const std::string file = folder.path("piece.lease");
     std::ofstream(file) << "elsewhere 1 0000000000000000 12\n";
-    Leases leases({5ms, 30ms});
+    Leases leases(new_process_name(), {5ms, 30ms});
     const Result<std::unique_ptr<Lease>> early = leases.take(file);
     ASSERT_TRUE(early);
     EXPECT_EQ(*early, nullptr);
@@ -72,7 +72,7 @@ TEST(lease, of_an_ended_process_of_this_machine_is_free)
         ::_exit(0);
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     std::ofstream(file) << host << " " << child << " 0000000000000000 3\n";
-    Leases leases;
+    Leases leases(new_process_name());
     const Result<std::unique_ptr<Lease>> lease = leases.take(file);
     EXPECT_TRUE(lease && *lease);
 }
@@ -81,7 +81,7 @@ TEST(lease, that_was_taken_over_is_left_to_its_new_owner)
 {
     const TempFolder folder;
     const std::string file = folder.path("piece.lease");
-    Leases leases({5ms, 30ms});
+    Leases leases(new_process_name(), {5ms, 30ms});
     {
         const Result<std::unique_ptr<Lease>> lease = leases.take(file);
         ASSERT_TRUE(lease && *lease);
@@ -95,7 +95,7 @@ TEST(lease, that_was_taken_over_is_left_to_its_new_owner)
 TEST(lease, in_a_folder_that_is_not_there_is_an_error)
 {
     const TempFolder folder;
-    Leases leases;
+    Leases leases(new_process_name());
     const Result<std::unique_ptr<Lease>> lease = leases.take(folder.path("none/piece.lease"));
     ASSERT_FALSE(lease);
     EXPECT_EQ(lease.error().code, ExitCode::output_failed);

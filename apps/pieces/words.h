@@ -1,0 +1,15 @@
+// Commands as words.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace burnish {
+
+// Returns words that a shell reads as these.
+std::string shell_words(const std::vector<std::string>& words);
+// Returns a command without its options of pieces.
+std::vector<std::string> without_pieces(const std::vector<std::string>& words);
+// The same without what changes no file of the job either: threads, instruction set, messages.
+std::vector<std::string> job_words(const std::vector<std::string>& words);
+
+} // namespace burnish
