@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -29,7 +30,7 @@ using Json = nlohmann::json;
 
 constexpr std::uint64_t kMostPieceBytes = std::uint64_t{1} << 34;
 constexpr char kMagic[8] = {'B', 'N', 'P', 'I', 'E', 'C', 'E', '1'};
-constexpr std::chrono::milliseconds kWait{500}; // between two looks at other processes' pieces
+constexpr std::chrono::milliseconds kWait{500}, kLongestWait{8000}; // between two looks at other processes' pieces
 constexpr const char* kUsualFolder = "pieces";
 
 std::string hex(std::uint64_t value)
@@ -86,11 +87,25 @@ bool stopped()
     return watch_stop_signals().load();
 }
 
-// Makes pieces in a folder. A whole piece is read once.
+// True if the file has the head and the size of the piece. Reads the head alone: many processes ask for many pieces.
+bool looks_whole(const std::string& file, const std::string& key)
+{
+    std::ifstream in(file, std::ios::binary);
+    char magic[sizeof kMagic] = {};
+    std::string made_by, own, hash, size;
+    if (!in.read(magic, sizeof magic) || std::memcmp(magic, kMagic, sizeof kMagic) != 0 || !std::getline(in, made_by) ||
+        !std::getline(in, own) || !std::getline(in, hash) || !std::getline(in, size))
+        return false;
+    std::error_code failed;
+    const std::uintmax_t all = fs::file_size(file, failed), head = static_cast<std::uintmax_t>(in.tellg());
+    return !failed && made_by == version() && own == key && size == std::to_string(all - head);
+}
+
+// Makes pieces in a folder. deep: reads pieces that are there to their end; else a flipped bit waits for the merge.
 class Maker {
   public:
-    Maker(std::string folder, const std::vector<JobPiece>& pieces, Report& report)
-        : folder_(std::move(folder)), pieces_(pieces), report_(report)
+    Maker(std::string folder, const std::vector<JobPiece>& pieces, bool deep, Report& report)
+        : folder_(std::move(folder)), pieces_(pieces), deep_(deep), report_(report)
     {
     }
 
@@ -98,8 +113,7 @@ class Maker {
 
     bool whole(std::size_t i)
     {
-        std::error_code ignored;
-        if (!whole_.count(i) && fs::exists(file(i), ignored) && read_piece(file(i), pieces_[i].key))
+        if (!whole_.count(i) && looks_whole(file(i), pieces_[i].key) && (!deep_ || read_piece(file(i), pieces_[i].key)))
             whole_.insert(i);
         return whole_.count(i) > 0;
     }
@@ -121,33 +135,94 @@ class Maker {
   private:
     std::string folder_;
     const std::vector<JobPiece>& pieces_;
+    bool deep_;
     Report& report_;
     std::set<std::size_t> whole_;
 };
 
-// Takes pieces by lease until all are there.
-Status take_pieces(Maker& maker, std::size_t count)
+// Returns the names in a folder: one request for many pieces.
+std::set<std::string> names_in(const std::string& folder)
 {
-    Leases leases(process_name());
-    bool waited = true;
-    while (waited && !stopped()) {
-        waited = false;
-        for (std::size_t i = 0; i < count && !stopped(); ++i) {
-            if (maker.whole(i))
-                continue;
-            const Result<std::unique_ptr<Lease>> lease = leases.take(maker.file(i) + ".lease");
-            BN_TRY(lease);
-            waited = waited || !*lease;
-            if (*lease)
-                BN_TRY(maker.make(i));
-        }
-        if (waited) {
-            const Activity activity("waiting for pieces of other processes");
-            std::this_thread::sleep_for(kWait);
-        }
-    }
-    return {};
+    std::set<std::string> names;
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        names.insert(at->path().filename());
+    return names;
 }
+
+// Takes pieces by lease until all are there. A folder's server answers a limited number of requests, so a look at the folder shows what is
+// left, and each process begins elsewhere. Only pieces that are there at first are looked at one by one.
+class Taker {
+  public:
+    Taker(const std::string& folder, const std::vector<JobPiece>& pieces, Maker& maker)
+        : folder_(folder), pieces_(pieces), maker_(maker), leases_(process_name()), missing_(pieces.size(), true),
+          first_(hash_bytes(process_name().data(), process_name().size()) % std::max<std::size_t>(pieces.size(), 1))
+    {
+        const std::set<std::string> names = names_in(folder_);
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+            missing_[i] = !names.count(pieces_[i].key + ".piece") || !maker_.whole(i);
+        seen_ = names;
+    }
+
+    Status run()
+    {
+        std::chrono::milliseconds wait = kWait;
+        while (!stopped()) {
+            const std::set<std::string> names = names_in(folder_);
+            note_finished(names);
+            std::vector<std::size_t> free, held; // without and with a lease
+            for (std::size_t k = 0; k < pieces_.size(); ++k)
+                if (const std::size_t i = (first_ + k) % pieces_.size(); missing_[i])
+                    (names.count(pieces_[i].key + ".piece.lease") ? held : free).push_back(i);
+            if (free.empty() && held.empty())
+                return {};
+            // Take one without a lease, or one whose owner died
+            const Result<bool> made = take_one(free.empty() ? held : free);
+            BN_TRY(made);
+            if (*made) {
+                wait = kWait;
+                continue;
+            }
+            const Activity activity("waiting for pieces of other processes");
+            std::this_thread::sleep_for(free.empty() ? wait : std::chrono::milliseconds(0));
+            wait = std::min(2 * wait, kLongestWait);
+        }
+        return {};
+    }
+
+  private:
+    // A piece that was damaged at first is not finished before its name comes anew.
+    void note_finished(const std::set<std::string>& names)
+    {
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+            if (const std::string name = pieces_[i].key + ".piece";
+                missing_[i] && names.count(name) && (!seen_.count(name) || maker_.whole(i)))
+                missing_[i] = false;
+    }
+
+    // Makes the first piece of these whose lease this process gets. Returns false where it gets none.
+    Result<bool> take_one(const std::vector<std::size_t>& candidates)
+    {
+        for (const std::size_t i : candidates) {
+            const Result<std::unique_ptr<Lease>> lease = leases_.take(maker_.file(i) + ".lease");
+            BN_TRY(lease);
+            if (!*lease)
+                continue;
+            BN_TRY(maker_.make(i));
+            missing_[i] = stopped();
+            return true;
+        }
+        return false;
+    }
+
+    const std::string& folder_;
+    const std::vector<JobPiece>& pieces_;
+    Maker& maker_;
+    Leases leases_;
+    std::vector<bool> missing_;
+    std::size_t first_;
+    std::set<std::string> seen_; // at first
+};
 
 // Returns the pieces that one process makes by --piece or --shard, by number.
 Result<std::vector<std::size_t>> share_of_pieces(const PieceOptions& options, const std::vector<JobPiece>& pieces)
@@ -176,9 +251,9 @@ Status make_pieces(const PieceOptions& options, const std::string& folder, const
     BN_TRY(make_output_folder(folder));
     BN_TRY(write_job(folder, words, pieces));
     report.release();
-    Maker maker(folder, pieces, report);
+    Maker maker(folder, pieces, !options.piece.empty(), report);
     if (options.take)
-        return take_pieces(maker, pieces.size());
+        return Taker(folder, pieces, maker).run();
     for (const std::size_t i : *share)
         if (!stopped())
             BN_TRY(maker.make(i));
@@ -323,7 +398,8 @@ Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, co
 
 Status write_piece(const std::string& file, const std::string& key, const std::vector<std::uint8_t>& content)
 {
-    const std::string head = std::string(version()) + "\n" + key + "\n" + hex(hash_bytes(content.data(), content.size())) + "\n";
+    const std::string head =
+        fmt::format("{}\n{}\n{}\n{}\n", version(), key, hex(hash_bytes(content.data(), content.size())), content.size());
     return write_file_atomic(file, [&](const PutBytes& put) {
         if (put(kMagic, sizeof kMagic) && put(head.data(), head.size()))
             put(content.data(), content.size());
@@ -345,13 +421,13 @@ Result<std::vector<std::uint8_t>> read_piece(const std::string& file, const std:
         at = end == bytes->end() ? end : end + 1;
         return text;
     };
-    const std::string made_by = line(), own = line(), hash = line();
+    const std::string made_by = line(), own = line(), hash = line(), size = line();
     if (made_by != version())
         return refuse(fmt::format("was made by burnish {}, and this is {}", made_by, version()));
     if (own != key)
         return refuse(fmt::format("is piece {}", own));
     std::vector<std::uint8_t> content(at, bytes->end());
-    if (hex(hash_bytes(content.data(), content.size())) != hash)
+    if (std::to_string(content.size()) != size || hex(hash_bytes(content.data(), content.size())) != hash)
         return refuse("is damaged");
     return content;
 }

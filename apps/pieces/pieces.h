@@ -42,7 +42,8 @@ int run_pieces(const PieceOptions& options, const std::vector<std::string>& word
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces);
 
-// Writes a piece: `content` behind the version, the key and a hash. read_piece() refuses damage, and pieces of another version by name.
+// Writes a piece: `content` behind the version, the key, a hash and a size. read_piece() refuses damage, and pieces of another version by
+// name.
 Status write_piece(const std::string& file, const std::string& key, const std::vector<std::uint8_t>& content);
 Result<std::vector<std::uint8_t>> read_piece(const std::string& file, const std::string& key);
 

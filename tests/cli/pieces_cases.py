@@ -116,6 +116,7 @@ def damaged(bench):
     check("0.0.1" in found.err and not (bench.folder / "o_0.png").exists(), found.describe())
     check(shell(bench, found.out.strip()).returncode == 0 and files[0].read_bytes() == whole, "the printed command does not mend it")
     files[1].write_bytes(b"x")
+    files[2].write_bytes(files[2].read_bytes()[:-1])
     bench.run(*words, "--take", "--work", "w").expect(0)
     bench.run("merge", "w").expect(0)
     job, = (bench.folder / "w").glob("job-*.json")
