@@ -20,7 +20,7 @@ Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
   burnish submit --for parallel --at-once 2 -- render lamp.glb --backend reference --samples 4096 -o lamp.exr)";
 
-// True if a command has pieces: a reference, a row of pictures, or a chart of frames.
+// True if a command has pieces: a reference, a row of pictures, a chart of frames, an atlas, or truths for engines.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {
@@ -31,7 +31,7 @@ bool has_pieces(const std::vector<std::string>& words)
         (backend != words.end() && backend + 1 != words.end() && backend[1] == "reference") || has("--backend=reference");
     if (words[0] == "render")
         return reference || has("--animate") || has("--turntable");
-    return words[0] == "chart" && !has("--mip");
+    return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));
 }
 
 int run_submit(const SubmitOptions& given)
@@ -41,7 +41,7 @@ int run_submit(const SubmitOptions& given)
     if (options.words.size() != given.words.size())
         return fail(usage_error("COMMAND", "has options of pieces, which the script brings"));
     if (!has_pieces(options.words))
-        return fail(usage_error("COMMAND", "has no pieces: render --backend reference, --animate, --turntable, and chart have"));
+        return fail(usage_error("COMMAND", "has no pieces: render --backend reference, --animate and --turntable, chart, atlas and conform --write have"));
     if (const Status taken = check_submit(options); !taken)
         return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);

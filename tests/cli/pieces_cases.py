@@ -86,6 +86,25 @@ def chart(bench):
     one_and_pieces(bench, CHART, ("report",))
 
 
+@case("pieces.of_an_atlas_make_its_bytes", budget=30)
+def atlas(bench):
+    needs_embree(bench)
+    one_and_pieces(bench, ("atlas", "albedo_by_a_fit", "bent_normal_bends_too_far", "area_lights_left_out", "--quick", "-q"), ("atlas",))
+
+
+@case("pieces.of_a_conformance_folder_make_its_bytes", budget=30)
+def conform(bench):
+    needs_embree(bench)
+    words = ("conform", "--samples", "64", "-q", "--write")
+    bench.run(*words, "one", timeout=200).expect(0)
+    bench.run(*words, "two", "--shard", "2/2", "--work", "w", timeout=200).expect(0)
+    missing = bench.run("merge", "w").expect(5)
+    check(len(missing.out.splitlines()) == 14 and not (bench.folder / "two").exists(), missing.describe())
+    bench.run(*words, "two", "--take", "--work", "w", timeout=200).expect(0)
+    bench.run("merge", "w").expect(0)
+    check(files_of(bench.folder / "one") == files_of(bench.folder / "two"), "other files")
+
+
 @case("pieces.of_a_timed_chart_keep_their_times")
 def timed(bench):
     needs_embree(bench)

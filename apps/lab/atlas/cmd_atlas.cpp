@@ -2,16 +2,22 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/lab/atlas/options.h"
 #include "apps/lab/atlas/page.h"
+#include "apps/pieces/packed.h"
+#include "apps/pieces/pieces.h"
 #include "apps/risks/assets.h"
+#include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "core/jobs/activity.h"
@@ -93,6 +99,9 @@ class Atlas {
 
   private:
     Result<WalkedEntry> measure(const AtlasEntry& entry);
+    std::vector<JobPiece> pieces();
+    Status write_piece_of(const AtlasEntry& entry, const std::string& file, const std::string& key);
+    Status take(const std::vector<std::string>& files, const std::vector<JobPiece>& pieces); // into taken_
     void judge_entry(const AtlasEntry& entry, MeasuredEntry measured);
     void tell(const AtlasResult& result);
     Status write();
@@ -105,10 +114,13 @@ class Atlas {
     Report& report_;
     PictureCache cache_;
     std::vector<AtlasResult> results_;
+    std::map<std::string, MeasuredEntry> taken_; // from pieces, by id
 };
 
 Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
 {
+    if (const auto taken = taken_.find(entry.id); taken != taken_.end())
+        return WalkedEntry{std::move(taken->second), {}, false};
     if (options_.folder.empty())
         return walk_entry(entry, options_.walk(), cache_);
     const CachedFiles files = cached_files(options_, entry);
@@ -120,6 +132,64 @@ Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
     BN_TRY(write_image(files.strip, walked->strip));
     BN_TRY(write_file(files.json, cached_entry_json(walked->measured, files.key)));
     return walked;
+}
+
+// Walks an entry into a piece: its figures and its pictures.
+Status Atlas::write_piece_of(const AtlasEntry& entry, const std::string& file, const std::string& key)
+{
+    const Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), cache_);
+    BN_TRY(walked);
+    if (walked->stopped)
+        return {};
+    const std::string own = own_name_beside(file, ".png");
+    BN_TRY(write_image(own, walked->strip));
+    Result<std::vector<std::uint8_t>> strip = take_file(own);
+    BN_TRY(strip);
+    return write_piece(file, key,
+                       pack({cached_entry_json(walked->measured, entry_key(entry, options_.walk())), {{"strip", std::move(*strip)}}}));
+}
+
+// Returns the entries as pieces. An estimate is that of a quick walk of the first entry, by its samples.
+std::vector<JobPiece> Atlas::pieces()
+{
+    const auto rate = std::make_shared<std::optional<double>>();
+    std::vector<JobPiece> all;
+    for (const AtlasEntry& entry : entries_) {
+        const std::string key = piece_key("atlas " + entry_key(entry, options_.walk()));
+        const auto seconds = [this, rate]() -> Result<double> {
+            const auto size = [](const AtlasWalk& walk) {
+                return static_cast<double>(walk.steps) * walk.side * walk.side * static_cast<double>(walk.samples);
+            };
+            if (!*rate) {
+                const double begin = wall_ms();
+                BN_TRY(walk_entry(entries_.front(), kQuickWalk, cache_));
+                *rate = (wall_ms() - begin) * 1e-3 / size(kQuickWalk);
+            }
+            return **rate * size(options_.walk());
+        };
+        all.push_back({key, seconds, [this, &entry, key](const std::string& file) { return write_piece_of(entry, file, key); }});
+    }
+    return all;
+}
+
+Status Atlas::take(const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
+{
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        const Result<Packed> packed = unpack(*content, files[i]);
+        BN_TRY(packed);
+        std::optional<MeasuredEntry> measured = parse_cached_entry(packed->json, entry_key(entries_[i], options_.walk()));
+        if (!measured || packed->files.size() != 1)
+            return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
+        if (!options_.folder.empty()) { // as a walk leaves them
+            const CachedFiles cached = cached_files(options_, entries_[i]);
+            BN_TRY(write_file_atomic(cached.strip, packed->files[0].bytes.data(), packed->files[0].bytes.size()));
+            BN_TRY(write_file(cached.json, packed->json));
+        }
+        taken_.emplace(entries_[i].id, std::move(*measured));
+    }
+    return {};
 }
 
 void Atlas::judge_entry(const AtlasEntry& entry, MeasuredEntry measured)
@@ -177,6 +247,18 @@ int Atlas::run()
     if (!compared_)
         report_.warning(
             fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
+    if (any_pieces(options_.pieces)) {
+        const std::vector<JobPiece> all = pieces();
+        if (!options_.pieces.merge)
+            return run_pieces(options_.pieces, kept_words(), all, report_);
+        const auto files = finished_pieces(options_.pieces, kept_words(), all);
+        if (!files)
+            return fail(files.error());
+        if (const Status made = options_.folder.empty() ? Status() : make_output_folder(options_.folder); !made)
+            return fail(made.error());
+        if (const Status taken = take(*files, all); !taken)
+            return fail(taken.error());
+    }
     report_.release();
     // Measure and judge every entry
     for (const AtlasEntry& entry : entries_) {
@@ -226,7 +308,7 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
     Result<BlessedTable> blessed = blessed_table(options);
     if (!blessed)
         return fail(blessed.error());
-    if (!options.folder.empty())
+    if (!options.folder.empty() && !any_pieces(options.pieces))
         if (const Status made = make_output_folder(options.folder); !made)
             return fail(made.error());
     if (!reference_available())

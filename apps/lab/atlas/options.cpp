@@ -45,6 +45,7 @@ OptionTable atlas_option_table(AtlasOptions& to)
                          {"--bless", "", "Write the measured figures into --table; other entries stay as they are", flag(to.bless)},
                          quiet_option(to.quiet),
                          verbose_option(to.verbosity)});
+    table.add("Pieces, for several processes", piece_options(to.pieces));
     table.add("Machine", {threads_option(to.threads),
                           isa_option(to.isa, "Instruction set: {}; never changes the figures"),
                           {"--no-cache", "", "Use no cache of environments and references", flag(to.use_cache, false)}});
@@ -53,6 +54,9 @@ OptionTable atlas_option_table(AtlasOptions& to)
 
 Status check_atlas_options(AtlasOptions& options, const OptionTable& given)
 {
+    BN_TRY(check_piece_options(options.pieces));
+    if (options.bless && any_pieces(options.pieces) && !options.pieces.merge)
+        return usage_error("--bless", "is for the merge");
     if (options.bless && options.table.empty())
         return usage_error("--bless", "needs --table, the file that is written");
     if (options.bless && !options.with.empty())

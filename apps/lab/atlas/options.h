@@ -5,6 +5,7 @@
 
 #include "apps/cli/option.h"
 #include "apps/lab/atlas/measure.h"
+#include "apps/pieces/pieces.h"
 #include "core/simd/dispatch.h"
 
 namespace burnish {
@@ -14,6 +15,7 @@ struct AtlasOptions {
     std::string folder, json;     // empty: no output
     std::string table;            // blessed figures; empty: the built-in table
     std::string with;             // see AtlasEntry
+    PieceOptions pieces;
     bool list = false, quick = false, bless = false, use_cache = true, quiet = false;
     int threads = 0, verbosity = 0;
     Isa isa = {};

@@ -1,9 +1,12 @@
 // `burnish conform`: writes a conformance folder, or judges an engine's pictures of its scenes.
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 
 #include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
@@ -15,6 +18,10 @@
 #include "apps/lab/conform/page.h"
 #include "apps/lab/conform/pictures.h"
 #include "apps/lab/conform/scenes.h"
+#include "apps/pieces/packed.h"
+#include "apps/pieces/pieces.h"
+#include "core/base/clock.h"
+#include "core/base/file.h"
 #include "core/image/io/image_io.h"
 #include "shading/lab/conform/mutated.h"
 
@@ -36,6 +43,7 @@ struct ConformArguments {
     std::string folder, pictures, write, html, json, junit;
     std::vector<std::string> without, mistakes;
     std::string technique;
+    PieceOptions pieces;
     bool draw = false;
     int samples = 1024, threads = 0, verbosity = 0;
     bool quiet = false;
@@ -98,6 +106,7 @@ OptionTable conform_option_table(ConformArguments& to)
                         choices(to.mistakes, mistake_names())},
                        {"--technique", "NAME", "Technique: {}", choice(to.technique, drawing_names()), drawing_names().front().c_str()}});
     table.add("Output", {quiet_option(to.quiet), verbose_option(to.verbosity)});
+    table.add("Pieces, for several processes", piece_options(to.pieces));
     table.add("Machine", {threads_option(to.threads)});
     table.add("Limits", limit_options(to.limits));
     return table;
@@ -113,6 +122,9 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
                 return usage_error(other, "does not go with --write");
     if (a.write.empty() && a.pictures.empty())
         return usage_error("PICTURES", "no folder of pictures is given");
+    BN_TRY(check_piece_options(a.pieces));
+    if (a.write.empty() && any_pieces(a.pieces))
+        return usage_error("--write", "is what has pieces");
     if (a.write.empty() && given.given("--samples"))
         return usage_error("--samples", "needs --write");
     for (const char* option : {"--mistake", "--technique"})
@@ -138,10 +150,92 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, inputs);
 }
 
+// Draws a scene's truth into a piece: its picture and its variance.
+Status write_truth_piece(ConformDrawer& drawer, std::size_t scene, std::uint64_t samples, const std::string& file, const std::string& key)
+{
+    const std::atomic<bool>& stop = watch_stop_signals();
+    const Result<ConformDrawer::Truth> truth = drawer.truth(scene, samples, &stop);
+    BN_TRY(truth);
+    if (stop.load())
+        return {};
+    Packed packed;
+    for (const auto& [name, image] : {std::pair{"color", &truth->color}, {"variance", &truth->variance}}) {
+        const std::string own = own_name_beside(file, ".exr");
+        BN_TRY(write_image(own, *image));
+        Result<std::vector<std::uint8_t>> bytes = take_file(own);
+        BN_TRY(bytes);
+        packed.files.push_back({name, std::move(*bytes)});
+    }
+    return write_piece(file, key, pack(packed));
+}
+
+// Returns the truths of a folder as pieces. drawer: makes them; null for a merge.
+std::vector<JobPiece> truth_pieces(const ConformArguments& a, const ConformFolder& folder, ConformDrawer* drawer = nullptr)
+{
+    const auto samples = static_cast<std::uint64_t>(a.samples);
+    const auto rate = std::make_shared<std::optional<double>>();
+    std::vector<JobPiece> pieces;
+    for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
+        const std::string key = piece_key(fmt::format("conform {} {}", folder.scenes[i].name, samples)); // the build makes the scenes
+        const auto seconds = [drawer, rate, samples]() -> Result<double> {
+            constexpr std::uint64_t kProbe = 64;
+            const double begin = wall_ms();
+            if (!*rate) {
+                BN_TRY(drawer->truth(0, kProbe, nullptr));
+                *rate = (wall_ms() - begin) * 1e-3 / static_cast<double>(kProbe);
+            }
+            return **rate * static_cast<double>(samples);
+        };
+        pieces.push_back({key, seconds, [drawer, i, samples, key](const std::string& file) {
+                              return write_truth_piece(*drawer, i, samples, file, key);
+                          }});
+    }
+    return pieces;
+}
+
+// Writes the truths of a folder from their pieces.
+Status take_truths(const ConformFolder& folder, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
+{
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        const Result<Packed> packed = unpack(*content, files[i]);
+        BN_TRY(packed);
+        if (packed->files.size() != 2)
+            return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
+        const std::string paths[] = {folder.truth_of(folder.scenes[i].name), folder.variance_of(folder.scenes[i].name)};
+        for (std::size_t k = 0; k < 2; ++k)
+            BN_TRY(write_file_atomic(paths[k], packed->files[k].bytes.data(), packed->files[k].bytes.size()));
+    }
+    return {};
+}
+
+// Lists or makes truths as pieces, by scenes in a folder of its own.
+int make_truths(const ConformArguments& a, Report& report)
+{
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const std::string scenes = own_name_beside((fs::temp_directory_path(ignored) / "burnish-conform").string(), "");
+    const auto made = [&]() -> Result<int> {
+        BN_TRY(write_conform_files(scenes));
+        const ConformFolder folder = conform_folder(scenes);
+        Result<ConformDrawer> drawer = ConformDrawer::open(folder, a.limits, std::make_shared<const Jobs>(a.threads));
+        BN_TRY(drawer);
+        return run_pieces(a.pieces, kept_words(), truth_pieces(a, folder, &*drawer), report);
+    }();
+    fs::remove_all(scenes, ignored);
+    return made ? *made : fail(made.error());
+}
+
 int write_folder(const ConformArguments& a, Report& report)
 {
     if (!reference_available())
         return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which makes the truths"});
+    if (any_pieces(a.pieces) && !a.pieces.merge)
+        return make_truths(a, report);
+    if (a.pieces.merge) // before a file is written
+        if (const auto files = finished_pieces(a.pieces, kept_words(), truth_pieces(a, conform_folder(a.write))); !files)
+            return fail(files.error());
     const std::atomic<bool>& stop = watch_stop_signals();
     if (const Status written = write_conform_files(a.write); !written)
         return fail(written.error());
@@ -149,8 +243,16 @@ int write_folder(const ConformArguments& a, Report& report)
     Result<ConformDrawer> drawer = ConformDrawer::open(folder, a.limits, std::make_shared<const Jobs>(a.threads));
     if (!drawer)
         return fail(drawer.error());
+    if (a.pieces.merge) {
+        const std::vector<JobPiece> pieces = truth_pieces(a, folder);
+        const auto files = finished_pieces(a.pieces, kept_words(), pieces);
+        if (!files)
+            return fail(files.error());
+        if (const Status taken = take_truths(folder, *files, pieces); !taken)
+            return fail(taken.error());
+    }
     report.release();
-    for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
+    for (std::size_t i = 0; i < folder.scenes.size() && !a.pieces.merge; ++i) {
         const FolderScene& scene = folder.scenes[i];
         const Result<ConformDrawer::Truth> truth = drawer->truth(i, static_cast<std::uint64_t>(a.samples), &stop);
         if (!truth)
