@@ -11,9 +11,11 @@
 //     }
 //
 // The images are specular.ktx2, irradiance.ktx2 and lobe_albedo.ktx2 of `burnish bake environment PICTURE --textures ktx2`. Leave
-// EnvironmentMapLight away: this file has the light of the environment. Lamps stay Bevy's. Meshes need tangents.
+// EnvironmentMapLight away, and set AmbientLight to 0: this file has the light of the environment. Lamps, emission and exposure stay Bevy's.
+// Meshes need tangents: without these the grain has no direction. Unlit materials are none for this file.
 #import bevy_pbr::{
     forward_io::{FragmentOutput, VertexOutput},
+    mesh_view_bindings::view,
     pbr_fragment::pbr_input_from_standard_material,
     pbr_functions::{alpha_discard, apply_pbr_lighting, main_pass_post_lighting_processing},
 }
@@ -48,8 +50,13 @@ fn fragment(in: VertexOutput, @builtin(front_facing) is_front: bool) -> Fragment
     let mean = 0.5 * (along + alpha);
     let roughness = sqrt(mean);
     let anisotropy = (along - alpha) / (2.0 * mean);
-    let tangent = normalize(in.world_tangent.xyz - n * dot(n, in.world_tangent.xyz));
-    let bitangent = cross(n, tangent) * in.world_tangent.w;
+#ifdef VERTEX_TANGENTS
+    let given = in.world_tangent;
+#else
+    let given = vec4<f32>(select(vec3<f32>(0.0, 1.0, 0.0), vec3<f32>(1.0, 0.0, 0.0), abs(n.x) < 0.5), 1.0);
+#endif
+    let tangent = normalize(given.xyz - n * dot(n, given.xyz));
+    let bitangent = cross(n, tangent) * given.w;
     let grain = tangent * cos(burnish_lobe.y) + bitangent * sin(burnish_lobe.y);
     // Fetch the lobe's albedo
     let at = burnish_albedo_place(n, v, grain, roughness, anisotropy);
@@ -58,13 +65,14 @@ fn fragment(in: VertexOutput, @builtin(front_facing) is_front: bool) -> Fragment
     let dfg = mix(upper, lower, at.w);
     // Add the environment's light
     let base = input.material.base_color.rgb;
-    let f0 = mix(vec3<f32>(0.04), base, input.material.metallic);
+    let dielectric = 0.16 * input.material.reflectance * input.material.reflectance;
+    let f0 = mix(vec3<f32>(dielectric), base, input.material.metallic);
     let f = burnish_usual_settings(i32(textureDimensions(burnish_specular).x), i32(burnish_lobe.z), @SAMPLES@);
     let x = burnish_point_of(f, n, v, grain, f0, vec3<f32>(1.0), roughness, anisotropy, dfg, 0);
     let specular = burnish_@TECHNIQUE@_specular(f, x);
     let irradiance = textureSampleLevel(burnish_irradiance, burnish_sampler, n, 0.0).rgb * burnish_lobe.w;
-    let diffuse = base * (1.0 - input.material.metallic) * (1.0 - 0.04 * dfg.x - dfg.y) * irradiance;
-    out.color = vec4<f32>(out.color.rgb + (specular + diffuse) * input.diffuse_occlusion, out.color.a);
+    let diffuse = base * (1.0 - input.material.metallic) * (1.0 - dielectric * dfg.x - dfg.y) * irradiance;
+    out.color = vec4<f32>(out.color.rgb + (specular + diffuse) * input.diffuse_occlusion * view.exposure, out.color.a);
     out.color = main_pass_post_lighting_processing(input, out.color);
     return out;
 }

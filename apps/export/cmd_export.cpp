@@ -227,10 +227,23 @@ std::string without_comments(const std::string& text)
     return out;
 }
 
+// Returns the text without declarations of functions. Godot has none: the template holds the engine's function before the technique.
+std::string without_prototypes(const std::string& text)
+{
+    std::string out;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (!(line.size() > 2 && line.ends_with(");") && line[0] != ' ' && line.find('=') == std::string::npos))
+            out += line + "\n";
+    return out;
+}
+
 std::string module_text(const TechniqueInfo& technique, int samples, const ExportModule& module)
 {
-    const std::string shader =
+    std::string shader =
         without_comments(shader_text(glsl_of_technique(technique, samples, std::string(module.name) == "three"), module.language));
+    if (std::string(module.name) == "godot")
+        shader = without_prototypes(shader);
     std::string text(module.text->bytes);
     for (const auto& [place, value] : {std::pair<std::string, std::string>{"@TECHNIQUE@", technique.name},
                                        {"@VERSION@", version()},

@@ -3,13 +3,14 @@
 //     import { improveAnisotropy } from './burnish_three_node.js';
 //     improveAnisotropy(scene, { environment });
 //
-// Takes an object with all below it, or an array of these. environment: the texture that PMREMGenerator made, as in
-// scene.environment. Returns the number of materials changed; call it before the first frame, and again for what you load later. A
-// MeshPhysicalMaterial or MeshPhysicalNodeMaterial with anisotropy is replaced by a node material with the technique. Others stay. Meshes
-// need tangents. Works with WebGPURenderer on WebGPU; tried with release 187. Throws for an environment that PMREMGenerator did not make.
+// Takes an object with all below it, or an array of these. environment: the texture that PMREMGenerator made, as in scene.environment. Replaces
+// each MeshPhysicalMaterial and MeshPhysicalNodeMaterial with anisotropy by a node material with the technique, and returns their number. Call it
+// again for what you load later; an object keeps its first environment. Others stay: materials with an environment of their own, with sheen, with
+// iridescence or with retroreflection, and classes derived from these. Meshes need tangents. Lamps and area lights stay the engine's. Works with
+// WebGPURenderer on WebGPU; tried with release 187. Throws for an environment that PMREMGenerator did not make.
 import { ClampToEdgeWrapping, DataTexture, LinearFilter, MeshPhysicalNodeMaterial, PhysicalLightingModel, RGFormat, UnsignedByteType } from 'three/webgpu';
-import { alphaT, anisotropyT, cameraWorldMatrix, cubeTexture, diffuseColor, materialEnvIntensity, materialEnvRotation, metalness, mix, normalView,
-         positionViewDirection, roughness, sampler, specularColor, specularF90, texture, vec2, vec3, wgsl, wgslFn } from 'three/tsl';
+import { alphaT, anisotropyT, cameraWorldMatrix, cubeTexture, materialEnvIntensity, materialEnvRotation, normalView, positionViewDirection, roughness,
+         sampler, specularColorBlended, specularF90, texture, vec2, vec3, wgsl, wgslFn } from 'three/tsl';
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
 const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
@@ -62,7 +63,7 @@ class Lighting extends PhysicalLightingModel {
     const light = imageLight({
       cube, taps: sampler(cube), albedo: texture(albedoTexture), albedo_taps: sampler(texture(albedoTexture)),
       n: world(normalView), v: world(positionViewDirection), grain: world(anisotropyT), widths: vec2(alphaT.max(across), across),
-      f0: mix(specularColor, diffuseColor.rgb, metalness), f90: vec3(mix(specularF90, 1, metalness)),
+      f0: specularColorBlended, f90: vec3(specularF90),
     });
     reflectedLight.indirectSpecular.addAssign(light.mul(materialEnvIntensity));
   }
@@ -74,32 +75,53 @@ class BurnishMaterial extends MeshPhysicalNodeMaterial {
     return new Lighting(this.useClearcoat, this.useSheen, this.useIridescence, this.useAnisotropy, this.useTransmission, this.useDispersion,
                         this.useRetroreflection, this.useDiffuseRoughness);
   }
+
+  copy(source) {
+    super.copy(source);
+    this.burnish = source.burnish;
+    return this;
+  }
+
+  // Materials with one environment share a program.
+  customProgramCacheKey() {
+    return `${super.customProgramCacheKey()} burnish ${this.burnish?.cube.value.uuid}`;
+  }
 }
 
-function improved(material, cube) {
-  if (!(material.isMeshPhysicalMaterial || material.isMeshPhysicalNodeMaterial) || !material.anisotropy || material.burnish)
+const known = new WeakMap(); // by material, then environment
+
+function improved(material, environment) {
+  const usual = material.type === 'MeshPhysicalMaterial' || material.constructor === MeshPhysicalNodeMaterial;
+  if (!usual || !(material.anisotropy > 0 || material.anisotropyNode) || material.envMap || material.envNode || material.sheen > 0 ||
+      material.sheenNode || material.iridescence > 0 || material.iridescenceNode || material.retroreflectivity > 0)
     return material;
+  const of = known.get(material) ?? new WeakMap();
+  known.set(material, of);
+  if (of.has(environment))
+    return of.get(environment);
   const made = new BurnishMaterial();
   for (const key in material)
     if (key in made && !['type', 'uuid', 'id', 'version'].includes(key) && typeof material[key] !== 'function' && !key.startsWith('is'))
       made[key] = material[key];
-  made.burnish = { cube };
+  made.burnish = { cube: cubeTexture(environment) };
+  of.set(environment, made);
   return made;
 }
 
 export function improveAnisotropy(target, { environment } = {}) {
   if (!environment?.isPMREMTexture)
     throw new Error('burnish: environment is no texture of PMREMGenerator');
-  const cube = cubeTexture(environment), made = new Map();
+  const changed = new Set();
   const each = material => {
-    if (!made.has(material))
-      made.set(material, improved(material, cube));
-    return made.get(material);
+    const made = improved(material, environment);
+    if (made !== material)
+      changed.add(made);
+    return made;
   };
   for (const one of [target].flat())
     one.traverse(object => {
       if (object.material)
         object.material = Array.isArray(object.material) ? object.material.map(each) : each(object.material);
     });
-  return [...made].filter(([before, after]) => before !== after).length;
+  return changed.size;
 }

@@ -308,10 +308,12 @@ def near_the_truth(bench):
 
 BEVY = """struct VertexOutput { @builtin(position) position: vec4<f32>, @location(0) world_tangent: vec4<f32> };
 struct FragmentOutput { @location(0) color: vec4<f32> };
-struct Material { base_color: vec4<f32>, perceptual_roughness: f32, metallic: f32 };
+struct Material { base_color: vec4<f32>, perceptual_roughness: f32, metallic: f32, reflectance: f32 };
+struct View { exposure: f32 };
+@group(0) @binding(0) var<uniform> view: View;
 struct PbrInput { N: vec3<f32>, V: vec3<f32>, diffuse_occlusion: vec3<f32>, material: Material };
 fn pbr_input_from_standard_material(in: VertexOutput, is_front: bool) -> PbrInput {
-    return PbrInput(in.position.xyz, in.position.zyx, vec3<f32>(1.0), Material(in.position, 0.4, 1.0));
+    return PbrInput(in.position.xyz, in.position.zyx, vec3<f32>(1.0), Material(in.position, 0.4, 1.0, 0.5));
 }
 fn alpha_discard(material: Material, color: vec4<f32>) -> vec4<f32> { return color; }
 fn apply_pbr_lighting(input: PbrInput) -> vec4<f32> { return input.material.base_color; }
@@ -335,9 +337,10 @@ def on_webgpu(bench):
     texts = re.findall(r"/\* wgsl \*/`(.*?)`", module, re.S)
     check(len(texts) == 2 and "@" not in re.sub(r"@(TECHNIQUE|SAMPLES)@", "@", texts[1]), "places are left, or parts are missing")
     bevy = re.sub(r"#import .*?\n}\n", BEVY, (bench.folder / "bevy").read_text(), flags=re.S)
-    check("#import" not in bevy and "FragmentOutput {" in bevy, "the stand-ins are not in place")
+    check("#import" not in bevy and "FragmentOutput {" in bevy and "* view.exposure" in bevy, "the stand-ins are not in place")
+    choose = lambda first: re.sub(r"#ifdef VERTEX_TANGENTS\n(.*?)#else\n(.*?)#endif\n", lambda m: m[1 if first else 2], bevy, flags=re.S)
     with Browser(bench.folder, webgl=True) as browser:
-        for name, text in (("three-node", "\n".join(texts)), ("bevy", bevy)):
+        for name, text in (("three-node", "\n".join(texts)), ("bevy", choose(True)), ("bevy without tangents", choose(False))):
             page = bench.folder / "page.html"
             page.write_text(f"<!doctype html><title>shader</title><script>const shader = {json.dumps(text)};\n{COMPILE}</script>")
             browser.open(page)
@@ -366,6 +369,13 @@ def godot(bench):
     bench.run("export", "godot", "--technique", "lobe_line", "-o", "burnish.gdshader").expect(0)
     text = (bench.folder / "burnish.gdshader").read_text()
     check(text.count("shader_type spatial;") == 1 and "precise" not in text, "no shader of Godot")
+    # Godot has no declarations of functions, and no parameter or variable with the name of a uniform
+    check(not re.findall(r"^\w+ \w+\([^{}]*\);", text, re.M), f"{re.findall(r'^.*[)];', text, re.M)}")
+    uniforms = re.findall(r"^uniform \w+ (\w+)", text, re.M)
+    declared = set(re.findall(r"\b(?:float|int|uint|bool|vec[234]|mat[234]|burnish_\w+) (\w+)(?=[ ,;)=\[])", re.sub(r"^uniform.*", "", text, flags=re.M)))
+    check(len(uniforms) == 11 and not declared & set(uniforms), f"{declared & set(uniforms)}")
+    first = lambda word: text.index(word)
+    check(first("vec4 burnish_radiance(int") < first("burnish_radiance(cube."), "the engine's function stands behind its first call")
     text = re.sub(r"^uniform (\w+) (\w+)[^;]*;", r"uniform highp \1 \2;", text.replace("shader_type spatial;", ""), flags=re.M)
     (bench.folder / "burnish.frag").write_text(GODOT + text + "layout(location = 0) out vec4 seen;\nvoid main() { fragment(); seen = RADIANCE; }\n")
     done = subprocess.run(["glslc", "-w", "--target-env=opengl", "-fauto-map-locations", "-fauto-bind-uniforms", bench.folder / "burnish.frag", "-o", bench.folder / "burnish.spv"],

@@ -79,10 +79,10 @@ Cosine cosine_of(Surface s, vec2 alpha)
     // Find the place in the table's quadrant
     vec2 side = vec2(s.o.x < 0.0 ? -1.0 : 1.0, s.o.y < 0.0 ? -1.0 : 1.0);
     vec3 e = normalize(vec3(abs(s.o.xy), max(s.o.z, 0.02)));
-    float wide = clamp(alpha.x, 0.002, 2.0);
+    float wide = clamp(alpha.x, 0.002, 2.0), ratio = max(alpha.y, 1e-6) / max(alpha.x, 1e-6);
     float theta = acos(min(e.z, 1.0)) * (7.0 / 1.57079633), phi = e.x + e.y > 0.0 ? atan(e.y, e.x) * (7.0 / 1.57079633) : 0.0;
     float slab = min(floor(theta), 6.0);
-    vec3 at = vec3((clamp(alpha.y / wide, 0.02, 1.0) * 7.0 + 0.5) / 8.0, (sqrt(wide) * 7.0 + 0.5) / 11.0, phi + 0.5);
+    vec3 at = vec3((clamp(ratio, 0.02, 1.0) * 7.0 + 0.5) / 8.0, (sqrt(wide) * 7.0 + 0.5) / 11.0, phi + 0.5);
     vec4 a = channels(0, at, slab, theta - slab), b = channels(1, at, slab, theta - slab), c = channels(2, at, slab, theta - slab);
     // Turn the matrix from the mirror direction to the lobe's axes, and back to the eye's quadrant
     vec3 m[3] = vec3[](vec3(a.x, a.w, b.z) * wide, vec3(a.y, b.x, b.w) * wide, vec3(a.z, b.y, c.x));
@@ -95,27 +95,34 @@ Cosine cosine_of(Surface s, vec2 alpha)
 }
 
 // Returns an arc's angle times the z of its unit axis, over 2 pi. a, b: unit. Fit of the angle over its sine: Hill, Heitz 2016, "Real-Time
-// Area Lighting: a Journey from Research to Production".
+// Area Lighting: a Journey from Research to Production". The sine is the length of the cross product, which keeps its digits where a and b are
+// opposite.
 float arc(vec3 a, vec3 b)
 {
-    float x = dot(a, b), y = abs(x);
+    vec3 across = cross(a, b);
+    float x = dot(a, b), y = abs(x), sine = max(length(across), 1e-7);
     float fit = (0.8543985 + (0.4965155 + 0.0145206 * y) * y) / (3.4175940 + (4.1616724 + y) * y);
-    return (a.x * b.y - a.y * b.x) * (x > 0.0 ? fit : 0.5 * inversesqrt(max(1.0 - x * x, 1e-7)) - fit);
+    return across.z * (x > 0.0 ? fit : 0.5 / sine - fit);
 }
+vec3 safe_normalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
-// Returns a polygon's share of a cosine, clipped at the horizon. at: its first corner in the buffer.
+// Returns a polygon's share of a cosine, clipped at the horizon. at: its first corner in the buffer. From within its plane it has none.
 float polygon_share(mat3 to_cosine, int at, int corners)
 {
+    vec3 c0 = lights.data[at].xyz - position, side = lights.data[at + 1].xyz - lights.data[at].xyz;
+    vec3 normal = cross(side, lights.data[at + 2].xyz - lights.data[at].xyz);
+    if (abs(dot(c0, normal)) <= 1e-6 * length(normal) * (length(c0) + length(side)))
+        return 0.0;
     vec3 a = to_cosine * (lights.data[at + corners - 1].xyz - position), rise = vec3(1.0, 0.0, 0.0), fall = rise;
     float sum = 0.0;
     for (int k = 0; k < corners; ++k) {
         vec3 b = to_cosine * (lights.data[at + k].xyz - position);
         if (a.z > 0.0 || b.z > 0.0) {
-            vec3 cut = normalize(mix(a, b, a.z / (a.z - b.z))), from = normalize(a), to = normalize(b);
+            vec3 from = safe_normalize(a), to = safe_normalize(b);
             if (a.z <= 0.0)
-                from = rise = cut;
+                from = rise = safe_normalize(mix(a, b, a.z / (a.z - b.z)));
             if (b.z <= 0.0)
-                to = fall = cut;
+                to = fall = safe_normalize(mix(a, b, a.z / (a.z - b.z)));
             sum += arc(from, to);
         }
         a = b;
@@ -143,7 +150,8 @@ float disk_share(vec3 middle, vec3 p, vec3 q)
     // Find the ellipse's own axes
     float scale = inversesqrt(max(max(dot(middle, middle), 1e-12 * max(dot(p, p), dot(q, q))), 1e-30));
     middle *= scale, p *= scale, q *= scale;
-    float turn = 0.5 * atan(2.0 * dot(p, q), dot(p, p) - dot(q, q)), c = cos(turn), s = sin(turn);
+    vec2 slant = vec2(dot(p, p) - dot(q, q), 2.0 * dot(p, q));
+    float turn = dot(slant, slant) > 0.0 ? 0.5 * atan(slant.y, slant.x) : 0.0, c = cos(turn), s = sin(turn);
     vec3 a = p * c + q * s, b = q * c - p * s;
     vec2 half2 = max(vec2(dot(a, a), dot(b, b)), 1e-20);
     a *= inversesqrt(half2.x), b *= inversesqrt(half2.y);
@@ -178,11 +186,11 @@ float line_share(Cosine lobe, vec3 p, vec3 q, float radius)
     vec3 t = (b - a) / extent;
     float from = dot(a, t), to = from + extent;
     vec3 foot = a - t * from;
-    float d = max(length(foot), extent * 1e-4), d2 = d * d, over = extent / ((d2 + from * from) * (d2 + to * to));
+    float d = max(max(length(foot), extent * 1e-4), 1e-15), d2 = d * d, over = extent / ((d2 + from * from) * (d2 + to * to));
     float across = over * (d2 - from * to) + atan(d * extent, d2 + from * to) / d, along = over * d * (from + to);
     // Multiply by the tube's width in that space
-    float narrow = length(normalize(cross(p, q)) * lobe.to_lobe);
-    return clamp(radius * (across * foot.z / d + along * t.z) / (kPi * max(narrow, 1e-7)), 0.0, 1.0);
+    float narrow = length(safe_normalize(cross(p, q)) * lobe.to_lobe);
+    return narrow > 1e-7 ? clamp(radius * (across * foot.z / d + along * t.z) / (kPi * narrow), 0.0, 1.0) : 0.0; // the line points here
 }
 
 // Returns an area light's share of a lobe. at: the light's place in the buffer. axes: from world space to the lobe's axes.
