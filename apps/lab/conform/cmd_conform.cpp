@@ -42,7 +42,7 @@ Examples:
 struct ConformArguments {
     std::string folder, pictures, write, html, json, junit;
     std::vector<std::string> without, mistakes;
-    std::string technique;
+    std::string technique = right_ways().front().name;
     PieceOptions pieces;
     bool draw = false;
     int samples = 1024, threads = 0, verbosity = 0;
@@ -104,7 +104,7 @@ OptionTable conform_option_table(ConformArguments& to)
     table.add("Draw", {{"--draw", "", "Draw the scenes into PICTURES by burnish, in place of judging them", flag(to.draw)},
                        {"--mistake", "NAME,...", "With mistakes that engines make, to see what they look like",
                         choices(to.mistakes, mistake_names())},
-                       {"--technique", "NAME", "Technique: {}", choice(to.technique, drawing_names()), drawing_names().front().c_str()}});
+                       {"--technique", "NAME", "Technique: {}", choice(to.technique, drawing_names())}});
     table.add("Output", {quiet_option(to.quiet), verbose_option(to.verbosity)});
     table.add("Pieces, for several processes", piece_options(to.pieces));
     table.add("Machine", {threads_option(to.threads)});
