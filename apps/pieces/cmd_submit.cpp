@@ -41,7 +41,8 @@ int run_submit(const SubmitOptions& given)
     if (options.words.size() != given.words.size())
         return fail(usage_error("COMMAND", "has options of pieces, which the script brings"));
     if (!has_pieces(options.words))
-        return fail(usage_error("COMMAND", "has no pieces: render --backend reference, --animate and --turntable, chart, atlas and conform --write have"));
+        return fail(usage_error(
+            "COMMAND", "has no pieces: render --backend reference, --animate and --turntable, chart, atlas and conform --write have"));
     if (const Status taken = check_submit(options); !taken)
         return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);

@@ -126,6 +126,8 @@ Status check_pieces(const RenderArguments& arguments, const OptionTable& given, 
     for (const char* other : {"--checkpoint", "--target-error", "--frames", "--trace", "--plan", "--plan-out", "--verify", "--risks"})
         if (given.given(other))
             return usage_error(other, "cannot be combined with pieces");
+    if (given.given("--budget-ms"))
+        return usage_error("--budget-ms", "cannot be combined with pieces: machines would plan otherwise");
     if (given.given("--stats") && row)
         return usage_error("--stats", "cannot be combined with pieces of a row: its times are of one process");
     if (!row && arguments.plain.backend != "reference")

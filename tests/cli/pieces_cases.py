@@ -163,7 +163,7 @@ def wrong(bench):
                           ((*row, "--take", "--work", "a", "--work", "b"), "--merge"), ((*row, "--piece", "12", "--work", "w"), "no piece"),
                           ((*row, "--take", "--stats", "s.json"), "--stats"), (("render", "builtin:plate", "--pieces"), "--backend"),
                           ((*REFERENCE, "--checkpoint", "c.part", "--pieces"), "--checkpoint"),
-                          ((*REFERENCE, "--target-error", "0.1", "--take"), "--target-error"),
+                          ((*REFERENCE, "--target-error", "0.1", "--take"), "--target-error"), ((*row, "--budget-ms", "20", "--take"), "--budget-ms"),
                           (("submit", "--for", "mpi", "--", "render", "builtin:plate"), "no pieces"),
                           (("submit", "--for", "mpi", "--", "chart", "--mip", "-o", "r"), "no pieces"),
                           (("submit", "--for", "mpi", "--at-once", "2", "--", *row), "--at-once"),
