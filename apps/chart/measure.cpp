@@ -71,7 +71,7 @@ Status Chart::load_all()
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     if (options_.runs == 0)
-        out_.machine = {version(), "", "", 0, {}}; // errors are the same on every machine
+        out_.machine = {version(), "", "", 0, {}}; // times alone depend on it
     picture_width_ = picture_width(scenes_.size() * environments_.size() * options_.cells.size() * settings_.size());
     return {};
 }

@@ -148,8 +148,7 @@ OptionTable chart_option_table(ChartArguments& to)
           choice(o.display_flip, {"flip-hdr", "flip"})},
          {"--reference-textures", "NAME", "Texture reads of references: full (at each ray's hit) or footprint (filtered as in techniques)",
           choice(to.render.plain.reference.full_textures, {"footprint", "full"})},
-         {"--runs", "N", "Timed frames for every setting, interleaved; 0: errors alone, the same on every machine",
-          integer(o.runs, 0, 10000)},
+         {"--runs", "N", "Timed frames for every setting, interleaved; 0: errors alone", integer(o.runs, 0, 10000)},
          {"--reference-samples", "N", "Samples a pixel of the references",
           integer(o.reference_samples, 1, static_cast<std::int64_t>(kMaxReferenceSamples))}});
     table.add("Mip filters",

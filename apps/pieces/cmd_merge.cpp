@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* kMergeFooter =
     R"(DIR holds the pieces that --shard, --take and --piece of a command made, and the command. The same files as by one process are written,
-whatever the shares, their order and the machines. Run it where the command ran, as its paths count from there. Where pieces are
-missing, the exit code is 5, and standard output has a command for each.
+whatever the shares and their order. Run it where the command ran, as its paths count from there. Where pieces are missing, the exit code
+is 5, and standard output has a command for each.
 
 Examples:
   burnish render lamp.glb --backend reference --samples 4096 -o lamp.exr --shard 1/2 --work pieces

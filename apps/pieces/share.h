@@ -15,8 +15,10 @@ struct Share { // pieces whose number, divided by `count`, leaves `index`
 // Reads a variable of the environment; null: not set.
 using ReadVariable = const char* (*)(const char* name);
 
-// Parses "I/N", I from 1 to N; "auto", index and count from the environment of Slurm, OpenMPI, MPICH or Grid Engine; or "auto/N", where the
-// engine tells the index alone, as Kubernetes does.
+// Parses a share:
+//   I/N     I from 1 to N
+//   auto    index and count as the environment of Slurm, OpenMPI, MPICH or Grid Engine says
+//   auto/N  the index alone from the environment, as of Kubernetes
 Result<Share> parse_share(const std::string& text, ReadVariable read);
 Result<Share> parse_share(const std::string& text); // with this process' environment
 

@@ -13,10 +13,15 @@
 namespace burnish {
 namespace {
 
-// Places in a template: @COMMAND@, the burnish command as shell words; @TAKE@, one shell word that takes pieces; @SHARD@, the same as JSON,
-// for one share; @ARGS@, the command's words and its share as a list in JSON; @WORK@ and @WORKJSON@; @SHARDS@; @LAST@, one less; @MOST@, as
-// many as run at once; @SHARES@, 1, 2, ... with commas; @MERGE@, a shell line that merges, makes what is missing, and merges again;
-// @MERGEWORD@ and @MERGEJSON@.
+// A script, with places:
+//   @COMMAND@                the burnish command as shell words
+//   @TAKE@                   the command that takes pieces, as one shell word
+//   @SHARD@, @ARGS@          the command with one share: as JSON, and as a list of words in JSON
+//   @WORK@, @WORKJSON@       the folder of the pieces
+//   @SHARDS@, @LAST@         the number of shares, and one less
+//   @SHARES@                 1, 2, ... with commas
+//   @MOST@                   how many run at once
+//   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes what is missing, and merges again
 struct Script {
     const char *name, *text;
     bool limits = true;  // how many run at once
@@ -169,6 +174,11 @@ Status check_submit(const SubmitOptions& options)
     const std::string words = shell_words(options.words) + shell_words({options.work});
     if (words.find("${{") != std::string::npos || words.find('\n') != std::string::npos)
         return usage_error("COMMAND", "holds a line break or ${{, which a script would read otherwise");
+    try {
+        static_cast<void>(as_json(options.words)), static_cast<void>(as_json(options.work));
+    } catch (const nlohmann::json::type_error&) {
+        return usage_error("COMMAND", "holds words that are not UTF-8");
+    }
     return {};
 }
 

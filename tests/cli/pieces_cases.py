@@ -170,6 +170,7 @@ def wrong(bench):
                           (("submit", "--for", "github", "--shards", "257", "--", *row), "256"),
                           (("submit", "--for", "github", "--", "chart", "${{ secrets.all }}.glb", "-o", "r"), "${{"),
                           ((*ROW, "-o", "\udcff_%d.png", "--take"), "UTF-8"),
+                          (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
                           (("submit", "--for", "lsf", "--", *row), "slurm")):
