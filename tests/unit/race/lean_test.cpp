@@ -79,8 +79,10 @@ TEST(lean, lights_as_the_tile_renderer_does)
     struct Drawn {
         const char* scene;
         const char* technique;
+        double most; // difference, of the mean
     };
-    for (const Drawn& drawn : {Drawn{"lights", "lobe_line"}, Drawn{"lights", "split_isotropic"}, Drawn{"spheres", "lobe_line"}}) {
+    for (const Drawn& drawn :
+         {Drawn{"lights", "lobe_line", 0.001}, Drawn{"lights", "split_isotropic", 0.001}, Drawn{"spheres", "lobe_line", 0.02}}) {
         SCOPED_TRACE(drawn.scene);
         Result<Scene> scene = make_builtin_scene(drawn.scene);
         ASSERT_TRUE(scene);
@@ -93,7 +95,7 @@ TEST(lean, lights_as_the_tile_renderer_does)
         desc.view = auto_frame(stage.tables, desc.width, desc.height);
         const Result<Frame> frame = (*renderer)->render(desc);
         ASSERT_TRUE(frame) << frame.error().line();
-        EXPECT_LT(difference(stage.render(desc, best_isa()).color, frame->color), 0.01);
+        EXPECT_LT(difference(stage.render(desc, best_isa()).color, frame->color), drawn.most);
     }
 }
 
