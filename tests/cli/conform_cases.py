@@ -15,7 +15,8 @@ from harness import case, check, scratch
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ("mirror", "round", "rotation_0", "rotation_30", "rotation_90", "strength_half", "rough", "smooth", "direction_map", "strength_map", "linear_map",
           "second_coordinates", "moved_coordinates", "own_tangents", "no_tangents", "left_handed", "mirrored_coordinates", "mirrored_node", "skewed_node",
-          "normal_map", "pole", "grazing", "back", "minified", "dielectric", "coat", "lamp", "area_light")
+          "normal_map", "pole", "grazing", "back", "minified", "dielectric", "high_index", "dark_limb", "few_triangles",
+          "coat", "lamp", "area_light")
 
 FEW = ("mirror", "round", "rotation_30", "direction_map", "left_handed", "mirrored_coordinates", "lamp")
 
@@ -132,11 +133,15 @@ def named(bench, folder, *mistakes, kept=SCENES):
     return [m["name"] for m in result["mistakes"]]
 
 
-@case("conform.names_a_mistake_and_two", budget=50)
+@case("conform.names_a_mistake_and_two", budget=65)
 def names(bench):
-    """Names one mistake, made in the files, then two, made by kernels and pictures, then an exposure."""
+    """Names one mistake, made in the files, then those that few scenes show, then two, made by kernels and pictures, then an exposure."""
     written(bench)
     check_mistake_in_files(bench)
+    for mistake, *kept in (("no_fresnel", "dark_limb"), ("no_energy_share", "high_index"), ("geometric_normals", "few_triangles"),
+                           ("no_bend", "rotation_0", "rotation_30", "lamp", "area_light")):
+        found = named(bench, "folder", mistake, kept=("mirror", "round", *kept))
+        check(found == [mistake], f"{mistake}: {found}")
     # Of two mistakes the second is seen where the first is taken into account
     found = named(bench, "folder", "handedness_ignored", "upside_down", kept=("mirror", "rotation_30", "left_handed"))
     check(sorted(found) == ["handedness_ignored", "upside_down"], f"{found}")

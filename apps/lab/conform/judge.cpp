@@ -28,6 +28,8 @@ constexpr double kNear = 1.3;           // of the noise, up to which pictures ar
 constexpr int kProbes = 4;              // scenes after which a mistake that takes nothing away is given up
 constexpr std::size_t kStride = 11;     // between scenes tried one after the other
 constexpr double kExplained = 0.25;     // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kWellExplained = 0.05; // the same, where another way is far from about as few scenes
+constexpr int kAboutAsFew = 2;          // scenes
 constexpr double kHopeful = 0.85;       // of the distance before, which it may leave there
 constexpr double kLeastExposure = 0.12; // stops
 
@@ -359,12 +361,13 @@ void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const st
                 to.scenes[i].to_right <= to.right_up_to ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
 }
 
-// Returns how far the pictures are from what explains them, a sum over scenes. Distances that are right do not count.
+// Returns how far the pictures are from what explains them, a sum over scenes. Distances that are right do not count. A right picture
+// counts where the mistakes would make it wrong.
 double unexplained_distance(const Judgement& judgement)
 {
     double sum = 0.0;
     for (const SceneJudgement& s : judgement.scenes)
-        if (s.outcome == SceneJudgement::Outcome::wrong)
+        if (s.outcome == SceneJudgement::Outcome::wrong || (s.outcome == SceneJudgement::Outcome::right && s.explained > s.to_usual))
             sum += std::max(s.explained - judgement.right_up_to, 0.0);
     return sum;
 }
@@ -398,9 +401,9 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
     std::vector<std::size_t> order(ways.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ways[a].far < ways[b].far; });
-    // Look for mistakes in that way, and in others while most is left unexplained
+    // Look for mistakes in that way, and in others while too much is left unexplained
     std::optional<Judgement> best;
-    const auto look = [&](std::size_t at, bool pairs) -> Result<bool> {
+    const auto look = [&](std::size_t at, bool pairs) -> Result<double> {
         Judgement judgement = none;
         judge_by(ways, at, truths, judgement);
         const double before = unexplained_distance(judgement);
@@ -408,13 +411,16 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
         const double left = unexplained_distance(judgement);
         if (!best || left < unexplained_distance(*best))
             best = std::move(judgement);
-        return left <= kExplained * before;
+        return before > 0.0 ? left / before : 0.0;
     };
-    bool explained = false;
-    for (std::size_t i = 0; i < order.size() && !explained; ++i) {
-        const Result<bool> enough = look(order[i], false);
-        BN_TRY(enough);
-        explained = *enough;
+    double least = 1.0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool about_as_few = i > 0 && ways[order[i]].far <= ways[order.front()].far + kAboutAsFew;
+        if (i > 0 && least <= (about_as_few ? kWellExplained : kExplained))
+            break;
+        const Result<double> share = look(order[i], false);
+        BN_TRY(share);
+        least = std::min(least, *share);
     }
     // Look for two at once where no single one explains pictures that are mostly wrong
     const auto wrong = std::count_if(best->scenes.begin(), best->scenes.end(),

@@ -200,6 +200,37 @@ SceneFile dielectric()
     return s;
 }
 
+SceneFile round_plastic(double albedo, float roughness)
+{
+    SceneFile s = sphere();
+    s.material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {albedo, albedo, albedo, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", shortest_decimal(roughness)}};
+    return s;
+}
+
+SceneFile high_index() // reflects a sixth, and the rest is for the diffuse part
+{
+    SceneFile s = round_plastic(0.5, 0.25f);
+    s.material["extensions"]["KHR_materials_ior"]["ior"] = shortest_decimal(2.4f);
+    return s;
+}
+
+SceneFile dark_limb() // a small part of a ball that reflects little but at grazing angles
+{
+    SceneFile s = round_plastic(0.02, 0.15f);
+    s.target = glm::vec3(0.925f, 0.1f, 0.3f);
+    s.fov_y_rad = 0.05f;
+    return s;
+}
+
+SceneFile few_triangles() // of a ball, under the ball's own normals
+{
+    SceneFile s;
+    add_grid(s, 20, 10, on_sphere);
+    s.material = brushed(0.28f, 0.9f, 0.0f);
+    return s;
+}
+
 SceneFile coated()
 {
     SceneFile s = brushed_sphere(0.35f, 0.9f, 0.0f);
@@ -325,6 +356,9 @@ const std::vector<ConformScene>& conform_scenes()
         {"back", "the inside of a double-sided bowl", true, false, from_behind},
         {"minified", "a texture of directions from afar", true, false, minified},
         {"dielectric", "a plastic: Fresnel's reflectance, and the light that is left for the diffuse part", true, false, dielectric},
+        {"high_index", "an index of 2.4: the diffuse part gets the light that is not reflected", true, false, high_index},
+        {"dark_limb", "a dark plastic at grazing angles, where reflectance rises", true, false, dark_limb},
+        {"few_triangles", "a ball of few triangles: its normals are the ball's", true, false, few_triangles},
         {"coat", "a clear coat over the lobe", true, false, coated},
         {"lamp", "a directional light alone", false, false, under_a_lamp},
         {"area_light", "a rectangle of light alone", false, true, [] { return brushed_sphere(0.35f, 0.85f, 20.0f); }},
