@@ -91,6 +91,7 @@ struct BakeArguments {
     double nu = -1.0, nv = -1.0;
     Limits limits;
     LtcArguments ltc;
+    PieceOptions pieces;
     int threads = 0, verbosity = 0;
     bool quiet = false;
 };
@@ -157,13 +158,14 @@ OptionTable bake_option_table(BakeArguments& to)
          {"--textures", "NAME", "Also textures for engines: {}; cubes with all levels, the DFG table, key lights",
           choice(to.textures, {"none", "ktx2", "dds", "exr"})},
          {"--texels", "NAME", "Numbers in --textures ktx2 and dds: {} (16 or 32 bits)", choice(to.texels, {"half", "float"})}});
-    table.add("Output",
-              {{"-o,--output", "FILE",
-                "Table or map to write: .png or .tif, for quaternion, tpr and half-vectors also .exr, for displaced .glb", file(to.output)},
-               {"--preview", "FOLDER", "Folder for .png pictures of the result, to look at", folder(to.preview)},
-               quiet_option(to.quiet),
-               verbose_option(to.verbosity),
-               threads_option(to.threads)});
+    table.add(
+        "Output",
+        {Option("-o,--output", "FILE",
+                "Table or map to write: .png or .tif, for quaternion, tpr and half-vectors also .exr, for displaced .glb", file(to.output))
+             .is_output(),
+         Option("--preview", "FOLDER", "Folder for .png pictures of the result, to look at", folder(to.preview)).is_output(),
+         quiet_option(to.quiet), verbose_option(to.verbosity), threads_option(to.threads)});
+    table.add("Pieces of ltc and mip, for several processes", piece_options(to.pieces));
     table.take(limits, "Limits on input",
                {{"--limit-image-side", "Width and height of the input picture"}, {"--limit-file-bytes", "Size of one input file"}});
     return table;
@@ -433,6 +435,10 @@ int run_bake(const BakeArguments& usual, const OptionTable& given)
         return fail(usage_error("--azimuth", "is of brdf-lut"));
     if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")
         return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
+    if (const Status pieces = check_piece_options(arguments.pieces); !pieces)
+        return fail(pieces.error());
+    if (any_pieces(arguments.pieces) && arguments.what != "ltc" && arguments.what != "mip")
+        return fail(usage_error("WHAT", arguments.what + " has no pieces; ltc and mip have"));
     const Activity activity(arguments.what);
     if (arguments.what == "half-vectors" || arguments.what == "brdf-lut")
         return run_phong(arguments, given);
@@ -444,7 +450,7 @@ int run_bake(const BakeArguments& usual, const OptionTable& given)
         return run_environment(arguments);
     if (arguments.what == "mip")
         return run_mip({arguments.mip, arguments.picture, arguments.output, arguments.preview, arguments.limits, arguments.threads,
-                        arguments.verbosity, arguments.quiet});
+                        arguments.verbosity, arguments.quiet, arguments.pieces, given});
     if (arguments.what == "direction")
         return run_direction(arguments);
     if (arguments.what == "quaternion")
@@ -452,7 +458,7 @@ int run_bake(const BakeArguments& usual, const OptionTable& given)
     if (arguments.what == "tpr")
         return run_tpr(arguments);
     return bake_ltc({arguments.ltc, arguments.mip.brdf, arguments.picture, arguments.output, arguments.preview, arguments.threads,
-                     arguments.verbosity, arguments.quiet},
+                     arguments.verbosity, arguments.quiet, arguments.pieces},
                     given);
 }
 

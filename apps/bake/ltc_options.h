@@ -5,6 +5,7 @@
 
 #include "apps/cli/lab.h"
 #include "apps/cli/option.h"
+#include "apps/pieces/pieces.h"
 
 namespace burnish {
 
@@ -25,6 +26,7 @@ struct LtcBake { // with the options common to `burnish bake`
     std::string picture, output, preview;
     int threads, verbosity;
     bool quiet;
+    const PieceOptions& pieces;
 };
 inline LabPart<LtcBake, OptionTable> bake_ltc; // with the options present on the command line
 

@@ -5,15 +5,20 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
 #include "apps/bake/mip_textures.h"
+#include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
+#include "apps/pieces/given.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/jobs/jobs.h"
@@ -65,6 +70,67 @@ Preview preview_of(const Scene& scene, const MaterialLevels& levels)
             all.push_back(std::move(picture));
     }
     return all;
+}
+
+// Filters the levels of some materials, or of all, with one progress bar a material.
+MaterialLevels levels_of_materials(const Scene& scene, const SceneMips& mips, const Jobs& jobs, bool quiet,
+                                   const std::vector<bool>* wanted = nullptr)
+{
+    std::optional<Progress> progress;
+    std::size_t told = 0;
+    return filtered_levels(
+        scene, mips, jobs,
+        [&](std::size_t done, std::size_t all) {
+            if (done < told) // of the next material
+                progress.reset(), told = 0;
+            if (!progress)
+                progress.emplace("texels", all, quiet);
+            progress->step(done - told);
+            told = done;
+        },
+        wanted);
+}
+
+// A piece holds the levels of one material, as a pyramid file.
+std::vector<JobPiece> material_pieces(const MipBake& bake, const Scene& scene, const SceneMips& mips, const Jobs& jobs)
+{
+    const std::string text = text_of_given(bake.given);
+    std::vector<JobPiece> pieces;
+    for (const std::size_t i : filtered_materials(scene, mips)) {
+        const std::uint64_t source = mip_source(scene, scene.materials[i]).hash(jobs);
+        const std::string key = piece_key(fmt::format("mip {:016x} {}{}", source, is_metal(scene, scene.materials[i]), text));
+        const auto levels = [&scene, &mips, &jobs, i] {
+            std::vector<bool> wanted(scene.materials.size());
+            wanted[i] = true;
+            return levels_of_materials(scene, mips, jobs, true, &wanted)[i];
+        };
+        const auto seconds = [levels]() -> Result<double> {
+            const double begin = wall_ms();
+            levels();
+            return (wall_ms() - begin) * 1e-3;
+        };
+        const auto make = [levels, key](const std::string& file) -> Status {
+            const std::shared_ptr<const MipLevels> made = levels();
+            return write_piece(file, key, mip_file_bytes({{made.get()}, 0, {}}));
+        };
+        pieces.push_back({key, seconds, make});
+    }
+    return pieces;
+}
+
+// Lets the scene's filters find the levels that the pieces hold.
+Status take_levels(const std::vector<std::string>& files, const std::vector<JobPiece>& pieces, SceneMips& mips)
+{
+    auto all = std::make_shared<MipFile>();
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        Result<MipFile> file = parse_mip_file(*content, files[i]);
+        BN_TRY(file);
+        std::move(file->materials.begin(), file->materials.end(), std::back_inserter(all->materials));
+    }
+    mips.cached = std::move(all);
+    return {};
 }
 
 } // namespace
@@ -193,20 +259,21 @@ int run_mip(const MipBake& bake)
         report.warning(warning);
     if (a.gains && !takes_gains(a.filter))
         report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_of(a.filter)));
-    // Filter the levels, with one progress bar a material
+    // List or make pieces, or filter the levels
     const Jobs jobs(bake.threads);
     const double begin_ms = wall_ms();
-    std::optional<Progress> progress;
-    std::size_t told = 0;
-    const MaterialLevels levels = filtered_levels(scene, (*data)->mips, jobs, [&](std::size_t done, std::size_t all) {
-        if (done < told) // of the next material
-            progress.reset(), told = 0;
-        if (!progress)
-            progress.emplace("texels", all, bake.quiet);
-        progress->step(done - told);
-        told = done;
-    });
-    progress.reset();
+    SceneMips scene_mips = (*data)->mips;
+    if (any_pieces(bake.pieces)) {
+        const std::vector<JobPiece> pieces = material_pieces(bake, scene, scene_mips, jobs);
+        if (!bake.pieces.merge)
+            return run_pieces(bake.pieces, kept_words(), pieces, report);
+        const auto files = finished_pieces(bake.pieces, kept_words(), pieces);
+        if (!files)
+            return fail(files.error());
+        if (const Status taken = take_levels(*files, pieces, scene_mips); !taken)
+            return fail(taken.error());
+    }
+    const MaterialLevels levels = levels_of_materials(scene, scene_mips, jobs, bake.quiet);
     // Collect the materials with levels
     std::vector<const MipLevels*> each;
     for (const std::shared_ptr<const MipLevels>& of : levels)

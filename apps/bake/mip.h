@@ -6,6 +6,7 @@
 
 #include "apps/bake/preview.h"
 #include "apps/cli/option.h"
+#include "apps/pieces/pieces.h"
 #include "core/base/limits.h"
 #include "core/base/result.h"
 #include "shading/bake/mip/colour_levels.h"
@@ -37,6 +38,8 @@ struct MipBake { // with the options common to `burnish bake`
     Limits limits;
     int threads, verbosity;
     bool quiet;
+    const PieceOptions& pieces;
+    const OptionTable& given;
 };
 int run_mip(const MipBake& bake); // returns the exit code
 

@@ -34,6 +34,7 @@ const std::vector<std::pair<std::string, std::string>>& field_options()
             {"FrameDesc::texture_anisotropy", "--texture-anisotropy"},
             {"FrameDesc::tile_size", "--tile-size"},
             {"FrameDesc::width", "--size"},
+            {"FrameDesc::window", "--size"},
             {"Limits::accessor_bytes", "--limit-accessor-bytes"},
             {"Limits::area_lights", "--limit-lights"},
             {"Limits::data_uri_bytes", "--limit-data-uri-bytes"},

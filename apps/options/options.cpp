@@ -6,6 +6,7 @@
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "core/image/io/image_io.h"
+#include "core/image/io/image_stream.h"
 #include "core/scene/builtin/builtin.h"
 #include "raster/tile/twins.h"
 #include "shading/bake/mip/levels.h"
@@ -26,14 +27,51 @@ Status check_camera(const RenderOptions& out)
     return {};
 }
 
+// Returns true for pictures that no frame holds.
+bool needs_bands(const FrameDesc& frame)
+{
+    return frame.width > kMaxPictureSide || frame.height > kMaxPictureSide ||
+           std::int64_t{frame.width} * frame.height * frame.msaa > kMaxPictureSamples;
+}
+
+// Draws the picture in bands: makes the frame the first window. large: the picture needs bands.
+Status choose_bands(const RenderArguments& in, const OptionTable& given, bool large, RenderOptions& out)
+{
+    constexpr int kBandRows = 256, kRowsAtOnce = 16;
+    const std::string option = in.band_rows ? "--band-rows" : "--size";
+    const std::string why = in.band_rows ? "" : fmt::format("of {}x{} is drawn in bands, and ", in.size.width, in.size.height);
+    if (out.backend != "tile")
+        return usage_error(option, why + "is for --backend tile alone");
+    for (const char* other :
+         {"--frames", "--show", "--risks", "--budget", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
+        if (given.given(other))
+            return usage_error(option, fmt::format("{}cannot be combined with {}", why, other));
+    if (out.floor == FloorChoice::mirror)
+        return usage_error(option, why + "cannot be combined with --floor mirror");
+    for (const std::string& path : out.outputs)
+        if (!writes_rows(path))
+            return usage_error(option, fmt::format("{}cannot be written to {}: .exr and .png are written by rows", why, path));
+    out.band_rows = static_cast<int>(in.band_rows.value_or(kBandRows));
+    if (out.band_rows % kRowsAtOnce != 0 || (large && out.band_rows % kBandRows != 0))
+        return usage_error("--band-rows", fmt::format("must be a multiple of {}", large ? kBandRows : kRowsAtOnce));
+    FrameDesc& frame = out.frame;
+    frame.window = {frame.width, frame.height, 0, 0};
+    frame.width = std::min(frame.width, large ? kWindowCell : frame.width), frame.height = std::min(frame.height, out.band_rows);
+    if (given.given("--anisotropy"))
+        frame.override_anisotropy = true;
+    return {};
+}
+
 Status check_picture(const RenderArguments& in, const OptionTable& given, RenderOptions& out)
 {
     FrameDesc& frame = out.frame;
     frame.width = in.size.width, frame.height = in.size.height;
+    const int most = in.may_have_bands && out.backend == "tile" ? kMaxWindowedSide : kMaxPictureSide;
     for (const int side : {frame.width, frame.height})
-        if (side < 1 || side > kMaxPictureSide)
-            return usage_error("--size",
-                               fmt::format("each side must be from 1 to {} pixels, got {}x{}", kMaxPictureSide, frame.width, frame.height));
+        if (side < 1 || side > most)
+            return usage_error("--size", fmt::format("each side must be from 1 to {} pixels, got {}x{}", most, frame.width, frame.height));
+    if (const bool large = needs_bands(frame); in.band_rows || (large && most == kMaxWindowedSide))
+        return choose_bands(in, given, large, out);
     const std::int64_t samples = std::int64_t{frame.width} * frame.height * frame.msaa;
     if (samples > kMaxPictureSamples)
         return usage_error("--size", fmt::format("{}x{} with --msaa {} is {} samples, more than {}", frame.width, frame.height, frame.msaa,

@@ -36,6 +36,7 @@ struct RenderOptions {
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
     FloorChoice floor = FloorChoice::usual;
+    int band_rows = 0;      // rows of a band, where the picture is drawn in bands; 0: it is drawn at once
     bool in_pieces = false; // a signal ends the process between blocks of a reference, as with a checkpoint
     std::vector<std::string> outputs;
     std::vector<std::string> aov;       // layers of .exr outputs
@@ -95,9 +96,11 @@ bool needs_parts(const RenderOptions& options);
 struct RenderArguments {
     RenderOptions plain;
     PictureSize size = {1280, 720};
-    std::optional<std::int64_t> samples; // none: the default of the technique or the reference
-    std::string animate;                 // in the syntax of --animate
-    int steps = 60;                      // for --animate
+    std::optional<std::int64_t> samples;   // none: the default of the technique or the reference
+    std::string animate;                   // in the syntax of --animate
+    int steps = 60;                        // for --animate
+    std::optional<std::int64_t> band_rows; // none: chosen
+    bool may_have_bands = false;           // one picture, which the command can write by rows
     PieceOptions pieces;
 };
 

@@ -57,7 +57,7 @@ glm::vec3 drawn_place(const glm::dvec3& place, const Scene& scene)
 // Applies --fov and --target to a camera of the scene.
 Result<View> changed(View view, const RenderOptions& options, const Scene& scene, const std::string& camera)
 {
-    const int width = options.frame.width, height = options.frame.height;
+    const int width = picture_width(options.frame), height = picture_height(options.frame);
     if (options.fov_y_deg) {
         if (view.orthographic)
             return usage_error("--fov", camera + " is orthographic: --zoom changes what it shows");
@@ -85,7 +85,7 @@ int first_placed_camera(const Scene& scene)
 
 Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
 {
-    const int width = options.frame.width, height = options.frame.height;
+    const int width = picture_width(options.frame), height = picture_height(options.frame);
     const float fov_y_rad = options.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree;
     if (options.eye) {
         const glm::vec3 eye = drawn_place(*options.eye, scene);

@@ -14,13 +14,13 @@
 #include "apps/cli/outputs.h"
 #include "apps/options/animate.h"
 #include "apps/options/scene_view.h"
+#include "apps/pieces/given.h"
 #include "apps/pieces/packed.h"
 #include "apps/pieces/pieces.h"
 #include "apps/render/picture.h"
 #include "apps/render/planned.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
-#include "core/base/hash.h"
 #include "core/image/io/apng.h"
 #include "core/image/io/image_io.h"
 #include "raster/reference/scene_key.h"
@@ -261,24 +261,6 @@ Status write_step(Row& row, int i, const std::string& file, const std::string& k
     return write_piece(file, key, pack(packed));
 }
 
-// Returns a hash over the content of a file, or of all files of a folder. A missing one has a hash, too.
-std::uint64_t hash_of_files(const std::string& path)
-{
-    std::vector<std::string> files;
-    std::error_code failed, ignored;
-    if (fs::is_directory(path, ignored))
-        for (fs::recursive_directory_iterator at(path, failed), end; !failed && at != end; at.increment(failed))
-            files.push_back(at->path());
-    else
-        files.push_back(path);
-    std::sort(files.begin(), files.end());
-    std::uint64_t hash = 0;
-    for (const std::string& file : files)
-        if (const Result<std::vector<std::uint8_t>> bytes = read_file(file, std::uint64_t{1} << 36); bytes)
-            hash = hash_bytes(bytes->data(), bytes->size(), hash);
-    return hash;
-}
-
 // Returns all that decides the row's pictures, as text: scene and light, and each given option by its name and texts. Files count by their
 // content. Outputs count by their formats.
 std::string text_of_row(const Row& row, const RenderOptions& first, const OptionTable& given)
@@ -286,16 +268,7 @@ std::string text_of_row(const Row& row, const RenderOptions& first, const Option
     const SessionParts& parts = row.session.parts();
     std::string text = fmt::format("{:016x} {:016x} {}", reference_key(parts.input(), row.session.drawn(first.frame), first.reference),
                                    parts.environment->content_hash, row.animation.count());
-    for (const Option& option : given.options()) {
-        const bool elsewhere = option.output || option.group == "Machine" || option.name == "--quiet" || option.name == "--verbose" ||
-                               option.name == "SCENE" || option.group.starts_with("Pieces");
-        if (!option.given || elsewhere)
-            continue;
-        const bool file = option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder;
-        text += "\n" + option.name;
-        for (const std::string& word : option.texts)
-            text += file && !word.starts_with("builtin:") ? fmt::format(" {:016x}", hash_of_files(word)) : " " + word;
-    }
+    text += text_of_given(given);
     const std::set<std::string> formats = formats_of(std::move(*row.animation.step(0)));
     for (const std::string& format : formats)
         text += "\n" + format;

@@ -11,7 +11,9 @@
 #include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/cli/values.h"
 #include "apps/options/scene_view.h"
+#include "apps/render/bands.h"
 #include "apps/render/picture.h"
 #include "apps/render/planned.h"
 #include "apps/render/reference_pieces.h"
@@ -130,25 +132,30 @@ Status check_pieces(const RenderArguments& arguments, const OptionTable& given, 
         return usage_error("--budget-ms", "cannot be combined with pieces: machines would plan otherwise");
     if (given.given("--stats") && row)
         return usage_error("--stats", "cannot be combined with pieces of a row: its times are of one process");
-    if (!row && arguments.plain.backend != "reference")
-        return usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate and --turntable have");
     return {};
 }
 
 int run_render(RenderArguments& arguments, OptionTable& given)
 {
-    if (const Status pieces = check_pieces(arguments, given, arguments.plain.turntable || !arguments.animate.empty()); !pieces)
+    const bool row = arguments.plain.turntable || !arguments.animate.empty();
+    if (const Status pieces = check_pieces(arguments, given, row); !pieces)
         return fail(pieces.error());
-    if (arguments.plain.turntable || !arguments.animate.empty())
+    if (row && arguments.band_rows)
+        return fail(usage_error("--band-rows", "is for one picture, without --animate and --turntable"));
+    if (row)
         return run_animation(arguments, given);
+    arguments.may_have_bands = true;
     if (given.given("--steps"))
         return fail(usage_error("--steps", "needs --animate"));
     // Check the options and the paths
     Result<RenderOptions> checked = check_render_options(arguments, given);
     if (!checked)
         return fail(checked.error());
+    if (any_pieces(arguments.pieces) && checked->backend != "reference" && !checked->band_rows)
+        return fail(
+            usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate, --turntable and --band-rows have"));
     checked->mips.frames_override = sets_materials(checked->frame);
-    if (any_pieces(arguments.pieces))
+    if (any_pieces(arguments.pieces) && !checked->band_rows)
         checked->reference.part = std::make_shared<ReferencePart>(), checked->in_pieces = true;
     const RenderOptions& options = *checked;
     if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
@@ -180,6 +187,8 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
     FrameDesc desc = options.frame;
     desc.view = view->view;
+    if (options.band_rows)
+        return run_bands(arguments, given, options, desc, *session, std::move(figures), report);
     if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
     // List or make pieces of the picture, or take over all of them
@@ -223,6 +232,11 @@ Command render_command()
 {
     auto arguments = std::make_shared<RenderArguments>();
     OptionTable table = render_option_table(*arguments);
+    table.add("Bands, for pictures larger than memory",
+              {{"--band-rows", "N",
+                "Draw the picture in bands of N rows, with the memory of one band; the default beyond 16384x16384 pixels, for "
+                "sides up to 65536",
+                integer(arguments->band_rows, 16, kMaxPictureSide), "the whole picture, else 256"}});
     table.add("Pieces, for several processes", piece_options(arguments->pieces));
     return {"render", "Render a scene to pictures", std::move(table), kFooter,
             [arguments](OptionTable& given) { return run_render(*arguments, given); }};

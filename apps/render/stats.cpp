@@ -66,8 +66,10 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["device"] = figures.device;
     json["isa"] = isa_name(options.isa);
     json["threads"] = figures.threads;
-    json["width"] = frame.width;
-    json["height"] = frame.height;
+    json["width"] = picture_width(frame);
+    json["height"] = picture_height(frame);
+    if (options.band_rows)
+        json["band_rows"] = options.band_rows;
     json["msaa"] = frame.msaa;
     json["tile_size"] = frame.tile_size;
     constexpr const char* kResolves[] = {"linear", "display", "weighted"};

@@ -31,6 +31,24 @@ Status write_file_atomic(const std::string& path, const void* data, std::size_t 
 using PutBytes = std::function<bool(const void* data, std::size_t size)>;
 Status write_file_atomic(const std::string& path, const std::function<void(const PutBytes& put)>& write, Links links = Links::follow);
 
+// A file that is written part by part, and gets its name when it is complete. Without name_it(), nothing is left.
+class StreamedFile {
+  public:
+    // Errors: ExitCode::output_failed, also where `path` is a device or a pipe.
+    static Result<StreamedFile> make(const std::string& path);
+    StreamedFile(StreamedFile&&) = default;
+    ~StreamedFile();
+    Status put(const void* data, std::size_t size); // behind the bytes before
+    std::string place() const;                      // a path by which libraries open the file while it has no name
+    Status name_it();
+
+  private:
+    StreamedFile(Descriptor file, std::string path, std::string temporary, std::string target);
+
+    Descriptor file_;                       // its lock tells others that the file is no leftover
+    std::string path_, temporary_, target_; // temporary: empty for an unnamed file
+};
+
 // Returns the place where a file written to `path` lands: the end of the path's links, which need not exist. Returns
 // `path` itself for circular links, devices and pipes.
 std::string written_place(const std::string& path);

@@ -415,6 +415,67 @@ Status FileSet::name_all()
     return {};
 }
 
+StreamedFile::StreamedFile(Descriptor file, std::string path, std::string temporary, std::string target)
+    : file_(std::move(file)), path_(std::move(path)), temporary_(std::move(temporary)), target_(std::move(target))
+{
+}
+
+StreamedFile::~StreamedFile()
+{
+    if (file_ && !temporary_.empty())
+        ::unlink(temporary_.c_str());
+}
+
+Result<StreamedFile> StreamedFile::make(const std::string& path)
+{
+    fs::path target(path);
+    if (const int code = follow_links(target))
+        return unwritable(path, code);
+    struct stat before {};
+    const bool exists = ::stat(target.c_str(), &before) == 0;
+    if (exists && S_ISDIR(before.st_mode))
+        return unwritable(path, EISDIR);
+    if (exists && !S_ISREG(before.st_mode))
+        return Error{ExitCode::output_failed, path, "", "is no plain file: pictures are written there whole, not in bands"};
+    sweep(target);
+    Temporary made;
+    const bool has_names = ::access("/proc/self/fd", X_OK) == 0;
+    int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
+    if (code != 0 && code != ENOENT && code != EACCES)
+        code = make_named(target, 0666, made);
+    if (code != 0)
+        return unwritable(path, code);
+    if (exists)
+        keep_owner(made.file.get(), before);
+    return StreamedFile(std::move(made.file), path, made.name, target.string());
+}
+
+Status StreamedFile::put(const void* data, std::size_t size)
+{
+    const int code = write_all(file_.get(), data, size);
+    return code ? Status(unwritable(path_, code)) : Status();
+}
+
+std::string StreamedFile::place() const
+{
+    return temporary_.empty() ? "/proc/self/fd/" + std::to_string(file_.get()) : temporary_;
+}
+
+Status StreamedFile::name_it()
+{
+    Temporary made{std::move(file_), temporary_};
+    int code = ::fsync(made.file.get()) == 0 || cannot_sync(errno) ? 0 : errno;
+    if (code == 0 && made.name.empty())
+        code = burnish::name_it(made, target_);
+    if (code == 0 && ::rename(made.name.c_str(), target_.c_str()) != 0)
+        code = errno;
+    if (code == 0)
+        code = sync_folder(folder_of(target_));
+    else if (!made.name.empty())
+        ::unlink(made.name.c_str());
+    return code ? Status(unwritable(path_, code)) : Status();
+}
+
 std::string name_of_temporary(const std::string& name)
 {
     if (name.size() < 2 || name[0] != '.')

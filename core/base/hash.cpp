@@ -1,5 +1,6 @@
 #include "core/base/hash.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -36,30 +37,35 @@ std::uint64_t merge(std::uint64_t hash, std::uint64_t lane)
     return (hash ^ round(0, lane)) * kPrime1 + kPrime4;
 }
 
-// Hashes 32-byte stripes in four lanes, and advances `at` past the last whole stripe.
-std::uint64_t hash_stripes(const unsigned char*& at, const unsigned char* end, std::uint64_t seed)
+void start_lanes(std::uint64_t seed, std::uint64_t lanes[4])
 {
-    std::uint64_t a = seed + kPrime1 + kPrime2;
-    std::uint64_t b = seed + kPrime2;
-    std::uint64_t c = seed;
-    std::uint64_t d = seed - kPrime1;
+    lanes[0] = seed + kPrime1 + kPrime2, lanes[1] = seed + kPrime2, lanes[2] = seed, lanes[3] = seed - kPrime1;
+}
+
+// Hashes 32-byte stripes in four lanes. Returns the end of the last whole stripe.
+const unsigned char* add_stripes(const unsigned char* at, const unsigned char* end, std::uint64_t lanes[4])
+{
+    std::uint64_t a = lanes[0], b = lanes[1], c = lanes[2], d = lanes[3];
     for (; end - at >= 32; at += 32) {
         a = round(a, read_little_endian<std::uint64_t>(at));
         b = round(b, read_little_endian<std::uint64_t>(at + 8));
         c = round(c, read_little_endian<std::uint64_t>(at + 16));
         d = round(d, read_little_endian<std::uint64_t>(at + 24));
     }
-    const std::uint64_t hash = std::rotl(a, 1) + std::rotl(b, 7) + std::rotl(c, 12) + std::rotl(d, 18);
-    return merge(merge(merge(merge(hash, a), b), c), d);
+    lanes[0] = a, lanes[1] = b, lanes[2] = c, lanes[3] = d;
+    return at;
 }
 
-} // namespace
-
-std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed)
+// Returns the hash from the lanes, the bytes behind the last whole stripe and the number of all bytes.
+std::uint64_t finish(const std::uint64_t lanes[4], const unsigned char* at, const unsigned char* end, std::uint64_t size,
+                     std::uint64_t seed)
 {
-    const unsigned char* at = static_cast<const unsigned char*>(data);
-    const unsigned char* const end = size ? at + size : at;
-    std::uint64_t hash = size >= 32 ? hash_stripes(at, end, seed) : seed + kPrime5;
+    std::uint64_t hash = seed + kPrime5;
+    if (size >= 32) {
+        hash = std::rotl(lanes[0], 1) + std::rotl(lanes[1], 7) + std::rotl(lanes[2], 12) + std::rotl(lanes[3], 18);
+        for (int i = 0; i < 4; ++i)
+            hash = merge(hash, lanes[i]);
+    }
     hash += size;
     for (; end - at >= 8; at += 8)
         hash = std::rotl(hash ^ round(0, read_little_endian<std::uint64_t>(at)), 27) * kPrime1 + kPrime4;
@@ -72,6 +78,46 @@ std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed)
     hash = (hash ^ (hash >> 33)) * kPrime2;
     hash = (hash ^ (hash >> 29)) * kPrime3;
     return hash ^ (hash >> 32);
+}
+
+} // namespace
+
+std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed)
+{
+    const unsigned char* const at = static_cast<const unsigned char*>(data);
+    const unsigned char* const end = size ? at + size : at;
+    std::uint64_t lanes[4];
+    start_lanes(seed, lanes);
+    return finish(lanes, add_stripes(at, end, lanes), end, size, seed);
+}
+
+HashStream::HashStream(std::uint64_t seed) : seed_(seed)
+{
+    start_lanes(seed, lanes_);
+}
+
+void HashStream::add(const void* data, std::size_t size)
+{
+    const unsigned char* at = static_cast<const unsigned char*>(data);
+    const unsigned char* const end = size ? at + size : at;
+    // Fill a stripe that has begun
+    const std::size_t begun = size_ % kStripe;
+    size_ += size;
+    if (begun > 0) {
+        const std::size_t more = std::min(kStripe - begun, size);
+        std::copy_n(at, more, rest_ + begun);
+        at += more;
+        if (begun + more < kStripe)
+            return;
+        add_stripes(rest_, rest_ + kStripe, lanes_);
+    }
+    at = add_stripes(at, end, lanes_);
+    std::copy(at, end, rest_);
+}
+
+std::uint64_t HashStream::value() const
+{
+    return finish(lanes_, rest_, rest_ + size_ % kStripe, size_, seed_);
 }
 
 } // namespace burnish

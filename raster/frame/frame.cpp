@@ -231,16 +231,47 @@ Status check_by_material(const FrameDesc& d)
     return {};
 }
 
+// Checks one direction of a window.
+Status check_window_side(int size, int first, int picture, const char* side)
+{
+    const auto usage = [&](const std::string& reason) { return Error{ExitCode::usage, "", "", reason, "FrameDesc::window"}; };
+    if (picture < 1 || picture > kMaxWindowedSide)
+        return usage(fmt::format("the picture's {} of {} pixels must lie in 1..{}", side, picture, kMaxWindowedSide));
+    if (first < 0 || first % kWindowStep != 0 || std::int64_t{first} + size > picture)
+        return usage(fmt::format("{} pixels from {} on must lie in the picture's {} of {}, and begin at a multiple of {}", size, first,
+                                 side, picture, kWindowStep));
+    const std::int64_t cell = window_cell(first, size);
+    if (picture > kMaxPictureSide && (first < cell * kWindowCell - kWindowStep || first + size > (cell + 1) * kWindowCell + kWindowStep))
+        return usage(fmt::format("{} pixels from {} on reach into two cells of {} pixels", size, first, kWindowCell));
+    return {};
+}
+
+Status check_window(const FrameDesc& d)
+{
+    const PictureWindow& w = d.window;
+    if (w.picture_width == 0 && w.picture_height == 0 && w.left == 0 && w.top == 0)
+        return {};
+    BN_TRY(check_window_side(d.width, w.left, w.picture_width, "width"));
+    return check_window_side(d.height, w.top, w.picture_height, "height");
+}
+
 } // namespace
+
+int window_cell(int first, int size)
+{
+    return (first + size / 2) / kWindowCell;
+}
 
 Status check_desc(const FrameDesc& d)
 {
     const auto usage = [](const std::string& field, std::string reason) {
         return Error{ExitCode::usage, "", "", std::move(reason), "FrameDesc::" + field};
     };
+    const int most_side = kMaxPictureSide + (d.window.picture_width > 0 ? 2 * kWindowStep : 0); // a cell and what lies around it
     for (const auto& [side, name] : {std::pair(d.width, "width"), std::pair(d.height, "height")})
-        if (side < 1 || side > kMaxPictureSide)
-            return usage(name, fmt::format("{} pixels; the image's sides must lie in 1..{}", side, kMaxPictureSide));
+        if (side < 1 || side > most_side)
+            return usage(name, fmt::format("{} pixels; the image's sides must lie in 1..{}", side, most_side));
+    BN_TRY(check_window(d));
     if (d.msaa != 1 && d.msaa != 2 && d.msaa != 4 && d.msaa != 8 && d.msaa != 16)
         return usage("msaa", "msaa must be 1, 2, 4, 8 or 16");
     if (std::int64_t{d.width} * d.height * d.msaa > kMaxPictureSamples)

@@ -52,6 +52,17 @@ inline constexpr int kMaxPictureSide = 16384; // pixels
 inline constexpr int kMaxSampleBits = 28 - kLessBits;
 inline constexpr std::int64_t kMaxPictureSamples = 1ll << kMaxSampleBits; // width * height * msaa: 2 GiB of depth and triangle ids
 
+// The window of a picture that a frame draws. Pixels have the bits that they have where a frame draws the whole picture.
+struct PictureWindow {
+    int picture_width = 0, picture_height = 0; // pixels, at most kMaxWindowedSide; 0: the frame is the whole picture
+    int left = 0, top = 0;                     // the frame's first pixel in the picture, multiples of kWindowStep
+};
+inline constexpr int kMaxWindowedSide = 65536, kWindowStep = 8; // pixels
+// A picture with a longer side than kMaxPictureSide consists of cells. Snapped positions count from the middle of a cell, so a window
+// reaches beyond one cell by kWindowStep at most.
+inline constexpr int kWindowCell = 16384; // pixels
+int window_cell(int first, int size);     // of a window's side
+
 struct MaterialTechnique { // of one material
     std::string technique = "auto";
     int samples = 16; // for techniques that take samples
@@ -60,7 +71,8 @@ struct MaterialTechnique { // of one material
 struct FrameDesc {
     int width = 1280, height = 720;
     int msaa = 8; // 1, 2, 4, 8, 16
-    View view;
+    View view;    // of the whole picture
+    PictureWindow window;
     std::string technique = "auto";
     int samples = 16; // for techniques that take samples; `burnish render` takes TechniqueInfo::default_samples
     // Techniques and samples of the scene's materials, by index, in place of the two fields above; empty: those for all. A technique that
@@ -92,6 +104,15 @@ struct FrameDesc {
 };
 // Checks that a rasterizer can draw the description: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
+// Return the size of the picture that a frame shows, or shows a window of.
+inline int picture_width(const FrameDesc& desc)
+{
+    return desc.window.picture_width > 0 ? desc.window.picture_width : desc.width;
+}
+inline int picture_height(const FrameDesc& desc)
+{
+    return desc.window.picture_width > 0 ? desc.window.picture_height : desc.height;
+}
 
 struct SamplingStats {                // for renderers that integrate by random samples
     std::uint64_t samples = 0;        // per pixel

@@ -71,6 +71,22 @@ static const ltc::ShadingTables& ltc_tables(const RenderInput& input)
     return input.ltc ? *input.ltc : ltc::shipped_tables();
 }
 
+// Snapped positions along one axis, as in FrameRecord.
+struct SnappedAxis {
+    int center;
+    float half, middle;
+};
+static SnappedAxis snapped_axis(int size, int first, int picture)
+{
+    SnappedAxis a = {picture / 2, 0.5f * static_cast<float>(picture), 0.0f};
+    if (picture > kMaxPictureSide) {
+        a.center = window_cell(first, size) * kWindowCell + kWindowCell / 2;
+        a.middle = (static_cast<float>(a.center) - a.half) / a.half;
+    }
+    a.center = (a.center - first) * kSubpixel;
+    return a;
+}
+
 // Fills all record fields that need no baking.
 FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
 {
@@ -78,8 +94,10 @@ FrameRecord frame_record(const RenderInput& input, const FrameDesc& d)
     // Camera, picture size and sample pattern
     f.view = view_record(d.view);
     f.width = d.width, f.height = d.height, f.msaa = d.msaa;
-    f.center_x = d.width / 2 * kSubpixel, f.center_y = d.height / 2 * kSubpixel;
-    f.half_width = 0.5f * static_cast<float>(d.width), f.half_height = 0.5f * static_cast<float>(d.height);
+    f.left = d.window.left, f.top = d.window.top, f.picture_width = picture_width(d);
+    const SnappedAxis across = snapped_axis(d.width, f.left, picture_width(d)), down = snapped_axis(d.height, f.top, picture_height(d));
+    f.center_x = across.center, f.half_width = across.half, f.middle_x = across.middle;
+    f.center_y = down.center, f.half_height = down.half, f.middle_y = down.middle;
     f.pattern = standard_samples(d.msaa);
     // Environment: cubes and extracted lights
     f.specular = cube_record(input.environment.specular), f.irradiance = cube_record(input.environment.irradiance);
@@ -280,6 +298,11 @@ Status FrameMaker::check(const FrameDesc& desc) const
 {
     if (const Status ok = check_frame(input_.scene, desc); !ok)
         return ok;
+    if (desc.window.picture_width > 0 && shows_behind(desc))
+        return Error{ExitCode::usage, "", "",
+                     "surfaces that let light through show the whole picture behind them, and this frame is a window of it "
+                     "(FrameDesc::glass interface draws them by the environment alone)",
+                     "FrameDesc::window"};
     if (const Status ok = check_prepared(input_.mips, desc); !ok)
         return ok;
     if (!input_.phong)
@@ -314,9 +337,9 @@ ShadingFrame FrameMaker::make(const FrameDesc& desc)
     const view_params view = view_params_of(f.view);
     screen_x_.resize(static_cast<std::size_t>(desc.width)), screen_y_.resize(static_cast<std::size_t>(desc.height));
     for (int x = 0; x < desc.width; ++x)
-        screen_x_[static_cast<std::size_t>(x)] = screen_x(static_cast<float>(x) + 0.5f, f.half_width, view.inv_tan_x);
+        screen_x_[static_cast<std::size_t>(x)] = screen_x(static_cast<float>(x + f.left) + 0.5f, f.half_width, view.inv_tan_x);
     for (int y = 0; y < desc.height; ++y)
-        screen_y_[static_cast<std::size_t>(y)] = screen_y(static_cast<float>(y) + 0.5f, f.half_height, view.inv_tan_y);
+        screen_y_[static_cast<std::size_t>(y)] = screen_y(static_cast<float>(y + f.top) + 0.5f, f.half_height, view.inv_tan_y);
     f.screen_x = screen_x_.data(), f.screen_y = screen_y_.data();
     // Point the frame at the scene's tables
     const DrawTables& t = input_.tables;

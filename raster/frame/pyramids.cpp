@@ -426,6 +426,15 @@ MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, 
     return all;
 }
 
+std::vector<std::size_t> filtered_materials(const Scene& scene, const SceneMips& mips)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (is_filtered(scene, scene.materials[i], mips.of(i)) && static_cast<std::size_t>(owner_of(scene, mips, i, false)) == i)
+            found.push_back(i);
+    return found;
+}
+
 std::string levels_name(const Material& m, const MaterialMips& mips)
 {
     return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(mips.filter)].name;

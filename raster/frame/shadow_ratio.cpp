@@ -20,6 +20,7 @@ struct Guide { // geometry of a pixel
     bool seen = false;
 };
 
+// x, y: pixel in the picture of `width` x `height` pixels.
 Guide guide_of(const PixelLayers& layers, const View& v, int x, int y, int width, int height)
 {
     Guide g;
@@ -47,18 +48,20 @@ double alike(const Guide& a, const Guide& b)
 
 } // namespace
 
-Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs,
+Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const FrameDesc& desc, const Jobs& jobs,
                    bool noisy)
 {
     const int reach = noisy ? kReach : 0;
-    const int width = open.width, height = open.height;
+    const int width = desc.width, height = desc.height;
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    BN_CHECK(shadowed.width == width && shadowed.height == height && layers.size() == pixels);
+    BN_CHECK(open.width == width && open.height == height && shadowed.width == width && shadowed.height == height);
+    BN_CHECK(layers.size() == pixels);
     // Find the surface behind every pixel
     std::vector<Guide> guides(pixels);
     for (std::size_t i = 0; i < pixels; ++i)
-        guides[i] = guide_of(layers[i], view, static_cast<int>(i % static_cast<std::size_t>(width)),
-                             static_cast<int>(i / static_cast<std::size_t>(width)), width, height);
+        guides[i] =
+            guide_of(layers[i], desc.view, desc.window.left + static_cast<int>(i % static_cast<std::size_t>(width)),
+                     desc.window.top + static_cast<int>(i / static_cast<std::size_t>(width)), picture_width(desc), picture_height(desc));
     // Tabulate the Gaussian
     double falloff[kReach + 1];
     for (int i = 0; i <= kReach; ++i)

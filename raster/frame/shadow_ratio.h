@@ -7,10 +7,10 @@
 namespace burnish {
 
 // Returns the ratio of shadowed to open light. f32 RGB, not negative. shadowed, open: f32 RGB, estimates of a picture's light from some
-// lights by the same samples, with and without occluders. layers: of the same picture, seen by `view`. Noisy estimates are filtered over
-// 5x5 pixels of the same surface before the division. The ratio is 0 in full shadow. It is exactly 1 if nothing occludes the lights or no
-// light would arrive anyway.
-Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const View& view, const Jobs& jobs,
+// lights by the same samples, with and without occluders. layers: of the same frame; desc: its description. Noisy estimates are filtered
+// over 5x5 pixels of the same surface before the division. The ratio is 0 in full shadow. It is exactly 1 if nothing occludes the lights or
+// no light would arrive anyway.
+Image shadow_ratio(const Image& shadowed, const Image& open, const Column<PixelLayers>& layers, const FrameDesc& desc, const Jobs& jobs,
                    bool noisy = true);
 
 // Takes the shaded share of some lights out of a picture: (lit - unlit) (1 - ratio). lit: the picture with all lights and no shadows;

@@ -86,8 +86,9 @@ std::vector<std::uint8_t> blocks_of(const Accumulator& a, std::uint64_t key, std
     BN_CHECK(std::uint64_t{first} + count <= a.passes.size());
     std::vector<std::uint8_t> bytes;
     const auto put = [&](const void* data, std::size_t size) {
-        const auto* const from = static_cast<const std::uint8_t*>(data);
-        bytes.insert(bytes.end(), from, from + size);
+        const std::size_t at = bytes.size();
+        bytes.resize(at + size);
+        std::memcpy(bytes.data() + at, data, size);
     };
     BlocksHeader h = {};
     std::memcpy(h.magic, kBlocksMagic, sizeof h.magic);

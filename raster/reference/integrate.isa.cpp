@@ -329,7 +329,7 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     const ReferenceParams& f = p.f;
     const integer position = iota() + int_lit(first);
     const real2 in_pixel = camera_position(*f.sobol, p.seed, position);
-    const real px = splat(static_cast<float>(x)) + in_pixel.x, py = splat(static_cast<float>(y)) + in_pixel.y;
+    const real px = splat(static_cast<float>(x + f.left)) + in_pixel.x, py = splat(static_cast<float>(y + f.top)) + in_pixel.y;
     const LaneRays rays = camera_rays(f, px, py);
     // Derivatives come from the neighbour in the same quad of 2x2 pixels, as in the rasterizer.
     const LaneRays neighbours[2] = {camera_rays(f, px + splat(x & 1 ? -1.0f : 1.0f), py),
@@ -365,8 +365,8 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
 void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass, PixelState& state)
 {
     const std::uint32_t pixel =
-        hash_seed(hash_seed(hash_seed(0x62726e73u, static_cast<std::uint32_t>(f.seed)), static_cast<std::uint32_t>(x)),
-                  static_cast<std::uint32_t>(y));
+        hash_seed(hash_seed(hash_seed(0x62726e73u, static_cast<std::uint32_t>(f.seed)), static_cast<std::uint32_t>(x + f.left)),
+                  static_cast<std::uint32_t>(y + f.top));
     float channel[3][kPassPositions];
     for (int first = 0; first < kPassPositions; first += kLanes) {
         const PixelFrame p = {f, scratch, hash_seed(pixel, pass), first};
@@ -400,10 +400,10 @@ void trace_row(const ReferenceParams& f, int y, const SamplePattern& pattern, Re
         float px[kLanes], py[kLanes];
         for (int i = 0; i < kLanes; ++i) {
             const int at = first + i < count ? first + i : first, sample = at % pattern.count;
-            px[i] = static_cast<float>(at / pattern.count) + static_cast<float>(pattern.x[sample]) * (1.0f / kSubpixel);
-            py[i] = static_cast<float>(y) + static_cast<float>(pattern.y[sample]) * (1.0f / kSubpixel);
+            px[i] = static_cast<float>(at / pattern.count + f.left) + static_cast<float>(pattern.x[sample]) * (1.0f / kSubpixel);
+            py[i] = static_cast<float>(y + f.top) + static_cast<float>(pattern.y[sample]) * (1.0f / kSubpixel);
         }
-        const PixelFrame p = {f, scratch, hash_seed(static_cast<std::uint32_t>(f.seed), static_cast<std::uint32_t>(y)), 0};
+        const PixelFrame p = {f, scratch, hash_seed(static_cast<std::uint32_t>(f.seed), static_cast<std::uint32_t>(y + f.top)), 0};
         const LaneRays rays = camera_rays(f, load(px), load(py));
         const mask everything = mask_from_bits((1u << kLanes) - 1u);
         real passed;

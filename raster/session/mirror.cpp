@@ -110,6 +110,8 @@ Status add_reflection(const ShadowSettings& shadows, const FrameDesc& desc, Sess
     return guarded(session.parts().scene->name, [&]() -> Status {
         BN_TRY(check_shadows(shadows));
         BN_TRY(check_desc(desc));
+        if (desc.window.picture_width > 0)
+            return Error{ExitCode::usage, "", "", "a floor mirrors whole pictures, not a window of one", "FrameDesc::window"};
         BN_TRY(check_drawn(lit, desc));
         return reflect(shadows, desc, session, lit);
     });

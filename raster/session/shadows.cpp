@@ -43,7 +43,7 @@ Result<Image> traced_ratio(Lights kind, const ShadowSettings& settings, const Fr
         light[open] = std::move(frame->color);
     }
     // Layers are in world space, and so is this view. Points of lamps are not chosen at random.
-    return shadow_ratio(light[0], light[1], lit.layers, desc.view, *session.parts().jobs, kind == Lights::area);
+    return shadow_ratio(light[0], light[1], lit.layers, desc, *session.parts().jobs, kind == Lights::area);
 }
 
 Status darken_by_rays(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit)

@@ -550,6 +550,8 @@ Result<Frame> VulkanRenderer::render(const FrameDesc& desc, Frame)
     BN_TRY(scene_.check(desc));
     const bool forward = device_->options.pipeline != VulkanPipeline::ids;
     const bool brought = forward && device_->options.shaders != nullptr;
+    if (forward && desc.window.picture_width > 0)
+        return Error{ExitCode::usage, "", "", "forward draws whole pictures alone; ids draws windows of them", "VulkanOptions::pipeline"};
     if (brought && (desc.stages || desc.triangle_ids))
         return Error{ExitCode::usage, "", "", "shaders of a caller have neither stages nor triangle ids", "VulkanOptions::shaders"};
     if (forward && (desc.layers || desc.parts))

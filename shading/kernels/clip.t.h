@@ -36,10 +36,20 @@ BN_FN uniform_wide band_y(frame_ref f)
     return wide_of(kCutBand / kSubpixel) / wide_of(the_frame(f).half_height);
 }
 
+// Return the guard band's middle, as band_x() and band_y(). y up.
+BN_FN uniform_wide middle_x(frame_ref f)
+{
+    return wide_of(the_frame(f).middle_x);
+}
+BN_FN uniform_wide middle_y(frame_ref f)
+{
+    return -wide_of(the_frame(f).middle_y);
+}
+
 // Returns the signed distance to a plane; inside is >= 0. Plane 0: near; 1 to 4: guard band.
 BN_FN uniform_wide plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
 {
-    uniform_wide d = band_y(f) * v.c[2] + v.c[1];
+    uniform_wide d = (band_y(f) - middle_y(f)) * v.c[2] + v.c[1];
     // Distance to the near plane, by depth for orthographic views
     if (plane == 0) {
         uniform_wide before_depth = wide_of(1) - v.c[3];
@@ -50,11 +60,11 @@ BN_FN uniform_wide plane_distance(frame_ref f, BN_IN(clip_corner) v, int plane)
     }
     // Distances to the guard band's sides
     if (plane == 1)
-        d = band_x(f) * v.c[2] - v.c[0];
+        d = (band_x(f) + middle_x(f)) * v.c[2] - v.c[0];
     if (plane == 2)
-        d = band_x(f) * v.c[2] + v.c[0];
+        d = (band_x(f) - middle_x(f)) * v.c[2] + v.c[0];
     if (plane == 3)
-        d = band_y(f) * v.c[2] - v.c[1];
+        d = (band_y(f) + middle_y(f)) * v.c[2] - v.c[1];
     return d;
 }
 
@@ -66,13 +76,13 @@ BN_FN void put_on_plane(frame_ref f, int plane, BN_INOUT(clip_corner) v)
     if (plane == 0 && the_frame(f).view.orthographic != 0)
         v.c[3] = wide_of(1);
     if (plane == 1)
-        v.c[0] = band_x(f) * v.c[2];
+        v.c[0] = (middle_x(f) + band_x(f)) * v.c[2];
     if (plane == 2)
-        v.c[0] = -band_x(f) * v.c[2];
+        v.c[0] = (middle_x(f) - band_x(f)) * v.c[2];
     if (plane == 3)
-        v.c[1] = band_y(f) * v.c[2];
+        v.c[1] = (middle_y(f) + band_y(f)) * v.c[2];
     if (plane == 4)
-        v.c[1] = -band_y(f) * v.c[2];
+        v.c[1] = (middle_y(f) - band_y(f)) * v.c[2];
 }
 
 // Returns the point where an edge meets a plane. d_in, d_out: distances of the edge's ends to the plane.
@@ -191,8 +201,8 @@ BN_FN void snap_corner(frame_ref f, BN_INOUT(clip_corner) v)
     // Project and snap
     uniform_wide x = v.c[0] / w;
     uniform_wide y = -v.c[1] / w;
-    v.x = place_on_grid(x, the_frame(f).half_width, the_frame(f).center_x);
-    v.y = place_on_grid(y, the_frame(f).half_height, the_frame(f).center_y);
+    v.x = place_on_grid(x, the_frame(f).half_width, center_in_picture_x(f));
+    v.y = place_on_grid(y, the_frame(f).half_height, center_in_picture_y(f));
     // Store 1 / w and depth
     uniform_wide inv_w = wide_of(1) / w;
     uniform_wide depth = z / w;

@@ -126,7 +126,9 @@ struct FrameRecord {
     ViewRecord view;
     int width, height, msaa;
     int center_x, center_y;        // sub-pixel units; snapped position + center counts from the image's top left corner
-    float half_width, half_height; // pixels
+    float half_width, half_height; // half the picture, pixels
+    int left, top, picture_width;  // the image's first pixel in the picture, 0 unless it is a window of the picture; the picture's width
+    float middle_x, middle_y;      // where snapped positions are 0, from -1 to 1 over the picture, y down; 0 up to kMaxPictureSide
     SamplePattern pattern;
     CubeRecord specular, irradiance; // without extracted lights
     CubeRecord whole;                // the environment with extracted lights; equals `specular` where there are none

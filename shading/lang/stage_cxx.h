@@ -25,7 +25,8 @@ BN_INLINE real2 place_of_center(frame_ref f, const view_params& view, integer px
             return vec2_of(kLanes > kRow ? table_value(f.screen_x + column[0], across) : load(f.screen_x + column[0]),
                            kLanes > kRow ? table_value(f.screen_y + row[0], down) : splat(f.screen_y[row[0]]));
     }
-    return place_on_screen(f, view, to_real(px) + lit(0.5), to_real(py) + lit(0.5));
+    const integer x = px + int_lit(f.left), y = py + int_lit(f.top);
+    return place_on_screen(f, view, to_real(x) + lit(0.5), to_real(y) + lit(0.5));
 }
 
 BN_INLINE const LightRecord& the_light(frame_ref f, int i)

@@ -202,7 +202,9 @@ BN_FN shared_sample_record light_of_fragment(frame_ref f, material_ref m, techni
         return unshared_record(light);
     // Make the shaded point
     shaded_point x;
-    make_shaded_point(f, m, at, shape, p, py * int_lit(the_frame(f).width) + px, x);
+    integer across = px + int_lit(the_frame(f).left);
+    integer down = py + int_lit(the_frame(f).top);
+    make_shaded_point(f, m, at, shape, p, down * int_lit(the_frame(f).picture_width) + across, x);
     // Add environment light and lights
     int traits = technique_traits(m, t);
     if (!shares)

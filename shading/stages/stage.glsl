@@ -10,7 +10,9 @@
 
 real2 place_of_center(frame_ref f, view_params view, integer px, integer py)
 {
-    return place_on_screen(f, view, to_real(px) + lit(0.5), to_real(py) + lit(0.5));
+    integer x = px + int_lit(the_frame(f).left);
+    integer y = py + int_lit(the_frame(f).top);
+    return place_on_screen(f, view, to_real(x) + lit(0.5), to_real(y) + lit(0.5));
 }
 #define the_light(f, i) lights[i]
 #define light_reach int // index of the next light

@@ -68,8 +68,8 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
         integer y = select(center.inside, middle_y, corner_y + mean.y);
         w = weights_at(t, x, y);
         // Find the point's place on the screen
-        real across = to_real(x + int_lit(the_frame(f).center_x)) * lit(0.00390625);
-        real down = to_real(y + int_lit(the_frame(f).center_y)) * lit(0.00390625);
+        real across = to_real(x + int_lit(center_in_picture_x(f))) * lit(0.00390625);
+        real down = to_real(y + int_lit(center_in_picture_y(f))) * lit(0.00390625);
         place = place_on_screen(f, view, across, down);
     }
     // Interpolate the attributes

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pathlib
 import random
 import re
 import shlex
@@ -14,6 +15,7 @@ import time
 from fault_cases import REFERENCE, needs_embree, preloaded
 from harness import Skipped, case, check
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PICTURE = ("render", "builtin:plate", "--backend", "reference", "--size", "48x32", "--samples", "8192", "--env-size", "16", "--env-samples", "16", "-q")
 ROW = ("render", "builtin:plate", "--animate", "roughness=0.1:0.6", "--steps", "5", "--size", "48x32", "--env-size", "16", "--env-samples", "16", "-q")
 CHART = ("chart", "builtin:plate", "--techniques", "split_isotropic,bent_normal", "--sweep", "roughness=0.2,0.4,0.6", "--size", "96x64",
@@ -40,18 +42,18 @@ def shell(bench, line):
                           stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
 
 
-def one_and_pieces(bench, words, outputs):
+def one_and_pieces(bench, words, outputs, option="-o", machine=("--threads", "1", "--isa", "scalar")):
     """Makes the outputs by one process in "one", then in "two" by shares out of order, single commands and a merge. Compares all."""
     (bench.folder / "one").mkdir()
     (bench.folder / "two").mkdir()
-    at = lambda folder: [word for name in outputs for word in ("-o", f"{folder}/{name}")]
+    at = lambda folder: [word for name in outputs for word in (option, f"{folder}/{name}")]
     bench.run(*words, *at("one")).expect(0)
     words = (*words, *at("two"))
     pieces = pieces_of(bench, words)
     check(len({key for key, _, _ in pieces}) == len(pieces) > 2, f"{pieces}")
     merged = bench.run("merge", "w")
     merged.expect(4)
-    bench.run(*words, "--shard", "3/3", "--work", "w", "--threads", "1", "--isa", "scalar").expect(0)
+    bench.run(*words, "--shard", "3/3", "--work", "w", *machine).expect(0)
     bench.run(*words, "--shard", "auto", "--work", "w", env={"PMI_RANK": "0", "PMI_SIZE": "3"}).expect(0)
     missing = bench.run("merge", "w").expect(5)
     missing.expect_one_line("missing")
@@ -99,10 +101,34 @@ def conform(bench):
     bench.run(*words, "one", timeout=200).expect(0)
     bench.run(*words, "two", "--shard", "2/2", "--work", "w", timeout=200).expect(0)
     missing = bench.run("merge", "w").expect(5)
-    check(len(missing.out.splitlines()) == 14 and not (bench.folder / "two").exists(), missing.describe())
+    check(len(missing.out.splitlines()) == 16 and not (bench.folder / "two").exists(), missing.describe())
     bench.run(*words, "two", "--take", "--work", "w", timeout=200).expect(0)
     bench.run("merge", "w").expect(0)
     check(files_of(bench.folder / "one") == files_of(bench.folder / "two"), "other files")
+
+
+@case("pieces.of_baked_levels_make_their_bytes")
+def levels(bench):
+    """Levels of each material, with colours and heights that the merge makes. Changed maps and options have other pieces."""
+    words = ("bake", "mip", "builtin:bumps", "-q")
+    one_and_pieces(bench, words, ("levels.mip",), machine=("--threads", "1"))
+    (bench.folder / "one/levels.mip").unlink()
+    words = pieces_of(bench, (*words, "-o", "a.mip")), pieces_of(bench, (*words, "--mip-filter", "ssgt", "-o", "a.mip"))
+    check(not {key for key, _, _ in words[0]} & {key for key, _, _ in words[1]}, "another filter has the same pieces")
+    bench.run("bake", "direction", "a.png", "-o", "b.png", "--pieces").expect(2).expect_one_line("direction", "mip")
+
+
+@case("pieces.of_a_table_make_its_bytes", budget=20)
+def table(bench):
+    one_and_pieces(bench, ("bake", "ltc", "--resolution", "4", "--steps", "2", "-q"), ("a.ltc",), machine=("--threads", "1"))
+    bench.run("bake", "ltc", "--table", "two/a.ltc", "--pieces").expect(2).expect_one_line("--table")
+
+
+@case("pieces.of_measured_nets_make_their_figures", budget=20)
+def nets(bench):
+    net = str(ROOT / "shading/bake/mipnet/ggx_aniso.mipnet")
+    one_and_pieces(bench, ("train", "mip", "--evaluate", net, "--validation", "-q"), ("figures.json",), option="--json", machine=("--threads", "1"))
+    bench.run("train", "mip", "-o", "a.mipnet", "--pieces").expect(2).expect_one_line("--evaluate", "step")
 
 
 @case("pieces.of_a_timed_chart_keep_their_times")
@@ -271,6 +297,14 @@ def content(bench):
         bench.run("bake", "environment", "builtin:sky", "--env-size", "16", "--env-samples", samples, "-q", "-o", "baked").expect(0)
         found.append(keys(bench, *row))
     check(not set(found[0]) & set(found[1]), "another bake of the same light changes no key")
+
+
+@case("pieces.of_another_renderer_are_others")
+def renderer(bench):
+    needs_embree(bench)
+    row = ("render", "builtin:plate", "--animate", "roughness=0.1:0.6", "--steps", "3", "--size", "24x16", "-q", "-o", "o_%d.exr")
+    own = keys(bench, *row)
+    check(not set(keys(bench, *row, "--backend", "reference")) & set(own), "the reference's pictures have the keys of the tile renderer's")
 
 
 @case("pieces.of_one_kind_are_made_twice_at_once", budget=20)

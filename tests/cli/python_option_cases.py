@@ -22,7 +22,7 @@ RENAMED = {
 }
 # Options of `burnish render` without a keyword, by reason.
 LACKING = {
-    "the program prints or writes: a script does so itself": "quiet verbose stats trace count-operations variance frames",
+    "the program prints or writes: a script does so itself": "quiet verbose stats trace count-operations variance frames band-rows",
     "the program draws many pictures: a script loops": "animate steps turntable fps",
     "a script chooses by comparisons": "budget budget-ms plan plan-out verify",
     "parts of the program beyond the library draw it": "show risks resolve",

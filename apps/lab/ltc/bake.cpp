@@ -1,11 +1,14 @@
 #include "apps/lab/ltc/bake.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/command.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
@@ -14,6 +17,8 @@
 #include "apps/lab/ltc/resolutions.h"
 #include "apps/report/chart_style.h"
 #include "apps/report/svg.h"
+#include "core/base/bytes.h"
+#include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/jobs/jobs.h"
 #include "raster/frame/frame.h"
@@ -72,6 +77,8 @@ Status check_arguments(const LtcBake& b, const OptionTable& given)
     if (others_path(a) && given.given("--steps") && a.steps > 0)
         return usage_error(
             "--steps", "is of the fit between nodes, which needs --fit l1, --interpolate mirror, and aligned entries with their symmetry");
+    if (!a.table.empty() && any_pieces(b.pieces))
+        return usage_error("--table", "is made already, and has no pieces");
     if (a.isotropic)
         for (const char* option : {"--steps", "--samples", "--interpolate", "--no-align", "--no-symmetry"})
             if (given.given(option))
@@ -105,6 +112,103 @@ Status write_report_files(const std::string& folder, const Json& figures, const 
     return {};
 }
 
+ltc::BakeOptions bake_options(const LtcArguments& a, int brdf, const OptionTable& given)
+{
+    ltc::BakeOptions options;
+    options.grid = a.isotropic ? ltc::round_grid() : ltc::grid_of(a.resolution);
+    if (given.given("--resolution"))
+        options.grid.size = a.resolution;
+    options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
+    options.model = *model_of(brdf), options.norm = norm_of(a), options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
+    if (a.interpolate != "mirror") {
+        options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
+        options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
+    }
+    options.stop = &watch_stop_signals();
+    return options;
+}
+
+// A piece holds some chains of nodes: for each the number of nodes, then entries and L1 of each node.
+constexpr std::size_t kChainsOfPiece = 16;
+
+std::vector<std::uint8_t> chain_bytes(const std::vector<ltc::Chain>& chains)
+{
+    std::vector<std::uint8_t> bytes;
+    for (const ltc::Chain& chain : chains) {
+        const std::uint64_t count = chain.entries.size();
+        append_bytes(bytes, &count, sizeof count);
+        append_bytes(bytes, chain.entries.data(), count * sizeof(ltc::Matrix));
+        append_bytes(bytes, chain.l1.data(), count * sizeof(double));
+    }
+    return bytes;
+}
+
+Result<std::vector<ltc::Chain>> chains_of_bytes(const std::vector<std::uint8_t>& bytes, std::size_t count, int nodes,
+                                                const std::string& file)
+{
+    std::vector<ltc::Chain> chains(count);
+    std::size_t at = 0;
+    const auto take = [&](void* to, std::size_t size) {
+        if (size > bytes.size() - at)
+            return false;
+        std::memcpy(to, bytes.data() + at, size);
+        at += size;
+        return true;
+    };
+    for (ltc::Chain& chain : chains) {
+        std::uint64_t size = 0;
+        const bool known = take(&size, sizeof size) && (size == 0 || size == static_cast<std::uint64_t>(nodes));
+        chain.entries.resize(known ? size : 0), chain.l1.resize(known ? size : 0);
+        if (!known || !take(chain.entries.data(), size * sizeof(ltc::Matrix)) || !take(chain.l1.data(), size * sizeof(double)))
+            return Error{ExitCode::bad_input, file, "", "is a damaged piece"};
+    }
+    return chains;
+}
+
+std::vector<JobPiece> chain_pieces(const ltc::BakeOptions& options, const Jobs& jobs)
+{
+    const auto rate = std::make_shared<std::optional<double>>(); // seconds a chain
+    std::vector<JobPiece> pieces;
+    for (std::size_t first = 0; first < ltc::bake_chains(options); first += kChainsOfPiece) {
+        const std::size_t count = std::min(kChainsOfPiece, ltc::bake_chains(options) - first);
+        const std::string key = piece_key(fmt::format("ltc {:016x} {} {}", ltc::bake_key(options), first, count));
+        const auto seconds = [&options, &jobs, rate, count]() -> Result<double> {
+            if (!*rate) {
+                const double begin = wall_ms();
+                ltc::fit_chains(options, 0, std::min<std::size_t>(kChainsOfPiece, ltc::bake_chains(options)), jobs);
+                *rate = (wall_ms() - begin) * 1e-3 / kChainsOfPiece;
+            }
+            return **rate * static_cast<double>(count);
+        };
+        const auto make = [&options, &jobs, first, count, key](const std::string& file) -> Status {
+            const std::vector<ltc::Chain> chains = ltc::fit_chains(options, first, count, jobs);
+            return options.stop->load() ? Status() : write_piece(file, key, chain_bytes(chains));
+        };
+        pieces.push_back({key, seconds, make});
+    }
+    return pieces;
+}
+
+Status take_chains(ltc::BakeOptions& options, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
+{
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        const std::size_t count = std::min(kChainsOfPiece, ltc::bake_chains(options) - i * kChainsOfPiece);
+        Result<std::vector<ltc::Chain>> chains = chains_of_bytes(*content, count, options.grid.size, files[i]);
+        BN_TRY(chains);
+        std::move(chains->begin(), chains->end(), std::back_inserter(options.fitted));
+    }
+    return {};
+}
+
+// Lists or makes pieces of the table's fits. Returns the exit code.
+int make_pieces(const LtcBake& b, const OptionTable& given, const Jobs& jobs, Report& report)
+{
+    const ltc::BakeOptions options = bake_options(b.options, b.brdf, given);
+    return run_pieces(b.pieces, kept_words(), chain_pieces(options, jobs), report);
+}
+
 // Returns the requested table, or nothing after a stop signal.
 Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& given, const Jobs& jobs, Report& report)
 {
@@ -114,18 +218,15 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
         BN_TRY(read);
         return std::optional(std::move(*read));
     }
-    ltc::BakeOptions options;
-    options.grid = a.isotropic ? ltc::round_grid() : ltc::grid_of(a.resolution);
-    if (given.given("--resolution"))
-        options.grid.size = a.resolution;
-    options.steps = a.isotropic || others_path(a) ? 0 : a.steps, options.samples_a_cell = a.samples;
-    options.model = *model_of(b.brdf), options.norm = norm_of(a), options.align = !a.unaligned, options.symmetry = !a.unsymmetric;
-    if (a.interpolate != "mirror") {
-        options.grid.beyond = 0, options.grid.root_alpha = options.grid.over_alpha = false;
-        options.grid.basis = ltc::Basis::tangent, options.grid.inverse = a.interpolate == "inverse";
+    ltc::BakeOptions options = bake_options(a, b.brdf, given);
+    if (b.pieces.merge) {
+        const std::vector<JobPiece> pieces = chain_pieces(options, jobs);
+        const auto files = finished_pieces(b.pieces, kept_words(), pieces);
+        BN_TRY(files);
+        BN_TRY(take_chains(options, *files, pieces));
+    } else {
+        options.checkpoint = b.output + ".part";
     }
-    options.checkpoint = b.output + ".part";
-    options.stop = &watch_stop_signals();
     std::optional<Progress> progress;
     progress.emplace("transformed cosines", ltc::bake_units(options), b.quiet);
     options.advance = [&progress](std::size_t units) { progress->step(units); };
@@ -154,6 +255,8 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
         return fail(fits.error());
     Report report(b.quiet, b.verbosity);
     const Jobs jobs(b.threads);
+    if (any_pieces(b.pieces) && !b.pieces.merge)
+        return make_pieces(b, given, jobs, report);
     // Make or read the table
     const Result<std::optional<ltc::Table>> table = table_of(b, given, jobs, report);
     if (!table)
@@ -163,7 +266,8 @@ int run_ltc(const LtcBake& b, const OptionTable& given)
     if (*table && stop_signal() != 0)
         return 128 + stop_signal();
     if (!*table) {
-        report.event("stopped", fmt::format("the same command goes on from {}.part; no table was written", b.output));
+        report.event("stopped", b.pieces.merge ? "no table was written"
+                                               : fmt::format("the same command goes on from {}.part; no table was written", b.output));
         return 128 + stop_signal(); // as a shell reports a process ended by a signal
     }
     if (!b.preview.empty())

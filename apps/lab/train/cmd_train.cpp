@@ -7,12 +7,15 @@
 #include <optional>
 
 #include "apps/cli/command.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
 #include "apps/lab/mip/real_maps.h"
+#include "apps/pieces/given.h"
+#include "apps/pieces/pieces.h"
 #include "apps/report/json.h"
 #include "core/base/clock.h"
 #include "shading/bake/mip/evaluate.h"
@@ -50,6 +53,7 @@ struct TrainArguments {
     std::string what = "mip", output, evaluate, maps, only_maps, from, taught_by, json, checkpoint;
     std::string size = "2x32/2x64";
     mipnet::TrainOptions train;
+    PieceOptions pieces;
     bool validation = false, quiet = false;
     int verbosity = 0, threads = 0;
     Limits limits;
@@ -90,11 +94,10 @@ OptionTable train_option_table(TrainArguments& to)
                 "Further materials, each a folder with normal, roughness and metallic maps: measured with --evaluate, else trained on",
                 folder(to.maps)},
                {"--validation", "", "Measure on validation materials only, none of the test materials", flag(to.validation)},
-               {"--json", "FILE", "Figures of every material and level", file(to.json)}});
-    table.add("Output", {{"-o,--output", "FILE", "Weights file to write", file(to.output)},
-                         quiet_option(to.quiet),
-                         verbose_option(to.verbosity),
-                         threads_option(to.threads)});
+               Option("--json", "FILE", "Figures of every material and level", file(to.json)).is_output()});
+    table.add("Pieces of --evaluate, for several processes", piece_options(to.pieces));
+    table.add("Output", {Option("-o,--output", "FILE", "Weights file to write", file(to.output)).is_output(), quiet_option(to.quiet),
+                         verbose_option(to.verbosity), threads_option(to.threads)});
     table.take(limits, "Limits on input",
                {{"--limit-image-side", "Width and height of an input picture"}, {"--limit-file-bytes", "Size of one input file"}});
     return table;
@@ -113,6 +116,9 @@ Status check_arguments(TrainArguments& a, const OptionTable& given)
                                    "--light", "--levels", "--only-maps", "--from", "--taught-by", "--checkpoint"})
             if (given.given(option))
                 return usage_error(option, "says how nets are trained, and those of --evaluate are trained already");
+    BN_TRY(check_piece_options(a.pieces));
+    if (a.evaluate.empty() && any_pieces(a.pieces))
+        return usage_error("--evaluate", "is needed: measuring has pieces, and each step of a training needs the one before");
     if (!mipnet::read_size(a.size, a.train.shape))
         return usage_error("--size", fmt::format("'{}' is not of the kind 2x32/2x64: 1 to {} layers of 1 to {} units", a.size,
                                                  mipnet::kMostHidden, mipnet::kMostWidth));
@@ -258,7 +264,82 @@ std::string summary_lines(const std::vector<mipnet::Summary>& all)
     return lines;
 }
 
-int run_evaluation(const TrainArguments& a, Report& report)
+Json rows_json(const std::vector<mipnet::Judged>& rows)
+{
+    Json json = Json::array();
+    for (const mipnet::Judged& row : rows) {
+        Json levels = Json::array();
+        for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
+            levels.push_back(figures_json(row.level[k]));
+        json.push_back({{"set", row.set},
+                        {"material", row.material},
+                        {"filter", row.filter},
+                        {"mean", figures_json(row.level[0])},
+                        {"levels", levels}});
+    }
+    return json;
+}
+
+MipError figures_of(const Json& json)
+{
+    MipError f;
+    f.flip = json.at("flip"), f.l1 = json.at("l1"), f.mse = json.at("mse"), f.light = json.at("light");
+    return f;
+}
+
+// Reads rows_json(). Throws where something is missing.
+std::vector<mipnet::Judged> rows_of(const Json& json)
+{
+    std::vector<mipnet::Judged> rows;
+    for (const Json& from : json) {
+        mipnet::Judged row{from.at("set"), from.at("material"), from.at("filter"), {}};
+        row.level[0] = figures_of(from.at("mean"));
+        for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
+            row.level[k] = figures_of(from.at("levels").at(static_cast<std::size_t>(k - 1)));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+// A piece holds the figures of one material.
+std::vector<JobPiece> judged_pieces(const std::vector<mipnet::TestMaterial>& set, const mipnet::Weights& weights, const std::string& text,
+                                    const Jobs& jobs)
+{
+    std::vector<JobPiece> pieces;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const auto judged = [&set, &weights, &jobs, i] { return mipnet::judge({set[i]}, weights.shape.lobe, {weights}, jobs); };
+        const std::string key = piece_key(fmt::format("train {} {}{}", i, set[i].material.name, text));
+        const auto seconds = [judged]() -> Result<double> {
+            const double begin = wall_ms();
+            judged();
+            return (wall_ms() - begin) * 1e-3;
+        };
+        const auto make = [judged, key](const std::string& file) -> Status {
+            const std::string rows = rows_json(judged()).dump();
+            return write_piece(file, key, {rows.begin(), rows.end()});
+        };
+        pieces.push_back({key, seconds, make});
+    }
+    return pieces;
+}
+
+Result<std::vector<mipnet::Judged>> merged_rows(const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
+{
+    std::vector<mipnet::Judged> all;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
+        BN_TRY(content);
+        try {
+            for (mipnet::Judged& row : rows_of(Json::parse(content->begin(), content->end())))
+                all.push_back(std::move(row));
+        } catch (const nlohmann::json::exception&) {
+            return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
+        }
+    }
+    return all;
+}
+
+int run_evaluation(const TrainArguments& a, const OptionTable& given, Report& report)
 {
     const Result<mipnet::Weights> weights = mipnet::read_weights(a.evaluate);
     if (!weights)
@@ -271,21 +352,27 @@ int run_evaluation(const TrainArguments& a, Report& report)
             return fail(real.error());
         set.insert(set.end(), real->begin(), real->end());
     }
-    const std::vector<mipnet::Judged> rows = mipnet::judge(set, weights->shape.lobe, {*weights}, jobs);
+    // List or make pieces, take their rows, or judge all materials
+    const std::vector<JobPiece> pieces =
+        any_pieces(a.pieces) ? judged_pieces(set, *weights, text_of_given(given), jobs) : std::vector<JobPiece>();
+    if (any_pieces(a.pieces) && !a.pieces.merge)
+        return run_pieces(a.pieces, kept_words(), pieces, report);
+    std::vector<mipnet::Judged> rows;
+    if (a.pieces.merge) {
+        const auto files = finished_pieces(a.pieces, kept_words(), pieces);
+        if (!files)
+            return fail(files.error());
+        Result<std::vector<mipnet::Judged>> merged = merged_rows(*files, pieces);
+        if (!merged)
+            return fail(merged.error());
+        rows = std::move(*merged);
+    } else {
+        rows = mipnet::judge(set, weights->shape.lobe, {*weights}, jobs);
+    }
     report.promise_stdout({a.json});
     report.release();
     if (!a.json.empty()) {
-        Json json = {{"brdf", mipnet::lobe_name(weights->shape.lobe)}, {"command", weights->command}, {"rows", Json::array()}};
-        for (const mipnet::Judged& row : rows) {
-            Json levels = Json::array();
-            for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
-                levels.push_back(figures_json(row.level[k]));
-            json["rows"].push_back({{"set", row.set},
-                                    {"material", row.material},
-                                    {"filter", row.filter},
-                                    {"mean", figures_json(row.level[0])},
-                                    {"levels", levels}});
-        }
+        const Json json = {{"brdf", mipnet::lobe_name(weights->shape.lobe)}, {"command", weights->command}, {"rows", rows_json(rows)}};
         if (const Status written = write_text(a.json, json_text(json, 1) + "\n"); !written)
             return fail(written.error());
         report.wrote(a.json);
@@ -301,7 +388,7 @@ int run_train(TrainArguments& a, const OptionTable& given)
     if (const Status checked = check_arguments(a, given); !checked)
         return fail(checked.error());
     Report report(a.quiet, a.verbosity);
-    return a.evaluate.empty() ? run_training(a, report) : run_evaluation(a, report);
+    return a.evaluate.empty() ? run_training(a, report) : run_evaluation(a, given, report);
 }
 
 } // namespace

@@ -58,6 +58,8 @@ Result<std::string> encode_png(const Image& image);
 // Returns true where the extension of `path` names a float format (exr, hdr, pfm).
 bool stores_floats(const std::string& path);
 
+bool is_png(const std::string& path); // by the extension
+
 // Returns true where the extension names a format with arbitrary channels (exr).
 bool stores_channels(const std::string& path);
 

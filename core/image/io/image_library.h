@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/image/image.h"
 #include "core/image/io/guard.h"
+#include "core/image/io/image_stream.h"
 
 namespace burnish {
 
@@ -36,6 +38,14 @@ struct PixelRequest {
 // Callback before any pixel is read. Returns a request for the pixels, or an Error that refuses the file.
 using PlacePixels = std::function<Result<PixelRequest>(const StoredHeader&)>;
 
+// Writes an OpenEXR file of floats by rows, as ImageStream.
+class RowWriter {
+  public:
+    virtual ~RowWriter() = default;
+    virtual Status add(const Image& rows) = 0;
+    virtual Status finish() = 0;
+};
+
 // The module's functions. They may throw the library's exceptions.
 struct ImageLibrary {
     // Reads pixels. Errors for damaged files have ExitCode::bad_input; errors from `place` pass through.
@@ -48,6 +58,8 @@ struct ImageLibrary {
     // Encodes OpenEXR mip levels as half floats in 64-pixel tiles. Each side is half the previous level's, rounded
     // down, at least 1.
     Result<std::vector<std::uint8_t>> (*encode_levels)(const std::string& path, const std::vector<Image>& levels);
+    // Begins an OpenEXR file at `place`. `path` names the file in errors, which have ExitCode::output_failed.
+    Result<std::unique_ptr<RowWriter>> (*write_rows)(const std::string& path, const std::string& place, const StreamedPicture& picture);
 };
 
 // The module's one symbol: extern "C" const ImageLibrary* burnish_image_library().

@@ -126,6 +126,12 @@ bool stores_floats(const std::string& path)
     return format.name && format.floats;
 }
 
+bool is_png(const std::string& path)
+{
+    const Format format = format_of(path);
+    return format.name && std::strcmp(format.name, "png") == 0;
+}
+
 bool stores_channels(const std::string& path)
 {
     const Format format = format_of(path);

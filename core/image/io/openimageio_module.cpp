@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -131,6 +133,7 @@ Status read(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& 
     return {};
 }
 
+// Only the image's size, channels and type count.
 OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vector<std::string>& channels)
 {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, type_desc_of(image.type));
@@ -157,16 +160,17 @@ OIIO::ImageSpec spec_of(const Image& image, const char* format, const std::vecto
     return spec;
 }
 
-// Returns true where an OpenEXR file has all its chunks. Each chunk begins with its place (one number or four) and its
-// size. With too little memory, the library silently leaves chunks out.
-bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_bytes)
+std::uint64_t number_at(const Bytes& file, std::size_t at, std::size_t size)
 {
-    const auto number = [&](std::size_t at, std::size_t size) {
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < size && at + i < file.size(); ++i)
-            value |= static_cast<std::uint64_t>(file[at + i]) << 8 * i;
-        return value;
-    };
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size && at + i < file.size(); ++i)
+        value |= static_cast<std::uint64_t>(file[at + i]) << 8 * i;
+    return value;
+}
+
+// Returns where an OpenEXR file's table of chunks begins.
+std::size_t chunk_table(const Bytes& file)
+{
     const auto after_word = [&](std::size_t at) {
         while (at < file.size() && file[at] != 0)
             ++at;
@@ -175,15 +179,101 @@ bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_byt
     std::size_t at = 8;                         // after magic and version
     while (at < file.size() && file[at] != 0) { // an attribute: name, type, size, value
         at = after_word(after_word(at));
-        at += 4 + static_cast<std::size_t>(number(at, 4));
+        at += 4 + static_cast<std::size_t>(number_at(file, at, 4));
     }
-    const std::size_t table = at + 1, head = place_bytes + 4;
+    return at + 1;
+}
+
+// Returns true where an OpenEXR file has all its chunks. Each chunk begins with its place (one number or four) and its
+// size. With too little memory, the library silently leaves chunks out.
+bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_bytes)
+{
+    const std::size_t table = chunk_table(file), head = place_bytes + 4;
     for (std::size_t i = 0; i < chunks; ++i) {
-        const std::uint64_t begin = number(table + 8 * i, 8);
-        if (begin < table + 8 * chunks || begin + head > file.size() || begin + head + number(begin + place_bytes, 4) > file.size())
+        const std::uint64_t begin = number_at(file, table + 8 * i, 8);
+        if (begin < table + 8 * chunks || begin + head > file.size() ||
+            begin + head + number_at(file, begin + place_bytes, 4) > file.size())
             return false;
     }
     return true;
+}
+
+// Does the same for a file that memory does not hold. The chunks' sizes are not read.
+bool file_has_all_chunks(const std::string& place, std::size_t chunks)
+{
+    constexpr std::size_t kMostHeader = 1u << 16;
+    std::ifstream file(place, std::ios::binary | std::ios::ate);
+    const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
+    Bytes head(static_cast<std::size_t>(std::min<std::uint64_t>(size, kMostHeader + 8 * chunks)));
+    file.seekg(0);
+    if (!file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size())))
+        return false;
+    const std::size_t table = chunk_table(head);
+    for (std::size_t i = 0; i < chunks; ++i)
+        if (const std::uint64_t begin = number_at(head, table + 8 * i, 8); begin < table + 8 * chunks || begin >= size)
+            return false;
+    return true;
+}
+
+std::size_t parts_of(int size, int part)
+{
+    return static_cast<std::size_t>((size + part - 1) / part);
+}
+
+class OpenExrRows final : public RowWriter {
+  public:
+    explicit OpenExrRows(std::string path) : path_(std::move(path)) {}
+    Status open(const std::string& place, const StreamedPicture& picture)
+    {
+        configure_openimageio();
+        output_ = OIIO::ImageOutput::create("openexr");
+        if (!output_)
+            return error(OIIO::geterror());
+        output_->threads(kThreads);
+        Image shape;
+        shape.width = picture.width, shape.height = picture.height, shape.channels = picture.channels, shape.type = PixelType::f32;
+        spec_ = spec_of(shape, "openexr", picture.channel_names);
+        place_ = place, tile_ = picture.tile;
+        if (tile_ > 0)
+            spec_.tile_width = spec_.tile_height = tile_, spec_.tile_depth = 1;
+        return output_->open(place, spec_) ? Status() : error(output_->geterror());
+    }
+    Status add(const Image& rows) override
+    {
+        const int begin = next_, end = next_ + rows.height;
+        next_ = end;
+        const bool written = tile_ > 0 ? output_->write_tiles(0, spec_.width, begin, end, 0, 1, OIIO::TypeDesc::FLOAT, rows.bytes.data())
+                                       : output_->write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, rows.bytes.data());
+        return written ? Status() : error(output_->geterror());
+    }
+    Status finish() override
+    {
+        constexpr int kRowsOfChunk = 16; // of ZIP
+        if (!output_->close())
+            return error(output_->geterror());
+        output_.reset();
+        const std::size_t chunks =
+            tile_ > 0 ? parts_of(spec_.width, tile_) * parts_of(spec_.height, tile_) : parts_of(spec_.height, kRowsOfChunk);
+        return file_has_all_chunks(place_, chunks) ? Status() : error("not all rows were written");
+    }
+
+  private:
+    Error error(const std::string& message) const
+    {
+        return {ExitCode::output_failed, path_, "", "the image cannot be encoded: " + first_line(message)};
+    }
+
+    std::string path_, place_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    OIIO::ImageSpec spec_;
+    int tile_ = 0, next_ = 0;
+};
+
+Result<std::unique_ptr<RowWriter>> write_rows(const std::string& path, const std::string& place, const StreamedPicture& picture)
+{
+    auto rows = std::make_unique<OpenExrRows>(path);
+    BN_TRY(rows->open(place, picture));
+    return std::unique_ptr<RowWriter>(std::move(rows));
 }
 
 // Ends the library's writing where its argument, a stop token, says so.
@@ -260,6 +350,6 @@ Result<Bytes> encode_levels(const std::string& path, const std::vector<Image>& l
 extern "C" __attribute__((visibility("default"))) const burnish::ImageLibrary* burnish_image_library();
 extern "C" const burnish::ImageLibrary* burnish_image_library()
 {
-    static const burnish::ImageLibrary library = {burnish::read, burnish::encode, burnish::encode_levels};
+    static const burnish::ImageLibrary library = {burnish::read, burnish::encode, burnish::encode_levels, burnish::write_rows};
     return &library;
 }

@@ -1,6 +1,7 @@
 // Writes PNG through libpng alone, which loads fast.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,20 @@ namespace burnish {
 // Encodes 8-bit samples as PNG, marked as sRGB; 1 to 4 channels, alpha as stored. `path` names the file in errors,
 // which have ExitCode::output_failed.
 Result<std::vector<std::uint8_t>> png_bytes(const std::string& path, const Image& image);
+
+// Encodes such a file by rows. Each call returns the file's next bytes.
+class PngEncoder {
+  public:
+    explicit PngEncoder(const std::string& path);
+    PngEncoder(PngEncoder&&) noexcept;
+    ~PngEncoder();
+    Result<std::vector<std::uint8_t>> begin(int width, int height, int channels);
+    Result<std::vector<std::uint8_t>> rows(const Image& rows);
+    Result<std::vector<std::uint8_t>> end();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 } // namespace burnish

@@ -1,6 +1,7 @@
 #include "shading/lab/ltc/bake_ltc.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "core/base/file.h"
@@ -15,32 +16,12 @@ namespace {
 constexpr std::size_t kStepUnits = 64;   // cost of an interpolant step, in chains of nodes
 constexpr std::size_t kChainsKept = 64;  // chains between two checkpoints
 constexpr std::size_t kProbesANode = 93; // lookups that the guard checks
-std::uint64_t key_of(const BakeOptions& o)
-{
-    const Grid& g = o.grid;
-    const std::int32_t key[] = {static_cast<std::int32_t>(kTableVersion),
-                                g.size,
-                                g.beyond,
-                                g.round,
-                                g.root_alpha,
-                                g.over_alpha,
-                                g.inverse,
-                                static_cast<std::int32_t>(g.basis),
-                                o.samples_a_cell,
-                                o.steps,
-                                static_cast<std::int32_t>(o.norm),
-                                static_cast<std::int32_t>(o.model),
-                                o.align,
-                                o.symmetry,
-                                o.rule};
-    return hash_bytes(key, sizeof key);
-}
 
 Status keep(const BakeOptions& options, const BakeProgress& p)
 {
     if (options.checkpoint.empty())
         return {};
-    const std::vector<std::uint8_t> bytes = bake_checkpoint_bytes(key_of(options), p);
+    const std::vector<std::uint8_t> bytes = bake_checkpoint_bytes(bake_key(options), p);
     return write_file_atomic(options.checkpoint, bytes.data(), bytes.size());
 }
 
@@ -50,8 +31,15 @@ Status go_on(const BakeOptions& options, BakeProgress& p)
     if (options.checkpoint.empty() || !std::filesystem::exists(std::filesystem::symlink_status(options.checkpoint, ignored)))
         return {};
     const Result<std::vector<std::uint8_t>> read = read_file(options.checkpoint, std::uint64_t{1} << 32);
-    return read ? parse_bake_checkpoint(*read, options.checkpoint, key_of(options), static_cast<std::uint64_t>(options.steps), p)
+    return read ? parse_bake_checkpoint(*read, options.checkpoint, bake_key(options), static_cast<std::uint64_t>(options.steps), p)
                 : read.error();
+}
+
+// Returns azimuth, width and ratio of a chain, as indices.
+std::array<int, 3> chain_place(const Grid& grid, std::size_t chain)
+{
+    const std::size_t alphas = static_cast<std::size_t>(grid.sizes()[2]), lambdas = static_cast<std::size_t>(grid.sizes()[3]);
+    return {static_cast<int>(chain / (alphas * lambdas)), static_cast<int>(chain / lambdas % alphas), static_cast<int>(chain % lambdas)};
 }
 
 // Stores a chain, and its mirror image by symmetry.
@@ -128,6 +116,45 @@ Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda)
     return chain;
 }
 
+std::uint64_t bake_key(const BakeOptions& o)
+{
+    const Grid& g = o.grid;
+    const std::int32_t key[] = {static_cast<std::int32_t>(kTableVersion),
+                                g.size,
+                                g.beyond,
+                                g.round,
+                                g.root_alpha,
+                                g.over_alpha,
+                                g.inverse,
+                                static_cast<std::int32_t>(g.basis),
+                                o.samples_a_cell,
+                                o.steps,
+                                static_cast<std::int32_t>(o.norm),
+                                static_cast<std::int32_t>(o.model),
+                                o.align,
+                                o.symmetry,
+                                o.rule};
+    return hash_bytes(key, sizeof key);
+}
+
+std::size_t bake_chains(const BakeOptions& options)
+{
+    return chains_of(options.grid);
+}
+
+std::vector<Chain> fit_chains(const BakeOptions& options, std::size_t first, std::size_t count, const Jobs& jobs)
+{
+    std::vector<Chain> chains(count);
+    jobs.parallel_for(count, [&](std::size_t i, int) {
+        const auto [phi, alpha, lambda] = chain_place(options.grid, first + i);
+        if (options.grid.round || !options.symmetry || lambda < options.grid.size - 1 || 2 * phi < options.grid.size)
+            chains[i] = fit_chain(options, phi, alpha, lambda);
+        if (options.advance)
+            options.advance(1);
+    });
+    return chains;
+}
+
 std::size_t bake_units(const BakeOptions& options)
 {
     return chains_of(options.grid) + static_cast<std::size_t>(options.steps) * kStepUnits;
@@ -145,19 +172,21 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
     BN_TRY(go_on(options, p));
     // Resume, then fit chains of nodes, with checkpoints
     advance(p.chains + p.steps * kStepUnits);
-    const std::size_t chains = chains_of(grid), alphas = static_cast<std::size_t>(grid.sizes()[2]),
-                      lambdas = static_cast<std::size_t>(grid.sizes()[3]);
+    const std::size_t chains = chains_of(grid);
     while (p.chains < chains) {
-        const std::size_t from = p.chains, to = std::min(chains, from + kChainsKept);
-        jobs.parallel_for(to - from, [&](std::size_t i, int) {
-            const std::size_t c = from + i;
-            const int phi = static_cast<int>(c / (alphas * lambdas)), alpha = static_cast<int>(c / lambdas % alphas),
-                      lambda = static_cast<int>(c % lambdas);
-            if (grid.round || !options.symmetry || lambda < grid.size - 1 || 2 * phi < grid.size)
-                put(options, phi, alpha, lambda, fit_chain(options, phi, alpha, lambda), p);
-            advance(1);
-        });
-        p.chains = to;
+        const std::size_t from = p.chains, count = std::min(chains - from, kChainsKept);
+        const std::vector<Chain> fitted = options.fitted.empty() ? fit_chains(options, from, count, jobs) : std::vector<Chain>();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Chain& chain = options.fitted.empty() ? fitted[i] : options.fitted[from + i];
+            const auto [phi, alpha, lambda] = chain_place(grid, from + i);
+            if (!chain.entries.empty())
+                put(options, phi, alpha, lambda, chain, p);
+        }
+        p.chains = from + count;
+        if (!options.fitted.empty()) {
+            advance(count);
+            continue;
+        }
         BN_TRY(keep(options, p));
         if (stopped())
             return std::optional<Baked>();

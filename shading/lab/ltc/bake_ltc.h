@@ -4,12 +4,19 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/jobs/jobs.h"
 #include "shading/bake/ltc/table.h"
 #include "shading/lab/ltc/node_fit.h"
 
 namespace burnish::ltc {
+
+// Nodes that differ in theta alone.
+struct Chain {
+    std::vector<Matrix> entries;
+    std::vector<double> l1;
+};
 
 struct BakeOptions {
     Grid grid;
@@ -23,9 +30,12 @@ struct BakeOptions {
     std::string checkpoint;                     // file to resume from and to update; empty: none
     const std::atomic<bool>* stop = nullptr;    // set by another thread or a signal: end soon, with all progress in the checkpoint
     std::function<void(std::size_t)> advance{}; // reports finished units, out of bake_units()
+    std::vector<Chain> fitted{};                // all chains, as fit_chains() made them before; empty: none
 };
 
-std::size_t bake_units(const BakeOptions& options); // total work
+std::size_t bake_units(const BakeOptions& options);  // total work
+std::uint64_t bake_key(const BakeOptions& options);  // hash of what decides the table
+std::size_t bake_chains(const BakeOptions& options); // runs of nodes that are fitted one after the other
 
 struct Baked {
     Table table;
@@ -40,10 +50,8 @@ Result<std::optional<Baked>> bake_table(const BakeOptions& options, const Jobs& 
 // Fits the nodes of one azimuth, width and ratio, for all theta. Entries are as stored. L1 fits start from the natural matrix; other norms
 // start from the plain one, an ellipse about the mirror direction. A second fit starts from the neighbour's fit, and the better one by the
 // norm is kept.
-struct Chain {
-    std::vector<Matrix> entries;
-    std::vector<double> l1;
-};
 Chain fit_chain(const BakeOptions& options, int phi, int alpha, int lambda);
+// Fits chains [first, first + count) of bake_chains(). Chains that follow from others by symmetry are empty.
+std::vector<Chain> fit_chains(const BakeOptions& options, std::size_t first, std::size_t count, const Jobs& jobs);
 
 } // namespace burnish::ltc

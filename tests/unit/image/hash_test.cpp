@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -20,6 +21,21 @@ TEST(hash, equals_published_xxhash64_values)
     EXPECT_EQ(of("a"), 0xD24EC4F1A98C6E5Bull);
     EXPECT_EQ(of("abc"), 0x44BC2CF5AD770999ull);
     EXPECT_EQ(of("Nobody inspects the spammish repetition"), 0xFBCEA83C8A378BF1ull);
+}
+
+TEST(hash, of_parts_is_the_hash_of_all_at_once)
+{
+    unsigned char bytes[200];
+    for (std::size_t i = 0; i < sizeof bytes; ++i)
+        bytes[i] = static_cast<unsigned char>(i * 37 + i / 7);
+    for (std::size_t size = 0; size <= sizeof bytes; ++size)
+        for (const std::size_t part : {std::size_t{1}, std::size_t{3}, std::size_t{31}, std::size_t{32}, std::size_t{65}}) {
+            HashStream stream(size);
+            for (std::size_t at = 0; at < size; at += part)
+                stream.add(bytes + at, std::min(part, size - at));
+            stream.add(bytes, 0);
+            ASSERT_EQ(stream.value(), hash_bytes(bytes, size, size)) << size << " by " << part;
+        }
 }
 
 // The buffer and values of the reference implementation's sanity check.

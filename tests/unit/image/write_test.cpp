@@ -12,7 +12,9 @@
 #include <limits>
 #include <thread>
 
+#include "core/base/file.h"
 #include "core/image/io/image_io.h"
+#include "core/image/io/image_stream.h"
 #include "small_files.h"
 
 namespace burnish {
@@ -203,6 +205,72 @@ TEST(write, png_errors_come_back)
     EXPECT_EQ(status.error().code, ExitCode::output_failed);
     EXPECT_NE(status.error().reason.find("cannot be encoded: "), std::string::npos) << status.error().reason;
     EXPECT_TRUE(test::names_in(folder).empty());
+}
+
+// Writes a picture by parts of some rows.
+void stream(const std::string& path, const Image& image, int part, int tile = 0)
+{
+    Result<std::unique_ptr<ImageStream>> stream = open_image_stream(path, {image.width, image.height, image.channels, {}, tile});
+    ASSERT_TRUE(stream) << stream.error().line();
+    const std::size_t row = image.bytes.size() / static_cast<std::size_t>(image.height);
+    for (int y = 0; y < image.height; y += part) {
+        EXPECT_FALSE(fs::exists(path)) << "it has its name before it is complete";
+        Image rows = make_image(image.width, std::min(part, image.height - y), image.channels, image.type);
+        std::memcpy(rows.bytes.data(), image.bytes.data() + static_cast<std::size_t>(y) * row, rows.bytes.size());
+        const Status added = (*stream)->add(rows);
+        ASSERT_TRUE(added) << added.error().line();
+    }
+    const Status finished = (*stream)->finish();
+    ASSERT_TRUE(finished) << finished.error().line();
+}
+
+TEST(write, rows_make_the_bytes_of_whole_pictures)
+{
+    const std::string folder = test::temporary_folder();
+    for (const int channels : {3, 4})
+        for (const bool floats : {false, true}) {
+            Image image = make_image(70, 53, channels, floats ? PixelType::f32 : PixelType::u8);
+            for (std::size_t i = 0; i < image.bytes.size() / pixel_type_bytes(image.type); ++i)
+                if (floats)
+                    image.f32()[i] = static_cast<float>(i % 977) * 0.37f;
+                else
+                    image.bytes[i] = static_cast<std::byte>(i * 7 + i / 5);
+            const std::string ending = floats ? ".exr" : ".png", whole = folder + "/whole" + ending, rows = folder + "/rows" + ending;
+            ASSERT_TRUE(write_image(whole, image));
+            fs::remove(rows);
+            stream(rows, image, 16);
+            EXPECT_TRUE(*read_file(rows, 1u << 24) == *read_file(whole, 1u << 24)) << ending << channels;
+            if (!floats)
+                continue;
+            const std::string tiles = folder + "/tiles.exr";
+            fs::remove(tiles);
+            stream(tiles, image, 32, 32);
+            const Image read = back(tiles);
+            ASSERT_EQ(read.bytes.size(), image.bytes.size());
+            EXPECT_EQ(std::memcmp(read.bytes.data(), image.bytes.data(), image.bytes.size()), 0);
+        }
+}
+
+TEST(write, rows_that_end_early_leave_nothing)
+{
+    const std::string folder = test::temporary_folder();
+    for (const std::string name : {"/a.exr", "/a.png"}) {
+        const Image half = make_image(32, 16, 3, name == "/a.exr" ? PixelType::f32 : PixelType::u8);
+        for (const bool finishes : {false, true}) {
+            Result<std::unique_ptr<ImageStream>> stream = open_image_stream(folder + name, {32, 32, 3, {}, 0});
+            ASSERT_TRUE(stream);
+            ASSERT_TRUE((*stream)->add(half));
+            if (finishes) {
+                EXPECT_FALSE((*stream)->finish()) << name << " lacks rows";
+            }
+        }
+        Result<std::unique_ptr<ImageStream>> stream = open_image_stream(folder + name, {32, 24, 3, {}, 0});
+        ASSERT_TRUE(stream && (*stream)->add(half));
+        EXPECT_FALSE((*stream)->add(half)) << name << " takes more rows than the picture has";
+    }
+    EXPECT_TRUE(test::names_in(folder).empty());
+    for (const std::string& path : {folder + "/a.hdr", folder + "/none/a.png", std::string("/dev/null"), folder})
+        EXPECT_FALSE(open_image_stream(path, {32, 32, 3, {}, 0})) << path;
 }
 
 TEST(write, repeated_files_are_the_same_bytes)

@@ -41,8 +41,10 @@ float noise_at(int x, int y)
 
 Image ratio_of(const Image& shadowed, const Image& open, Edge edge)
 {
-    const View view = make_view(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, -1.0f), 0.6f, kRatioSide, kRatioSide);
-    return shadow_ratio(shadowed, open, layers_of_plane(edge), view, Jobs(2));
+    FrameDesc desc;
+    desc.width = desc.height = kRatioSide;
+    desc.view = make_view(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, -1.0f), 0.6f, kRatioSide, kRatioSide);
+    return shadow_ratio(shadowed, open, layers_of_plane(edge), desc, Jobs(2));
 }
 
 TEST(shadow_ratio, is_one_where_nothing_is_in_the_way_and_where_there_is_no_light)

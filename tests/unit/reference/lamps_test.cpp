@@ -177,7 +177,7 @@ TEST(lamps, without_anything_else_have_no_shadows)
         const Frame shadowed = render_reference(stage, d, o);
         EXPECT_GT(mean_of(open), 0.1);
         d.layers = true;
-        const Image ratio = shadow_ratio(shadowed.color, open.color, stage.render(d, best_isa()).layers, d.view, stage.jobs);
+        const Image ratio = shadow_ratio(shadowed.color, open.color, stage.render(d, best_isa()).layers, d, stage.jobs);
         for (std::size_t i = 0; i < 8 * 8 * 3; ++i)
             ASSERT_EQ(ratio.f32()[i], 1.0f) << i;
     }

@@ -140,6 +140,27 @@ TEST(vulkan, bands_give_the_same_words_as_one_picture)
     }
 }
 
+TEST(vulkan, windows_have_the_words_of_the_tile_renderer)
+{
+    const std::unique_ptr<Stage> stage = spheres();
+    Device device(*stage, lavapipe()), forward(*stage, lavapipe(VulkanPipeline::forward));
+    BN_NEEDS(device);
+    for (const char* technique : {"bent_normal", "lobe_line"})
+        for (const auto& [width, height] : {std::pair(176, 96), std::pair(40000, 24000)}) {
+            FrameDesc d = desc_of(*stage, width, height, 4);
+            d.technique = technique, d.samples = find_technique(technique)->default_samples;
+            d.width = 88, d.height = 40;
+            d.window = {width, height, width / 2 / kWindowStep * kWindowStep, height / 2 / kWindowStep * kWindowStep};
+            const Frame tile = stage->render(d, best_isa());
+            EXPECT_GT(tile.stats.visible_fragments, 1000u);
+            const Result<Frame> frame = device.renderer->render(d);
+            ASSERT_TRUE(frame) << frame.error().line();
+            EXPECT_EQ(largest_difference(frame->color, tile.color), 0.0f) << width << technique;
+            const Result<Frame> refused = forward.renderer->render(d);
+            EXPECT_TRUE(!refused && refused.error().code == ExitCode::usage);
+        }
+}
+
 TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
 {
     try {
