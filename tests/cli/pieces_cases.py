@@ -213,7 +213,7 @@ def wrong(bench):
 
 def taken_and_killed(bench, words, output, kills, seed):
     """Workers take pieces; random ones die by kill -9 at random moments. The last ones finish, and a merge writes the one process' bytes."""
-    bench.run(*words, "-o", "one.bin".replace("bin", output), "--threads", "1").expect(0)
+    bench.run(*words, "-o", "one." + output, "--threads", "1", timeout=400).expect(0)
     words, chance = (*words, "--threads", "1", "-o", "two." + output, "--take", "--work", "w"), random.Random(seed)
     start = lambda: subprocess.Popen([bench.program, *words], cwd=bench.folder, env=bench.environment({}), stdin=subprocess.DEVNULL,
                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -240,7 +240,7 @@ def killed(bench):
 @case("pieces.survive_twenty_killed_workers", tier="nightly")
 def killed_often(bench):
     needs_embree(bench)
-    taken_and_killed(bench, (*PICTURE, "--samples", "524288"), "exr", 20, 6)
+    taken_and_killed(bench, (*PICTURE, "--samples", "262144"), "exr", 20, 6)
 
 
 @case("pieces.of_a_full_disk_are_made_later")
