@@ -216,18 +216,20 @@ def names_all(bench):
     check(not lost, f"{lost}")
 
 
-@case("conform.what_is_right_passes", budget=60)
+@case("conform.what_is_right_passes", tier="nightly", budget=60)
 def passes_and_fails(bench):
-    """Right pictures pass. Those that no known mistake explains, that are missing and that are unusable do not."""
+    """Right pictures pass. Those that no known mistake explains do not."""
     written(bench)
     drawn(bench, "folder", "pictures")
     check_right(bench, "pictures", "rotation_30", "left_handed", "lamp")
     check_right(bench, drawn(bench, "folder", "filtered", "--technique", "filtered_is_ggx"), "mirror", "rotation_30", "left_handed", "lamp")
     check_no_known_mistake(bench, {"round": "lamp"}, "round", "lamp")
-    check_missing_or_unusable(bench)
 
 
-def check_missing_or_unusable(bench):
+@case("conform.missing_and_unusable_pictures_are_said", budget=25)
+def missing_or_unusable(bench):
+    written(bench)
+    drawn(bench, "folder", "pictures")
     kept, pictures = without("rotation_0", "lamp"), bench.folder / "pictures"
     # A missing one
     (pictures / "rotation_0.exr").unlink()

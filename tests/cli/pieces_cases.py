@@ -94,7 +94,7 @@ def atlas(bench):
     one_and_pieces(bench, ("atlas", "albedo_by_a_fit", "bent_normal_bends_too_far", "area_lights_left_out", "--quick", "-q"), ("atlas",))
 
 
-@case("pieces.of_a_conformance_folder_make_its_bytes", budget=30)
+@case("pieces.of_a_conformance_folder_make_its_bytes", tier="nightly", budget=30)
 def conform(bench):
     needs_embree(bench)
     words = ("conform", "--samples", "64", "-q", "--write")

@@ -107,6 +107,26 @@ def masked(image):
                        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}]})
 
 
+@case("wasm.a_browser_draws_the_pixels_of_the_program", "of_wasm", tier="nightly", budget=120)
+def browser_hashes(bench):
+    """All pictures of tests/cross, in headless Chromium."""
+    build = package(bench).parent / "tests/cross/burnish_page_hashes.js"
+    native = pathlib.Path(bench.program).parent / "tests/cross/burnish_hashes"
+    if not build.exists() or not native.exists():
+        raise Skipped("no burnish_page_hashes: cmake --preset wasm -DBN_BUILD_TESTS=ON && cmake --build --preset wasm")
+    own = subprocess.run([native, "scalar"], capture_output=True, text=True, timeout=300, check=True).stdout.splitlines()
+    (bench.folder / "page.html").write_text(f"""<!doctype html><script>{build.read_text()}</script><script>
+window.lines = [];
+burnishHashes({{ arguments: ["wasm"], print: line => lines.push(line), onExit: code => document.body.dataset.code = code }});
+</script>""")
+    with Browser(bench.folder) as browser:
+        browser.open(bench.folder / "page.html")
+        browser.until("document.body && document.body.dataset.code !== undefined", 240)
+        lines = json.loads(browser.value("JSON.stringify(lines)"))
+        check(browser.value("document.body.dataset.code") == "0" and not browser.faults, f"{browser.faults}")
+    check(len(own) >= 40 and lines == own, f"{[(a, b) for a, b in zip(lines, own) if a != b][:5]} of {len(lines)} and {len(own)}")
+
+
 @case("wasm.png_files_of_all_kinds_give_the_program_s_texels", "of_wasm", tier="nightly", budget=60)
 def all_png(bench):
     steps = [[(40 * x + 10 * y) % 256 for x in range(6)] for y in range(5)]
