@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -91,26 +92,48 @@ MaterialLevels levels_of_materials(const Scene& scene, const SceneMips& mips, co
         wanted);
 }
 
-// A piece holds the levels of one material, as a pyramid file.
+std::size_t texels_of(const Scene& scene, std::size_t material)
+{
+    const MipSource source = mip_source(scene, scene.materials[material]);
+    return static_cast<std::size_t>(source.width()) * static_cast<std::size_t>(source.height());
+}
+
+// Returns true for levels of equal maps, which a file holds once.
+bool same(const MipLevels& a, const MipLevels& b)
+{
+    return mip_file_bytes({{&a}, 0, {}}) == mip_file_bytes({{&b}, 0, {}});
+}
+
+// A piece holds the levels of one material, as a pyramid file. Materials with equal maps share a piece.
 std::vector<JobPiece> material_pieces(const MipBake& bake, const Scene& scene, const SceneMips& mips, const Jobs& jobs)
 {
     const std::string text = text_of_given(bake.given);
+    const auto rate = std::make_shared<std::optional<double>>(); // seconds a texel, by the material with the fewest
     std::vector<JobPiece> pieces;
+    std::size_t fewest = 0, fewest_texels = std::numeric_limits<std::size_t>::max();
+    for (const std::size_t i : filtered_materials(scene, mips))
+        if (const std::size_t texels = texels_of(scene, i); texels < fewest_texels)
+            fewest = i, fewest_texels = texels;
     for (const std::size_t i : filtered_materials(scene, mips)) {
         const std::uint64_t source = mip_source(scene, scene.materials[i]).hash(jobs);
         const std::string key = piece_key(fmt::format("mip {:016x} {}{}", source, is_metal(scene, scene.materials[i]), text));
-        const auto levels = [&scene, &mips, &jobs, i] {
+        if (std::any_of(pieces.begin(), pieces.end(), [&](const JobPiece& there) { return there.key == key; }))
+            continue;
+        const auto levels = [&scene, &mips, &jobs](std::size_t of) {
             std::vector<bool> wanted(scene.materials.size());
-            wanted[i] = true;
-            return levels_of_materials(scene, mips, jobs, true, &wanted)[i];
+            wanted[of] = true;
+            return levels_of_materials(scene, mips, jobs, true, &wanted)[of];
         };
-        const auto seconds = [levels]() -> Result<double> {
-            const double begin = wall_ms();
-            levels();
-            return (wall_ms() - begin) * 1e-3;
+        const auto seconds = [levels, rate, fewest, fewest_texels, texels = texels_of(scene, i)]() -> Result<double> {
+            if (!*rate) {
+                const double begin = wall_ms();
+                levels(fewest);
+                *rate = (wall_ms() - begin) * 1e-3 / static_cast<double>(fewest_texels);
+            }
+            return **rate * static_cast<double>(texels);
         };
-        const auto make = [levels, key](const std::string& file) -> Status {
-            const std::shared_ptr<const MipLevels> made = levels();
+        const auto make = [levels, key, i](const std::string& file) -> Status {
+            const std::shared_ptr<const MipLevels> made = levels(i);
             return write_piece(file, key, mip_file_bytes({{made.get()}, 0, {}}));
         };
         pieces.push_back({key, seconds, make});
@@ -277,7 +300,7 @@ int run_mip(const MipBake& bake)
     // Collect the materials with levels
     std::vector<const MipLevels*> each;
     for (const std::shared_ptr<const MipLevels>& of : levels)
-        if (of && std::find(each.begin(), each.end(), of.get()) == each.end())
+        if (of && std::none_of(each.begin(), each.end(), [&](const MipLevels* there) { return there == of.get() || same(*there, *of); }))
             each.push_back(of.get());
     if (each.empty())
         return fail({ExitCode::bad_input, bake.material, "", "has no maps of normals, roughness or anisotropy"});

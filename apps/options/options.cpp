@@ -8,6 +8,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/io/image_stream.h"
 #include "core/scene/builtin/builtin.h"
+#include "raster/frame/layers.h"
 #include "raster/tile/twins.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
@@ -27,6 +28,8 @@ Status check_camera(const RenderOptions& out)
     return {};
 }
 
+constexpr int kBandRows = 256, kRowsAtOnce = 16; // usual rows of a band; rows that compressors of .exr take at once
+
 // Returns true for pictures that no frame holds.
 bool needs_bands(const FrameDesc& frame)
 {
@@ -34,26 +37,63 @@ bool needs_bands(const FrameDesc& frame)
            std::int64_t{frame.width} * frame.height * frame.msaa > kMaxPictureSamples;
 }
 
+std::size_t layer_channels(const std::string& name)
+{
+    for (const LayerInfo& layer : layers())
+        if (layer.name == name)
+            return layer.channels.size();
+    return 0;
+}
+
+// Returns the bytes that a row of the picture takes in a band: floats with alpha and layers, and 8 bits with alpha.
+std::int64_t bytes_of_row(const RenderOptions& o)
+{
+    std::size_t channels = 4;
+    for (const std::string& name : o.aov)
+        channels += layer_channels(name);
+    return std::int64_t{o.frame.width} * static_cast<std::int64_t>(channels * sizeof(float) + 4);
+}
+
+// Returns why a picture has no bands of so many rows, or nothing.
+std::string why_not_in_bands(const RenderOptions& o, std::int64_t rows, bool large)
+{
+    constexpr std::int64_t kMostBytes = std::int64_t{512} << 20; // of a band; all copies of it take about three times that
+    const std::int64_t width = std::min(o.frame.width, large ? kWindowCell : o.frame.width) + 2 * kWindowStep;
+    if (large && (rows % kBandTile != 0 || kWindowCell % rows != 0))
+        return fmt::format("of so large a picture must be 64, 128, 256, 512 and so on, up to {}", kWindowCell);
+    if (rows % kRowsAtOnce != 0)
+        return fmt::format("must be a multiple of {}", kRowsAtOnce);
+    if (const std::int64_t most = kMaxPictureSamples / (width * o.frame.msaa) - 2 * kWindowStep; rows > most)
+        return fmt::format("{} rows with --msaa {} are too many samples for one frame: at most {} rows", rows, o.frame.msaa, most);
+    if (const std::int64_t most = kMostBytes / bytes_of_row(o); rows > std::max<std::int64_t>(most, kRowsAtOnce))
+        return fmt::format("{} rows take {} MiB: at most {} rows", rows, rows * bytes_of_row(o) >> 20, most);
+    return "";
+}
+
 // Draws the picture in bands: makes the frame the first window. large: the picture needs bands.
 Status choose_bands(const RenderArguments& in, const OptionTable& given, bool large, RenderOptions& out)
 {
-    constexpr int kBandRows = 256, kRowsAtOnce = 16;
     const std::string option = in.band_rows ? "--band-rows" : "--size";
     const std::string why = in.band_rows ? "" : fmt::format("of {}x{} is drawn in bands, and ", in.size.width, in.size.height);
     if (out.backend != "tile")
         return usage_error(option, why + "is for --backend tile alone");
-    for (const char* other :
-         {"--frames", "--show", "--risks", "--budget", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
+    for (const char* other : {"--risks", "--budget", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
         if (given.given(other))
             return usage_error(option, fmt::format("{}cannot be combined with {}", why, other));
+    if (out.frames > 1 || out.show != Shown::light)
+        return usage_error(option, fmt::format("{}cannot be combined with {}", why, out.frames > 1 ? "--frames" : "--show"));
     if (out.floor == FloorChoice::mirror)
         return usage_error(option, why + "cannot be combined with --floor mirror");
     for (const std::string& path : out.outputs)
         if (!writes_rows(path))
             return usage_error(option, fmt::format("{}cannot be written to {}: .exr and .png are written by rows", why, path));
-    out.band_rows = static_cast<int>(in.band_rows.value_or(kBandRows));
-    if (out.band_rows % kRowsAtOnce != 0 || (large && out.band_rows % kBandRows != 0))
-        return usage_error("--band-rows", fmt::format("must be a multiple of {}", large ? kBandRows : kRowsAtOnce));
+    // Find the rows
+    std::int64_t rows = in.band_rows.value_or(kBandRows);
+    while (!in.band_rows && rows > kBandTile && !why_not_in_bands(out, rows, large).empty())
+        rows /= 2;
+    if (const std::string fault = why_not_in_bands(out, rows, large); !fault.empty())
+        return usage_error(in.band_rows ? "--band-rows" : "--size", in.band_rows ? fault : why + "its bands: " + fault);
+    out.band_rows = static_cast<int>(rows);
     FrameDesc& frame = out.frame;
     frame.window = {frame.width, frame.height, 0, 0};
     frame.width = std::min(frame.width, large ? kWindowCell : frame.width), frame.height = std::min(frame.height, out.band_rows);

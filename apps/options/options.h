@@ -85,6 +85,8 @@ struct RenderOptions {
     int verbosity = 0;
 };
 
+inline constexpr int kBandTile = 64; // pixels along a side of .exr tiles, in pictures that no frame holds; their bands have whole tiles
+
 // Returns the floor of `burnish render`. By default built-in scenes stand on the stage if the background is drawn, except those with a
 // floor of their own.
 FloorSettings floor_of(const RenderOptions& options);

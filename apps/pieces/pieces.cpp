@@ -54,12 +54,13 @@ std::string file_in(const std::string& folder, const std::string& key)
     return folder + "/" + key + ".piece";
 }
 
-// Keeps the command in the folder, for `burnish merge`: once for a list of pieces. Errors: words that are not UTF-8.
+// Keeps the command in the folder, for `burnish merge`: once for a list of pieces and its outputs. Errors: words that are not UTF-8.
 Status write_job(const std::string& folder, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces)
 {
     std::string keys;
     for (const JobPiece& piece : pieces)
         keys += piece.key;
+    keys += shell_words(job_words(words));
     const std::string file = fmt::format("{}/job-{}.json", folder, hash_of(keys));
     if (std::error_code ignored; fs::exists(file, ignored))
         return {};

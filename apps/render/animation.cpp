@@ -268,7 +268,7 @@ std::string text_of_row(const Row& row, const RenderOptions& first, const Option
     const SessionParts& parts = row.session.parts();
     std::string text = fmt::format("{:016x} {:016x} {}", reference_key(parts.input(), row.session.drawn(first.frame), first.reference),
                                    parts.environment->content_hash, row.animation.count());
-    text += text_of_given(given);
+    text += text_of_scene(first.scene, row.session.scene().files) + text_of_given(given);
     const std::set<std::string> formats = formats_of(std::move(*row.animation.step(0)));
     for (const std::string& format : formats)
         text += "\n" + format;

@@ -27,8 +27,6 @@
 namespace burnish {
 namespace {
 
-constexpr int kExrTile = 256; // pixels along a side, in files of pictures that no frame holds
-
 // The rows of a band, in each form that some output needs.
 struct Band {
     Image linear;                   // f32, RGB or RGBA
@@ -94,9 +92,7 @@ bool shows_some(const RenderOptions& options)
 
 void add_stats(const FrameStats& from, FrameStats& to)
 {
-    to.triangles = from.triangles;
-    to.triangles_drawn += from.triangles_drawn;
-    to.visible_fragments += from.visible_fragments, to.background_pixels += from.background_pixels;
+    to.triangles = from.triangles; // fragments of margins lie in several windows, so none are counted
     to.ms += from.ms;
 }
 
@@ -113,6 +109,7 @@ Result<Band> draw_band(const Bands& bands, int index)
         const Side x = side_of(left, std::min(left + step, bands.width()), bands.width(), bands.margin);
         FrameDesc desc = bands.desc;
         desc.window.left = x.first, desc.window.top = y.first, desc.width = x.size, desc.height = y.size;
+        const TraceSpan span("band");
         const Result<Rendered> rendered = render_frames(options, desc, bands.session, bands.figures);
         BN_TRY(rendered);
         add_stats(rendered->figures.frame, band.stats);
@@ -180,7 +177,7 @@ class BandFiles {
         for (const std::string& path : bands_.options.outputs) {
             StreamedPicture picture{bands_.width(), bands_.height(), rows_for(path, band).channels, {}, 0};
             if (!is_png(path))
-                picture.channel_names = band.names, picture.tile = bands_.in_cells() ? kExrTile : 0;
+                picture.channel_names = band.names, picture.tile = bands_.in_cells() ? kBandTile : 0;
             Result<std::unique_ptr<ImageStream>> stream = open_image_stream(path, picture);
             BN_TRY(stream);
             streams_.push_back(std::move(*stream));
@@ -197,21 +194,15 @@ Json figures_of(const Image& image)
     return {image.width, image.height, image.channels, static_cast<int>(image.type)};
 }
 
-std::vector<std::uint8_t> packed_band(const Band& band)
+std::vector<std::uint8_t> packed_band(Band band)
 {
     Packed packed;
-    const FrameStats& s = band.stats;
-    Json figures = {{"names", band.names},
-                    {"nan_pixels", band.nan_pixels},
-                    {"triangles", s.triangles},
-                    {"triangles_drawn", s.triangles_drawn},
-                    {"visible_fragments", s.visible_fragments},
-                    {"background_pixels", s.background_pixels},
-                    {"images", Json::array()}};
-    for (const Image* image : {&band.linear, &band.layered, &band.shown}) {
+    Json figures = {{"names", band.names}, {"nan_pixels", band.nan_pixels}, {"triangles", band.stats.triangles}, {"images", Json::array()}};
+    for (Image* image : {&band.linear, &band.layered, &band.shown}) {
         figures["images"].push_back(figures_of(*image));
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image->bytes.data());
         packed.files.push_back({std::to_string(packed.files.size()), {bytes, bytes + image->bytes.size()}});
+        *image = {};
     }
     packed.json = figures.dump();
     return pack(packed);
@@ -220,24 +211,22 @@ std::vector<std::uint8_t> packed_band(const Band& band)
 // Reads a band that packed_band() packed. Pieces carry a hash, so what is read is what was written.
 Result<Band> read_band(const std::string& file, const std::string& key)
 {
-    const Result<std::vector<std::uint8_t>> content = read_piece(file, key);
+    Result<std::vector<std::uint8_t>> content = read_piece(file, key);
     BN_TRY(content);
-    const Result<Packed> packed = unpack(*content, file);
+    Result<Packed> packed = unpack(*content, file);
     BN_TRY(packed);
+    *content = {};
     const Error damaged = {ExitCode::bad_input, file, "", "is a damaged piece"};
     Band band;
     try {
         const Json figures = Json::parse(packed->json);
         band.names = figures.at("names").get<std::vector<std::string>>();
         band.nan_pixels = figures.at("nan_pixels").get<std::uint64_t>();
-        FrameStats& s = band.stats;
-        s.triangles = figures.at("triangles").get<std::uint64_t>(), s.triangles_drawn = figures.at("triangles_drawn").get<std::uint64_t>();
-        s.visible_fragments = figures.at("visible_fragments").get<std::uint64_t>();
-        s.background_pixels = figures.at("background_pixels").get<std::uint64_t>();
+        band.stats.triangles = figures.at("triangles").get<std::uint64_t>();
         Image* const images[] = {&band.linear, &band.layered, &band.shown};
         for (std::size_t i = 0; i < std::size(images); ++i) {
             const auto shape = figures.at("images").at(i).get<std::vector<int>>();
-            const std::vector<std::uint8_t>& bytes = packed->files.at(i).bytes;
+            const std::vector<std::uint8_t> bytes = std::move(packed->files.at(i).bytes);
             if (bytes.empty())
                 continue;
             *images[i] = make_image(shape.at(0), shape.at(1), shape.at(2), static_cast<PixelType>(shape.at(3)));
@@ -256,7 +245,8 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
     const SessionParts& parts = bands.session.parts();
     const std::string text =
         fmt::format("{:016x} {:016x} {}{}", reference_key(parts.input(), bands.session.drawn(bands.desc), bands.options.reference),
-                    parts.environment->content_hash, bands.options.band_rows, text_of_given(given)) +
+                    parts.environment->content_hash, bands.options.band_rows,
+                    text_of_scene(bands.options.scene, bands.session.scene().files) + text_of_given(given)) +
         (shows_some(bands.options) ? "\nshown" : "");
     const auto rate = std::make_shared<std::optional<double>>(); // seconds a row
     std::vector<JobPiece> pieces;
@@ -272,9 +262,9 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
             return **rate * bands.rows(i);
         };
         const auto make = [&bands, i, key](const std::string& file) -> Status {
-            const Result<Band> band = draw_band(bands, i);
+            Result<Band> band = draw_band(bands, i);
             BN_TRY(band);
-            return write_piece(file, key, packed_band(*band));
+            return write_piece(file, key, packed_band(std::move(*band)));
         };
         pieces.push_back({key, seconds, make});
     }
@@ -283,8 +273,9 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
 
 void report_bands(const Bands& bands, const RenderFigures& figures, Report& report)
 {
-    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}, in {} bands: {:.0f} ms", bands.width(), bands.height(),
-                                      bands.desc.msaa, bands.desc.technique, bands.count(), figures.frame.ms));
+    const std::string ms = figures.frame.ms > 0.0 ? fmt::format(": {:.0f} ms", figures.frame.ms) : ""; // pieces keep no time
+    report.event("frame", fmt::format("{}x{}, {} samples a pixel, {}, in {} bands{}", bands.width(), bands.height(), bands.desc.msaa,
+                                      bands.desc.technique, bands.count(), ms));
     report.event("pixel hash:", hash_text(figures.hash));
 }
 
@@ -316,6 +307,11 @@ int write_bands(const Bands& bands, const std::function<Result<Band>(int)>& band
         if (!written)
             return fail(written.error());
         report.wrote(bands.options.stats_file);
+    }
+    if (!bands.options.trace_file.empty()) {
+        if (const Status written = write_text(bands.options.trace_file, Trace::json()); !written)
+            return fail(written.error());
+        report.wrote(bands.options.trace_file);
     }
     if (figures.nan_pixels)
         return fail(Error{ExitCode::not_finite, bands.options.scene, "",

@@ -154,6 +154,8 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     if (any_pieces(arguments.pieces) && checked->backend != "reference" && !checked->band_rows)
         return fail(
             usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate, --turntable and --band-rows have"));
+    if (any_pieces(arguments.pieces) && checked->band_rows && given.given("--stats"))
+        return fail(usage_error("--stats", "cannot be combined with pieces of a picture: its times are of one process"));
     checked->mips.frames_override = sets_materials(checked->frame);
     if (any_pieces(arguments.pieces) && !checked->band_rows)
         checked->reference.part = std::make_shared<ReferencePart>(), checked->in_pieces = true;
@@ -234,8 +236,8 @@ Command render_command()
     OptionTable table = render_option_table(*arguments);
     table.add("Bands, for pictures larger than memory",
               {{"--band-rows", "N",
-                "Draw the picture in bands of N rows, with the memory of one band; the default beyond 16384x16384 pixels, for "
-                "sides up to 65536",
+                "Draw the picture in bands of N rows, with the memory of one band; the default for sides above 16384 pixels, "
+                "up to 65536, and for more than 2^28 samples",
                 integer(arguments->band_rows, 16, kMaxPictureSide), "the whole picture, else 256"}});
     table.add("Pieces, for several processes", piece_options(arguments->pieces));
     return {"render", "Render a scene to pictures", std::move(table), kFooter,

@@ -98,11 +98,12 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["environment_from_cache"] = figures.environment_from_cache;
     json["key_lights"] = extracted_lights_json(figures.extracted_lights);
     json["triangles"] = figures.frame.triangles;
-    json["triangles_drawn"] = figures.frame.triangles_drawn;
-    json["visible_fragments"] = figures.frame.visible_fragments;
+    if (!options.band_rows) // bands overlap, so they count some twice
+        json["triangles_drawn"] = figures.frame.triangles_drawn, json["visible_fragments"] = figures.frame.visible_fragments;
     if (figures.work)
         json["operations"] = figures.work->operations, json["operand_bytes"] = figures.work->bytes;
-    json["background_pixels"] = figures.frame.background_pixels;
+    if (!options.band_rows)
+        json["background_pixels"] = figures.frame.background_pixels;
     json["pixel_hash"] = hash_text(figures.hash);
     json["nan_pixels"] = figures.nan_pixels;
     json["warnings"] = figures.warnings;

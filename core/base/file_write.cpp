@@ -441,7 +441,9 @@ Result<StreamedFile> StreamedFile::make(const std::string& path)
     Temporary made;
     const bool has_names = ::access("/proc/self/fd", X_OK) == 0;
     int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
-    if (code != 0 && code != ENOENT && code != EACCES)
+    if (code == EMFILE && allow_more_files())
+        code = make_unnamed(target, 0666, made);
+    if (code != 0 && code != EMFILE && code != ENOENT && code != EACCES)
         code = make_named(target, 0666, made);
     if (code != 0)
         return unwritable(path, code);

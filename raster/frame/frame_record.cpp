@@ -298,7 +298,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
 {
     if (const Status ok = check_frame(input_.scene, desc); !ok)
         return ok;
-    if (desc.window.picture_width > 0 && shows_behind(desc))
+    if ((picture_width(desc) > desc.width || picture_height(desc) > desc.height) && shows_behind(desc))
         return Error{ExitCode::usage, "", "",
                      "surfaces that let light through show the whole picture behind them, and this frame is a window of it "
                      "(FrameDesc::glass interface draws them by the environment alone)",

@@ -2,6 +2,8 @@
 
 import json
 import re
+import struct
+import zlib
 
 from harness import case, check
 
@@ -35,13 +37,50 @@ def same(bench):
     check_same(bench, "masked", bench.data_file("reports/blend_twelve_sheets.gltf"), *SMALL, "--msaa", "2", "--exposure", "1")
 
 
-@case("band.samples_are_shared_across_cells", budget=10)
+def places(width, height, at):
+    """Indices of the values in a column of a wide picture, or in a row of a high one."""
+    pixels = range(at, width * height, width) if width > height else range(at * width, (at + 1) * width)
+    return [3 * pixel + c for pixel in pixels for c in range(3)]
+
+
+def rgb_of(file):
+    """Returns width, height and RGB bytes of a .png that the program wrote: one filter, Paeth's, and no interlace."""
+    data = file.read_bytes()
+    width, height = struct.unpack(">II", data[16:24])
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += size + 12
+    raw, row = zlib.decompress(packed), 3 * width
+    before, out = bytearray(row), bytearray()
+    for y in range(height):
+        line = bytearray(raw[y * (row + 1) + 1:(y + 1) * (row + 1)])
+        kind = raw[y * (row + 1)]
+        check(kind in (0, 4), f"filter {kind}")
+        for x in range(row if kind else 0):
+            a, b, c = (line[x - 3] if x > 2 else 0), before[x], (before[x - 3] if x > 2 else 0)
+            p = a + b - c
+            pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
+            line[x] = line[x] + (a if pa <= pb and pa <= pc else b if pb <= pc else c) & 255
+        before = line
+        out += line
+    return width, height, out
+
+
+@case("band.samples_are_shared_across_cells", budget=30)
 def shared(bench):
-    """Pixels read their neighbours beyond their cell, so an even picture shows no line at the cells' borders."""
-    look = ("--env-size", "32", "--env-samples", "64", "--no-cache", "-q", "--msaa", "1", "--eye", "0,0,3", "--target", "0,0,0", "--fov", "0.2")
-    for size, ending in (("33000x16", "wide.exr"), ("16x33000", "high.exr")):
-        done = bench.run("render", "builtin:plate", *look, "--size", size, "-o", ending).expect(0)
-        check(done.err == "", done.err)
+    """Pixels read their neighbours beyond their cell: at the cells' borders the picture changes no more than elsewhere."""
+    look = ("--env-size", "32", "--env-samples", "64", "--no-cache", "-q", "--msaa", "1", "--technique", "lobe_line", "--eye", "0,0.2,0.6",
+            "--target", "0,0,0", "--tonemap", "none")
+    for size, name, stride, angle in (("33000x16", "wide.png", 3, "0.1"), ("16x33000", "high.png", 3 * 16, "90")):
+        bench.run("render", "builtin:plate", *look, "--size", size, "--fov", angle, "-o", name).expect(0)
+        width, height, pixels = rgb_of(bench.folder / name)
+        check(f"{width}x{height}" == size and len(set(pixels)) > 20, f"{name}: {len(set(pixels))} values")
+        # The mean change from one column, or row, to the next
+        change = lambda at: sum(abs(pixels[i] - pixels[i - stride]) for i in places(width, height, at)) / 48
+        usual = sorted(change(at) for at in range(15000, 18000, 7) if at != 16384)
+        check(change(16384) <= usual[-1] and change(32768) <= usual[-1] + 0.5, f"{name}: {change(16384)}, {change(32768)}, usually {usual[0]} to {usual[-1]}")
 
 
 @case("band.merged_pieces_are_the_picture", budget=20)
@@ -58,6 +97,9 @@ def pieces(bench):
     bench.run("merge", "w").expect(0)
     for ending in ("exr", "png"):
         same_bytes(bench, f"one.{ending}", f"a.{ending}")
+    # The timeline of a picture in bands
+    bench.run("render", *words, "--trace", "a.trace").expect(0)
+    check(b'"band"' in (bench.folder / "a.trace").read_bytes(), "no bands in the timeline")
     # A damaged piece is refused
     piece = next(path for path in (bench.folder / "w").iterdir() if listed[0][:16] in path.name)
     content = bytearray(piece.read_bytes())
@@ -69,6 +111,7 @@ def pieces(bench):
 @case("band.refuses_what_needs_the_whole_picture", tier="quick")
 def refused(bench):
     run = lambda *words: bench.run("render", "builtin:teapot", *words)
+    run("--size", "64x64", "--band-rows", "16", "--frames", "1", "--show", "light", "-q").expect(0)
     for words, names in ((("--frames", "2"), ("--frames",)), (("--risks", "-"), ("--risks",)), (("--budget", "0.05"), ("--budget",)),
                          (("--show", "lod", "-o", "a.png"), ("--show",)), (("--backend", "reference"), ("--backend", "tile")),
                          (("--backend", "vulkan"), ("--backend", "tile")), (("--floor", "mirror"), ("--floor",)),
@@ -76,22 +119,26 @@ def refused(bench):
         run("--size", "64x64", "--band-rows", "16", *words).expect(2).expect_one_line("--band-rows", *names)
     run("--band-rows", "20").expect(2).expect_one_line("--band-rows", "16")
     run("--band-rows", "0").expect(2).expect_one_line("--band-rows")
-    run("--size", "20000x20", "--band-rows", "16").expect(2).expect_one_line("--band-rows", "256")
+    for rows in ("16", "768"):
+        run("--size", "20x20000", "--band-rows", rows).expect(2).expect_one_line("--band-rows", "64, 128, 256")
+    run("--size", "16384x16384", "--msaa", "2", "--band-rows", "16384").expect(2).expect_one_line("--band-rows", "samples", "at most")
+    run("--size", "65536x65536", "--aov", "depth,normal,albedo", "-o", "a.exr", "--band-rows", "1024").expect(2).expect_one_line("--band-rows", "MiB")
+    run("--size", "64x64", "--band-rows", "16", "--pieces", "--stats", "a.json").expect(2).expect_one_line("--stats")
     run("--size", "65537x20").expect(2).expect_one_line("--size", "65536")
     run("--size", "20000x20", "-o", "a.jpg").expect(2).expect_one_line("--size", "a.jpg", ".png")
     run("--size", "20000x20", "--backend", "reference").expect(2).expect_one_line("--size", "16384")
     bench.run("parity", "builtin:teapot", "--size", "20000x20").expect(2).expect_one_line("--size", "16384")
     # Surfaces that let light through show what is behind them
+    bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "64", "-q").expect(0)
     bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "-q").expect(2).expect_one_line("--size", "whole picture", "--glass interface")
 
 
 @case("band.large_pictures_are_drawn_in_cells", tier="nightly")
 def large(bench):
-    """A picture of three cells has the light of a small one, and the same bits for any number of threads and rows."""
+    """A picture of three cells has the same bits for any number of threads and rows, in the memory of a band. Its tiles are read."""
     words = ("builtin:teapot", "--env-size", "32", "--env-samples", "64", "--msaa", "1", "--technique", "bent_normal", "-q", "--fov", "3")
     first = hash_of(bench, *words, "--size", "40000x900", "-o", "a.exr", "-o", "a.png")
     check(first == hash_of(bench, *words, "--size", "40000x900", "--threads", "1", "--band-rows", "512"), "threads and rows")
     peak = bench.run("render", *words, "--size", "40000x900", "-o", "b.png", timeout=300).expect(0).peak_bytes
     check(peak < 700 << 20, f"{peak >> 20} MiB")
-    # Tiles are read back
     bench.run("compare", "a.exr", "a.exr", "--metric", "max", "--limit-image-side", "65536").expect(0)

@@ -1,5 +1,6 @@
 """Jobs in pieces: the files of one process, whatever the shares, their order, and what dies on the way."""
 
+import base64
 import json
 import os
 import pathlib
@@ -12,6 +13,7 @@ import socket
 import subprocess
 import time
 
+import gltf_files
 from fault_cases import REFERENCE, needs_embree, preloaded
 from harness import Skipped, case, check
 
@@ -115,6 +117,22 @@ def levels(bench):
     (bench.folder / "one/levels.mip").unlink()
     words = pieces_of(bench, (*words, "-o", "a.mip")), pieces_of(bench, (*words, "--mip-filter", "ssgt", "-o", "a.mip"))
     check(not {key for key, _, _ in words[0]} & {key for key, _, _ in words[1]}, "another filter has the same pieces")
+    # Materials with equal maps in textures of their own share a piece, and a file holds their levels once
+    image = "data:image/png;base64," + base64.b64encode(gltf_files.png(8, 8, color=lambda x, y: (128 + 9 * x, 128 - 7 * y, 220))).decode()
+    gltf = gltf_files.textured(image)
+    gltf["meshes"][0]["primitives"] = [dict(gltf["meshes"][0]["primitives"][0], material=i) for i in range(3)]
+    gltf["materials"] = [{"normalTexture": {"index": i}, "pbrMetallicRoughness": {"roughnessFactor": 0.3, "metallicFactor": int(i < 2)}} for i in range(3)]
+    gltf["textures"], gltf["images"] = [{"source": i} for i in range(3)], [{"uri": image} for _ in range(3)]
+    (bench.folder / "equal.gltf").write_text(gltf_files.text(gltf))
+    words = ("bake", "mip", "equal.gltf", "-q", "--mip-gain", "on")
+    bench.run(*words, "-o", "one.mip").expect(0)
+    bench.run(*words, "-o", "two.mip", "--take", "--work", "e").expect(0)
+    bench.run("merge", "e").expect(0)
+    check((bench.folder / "one.mip").read_bytes() == (bench.folder / "two.mip").read_bytes(), "equal maps: other bytes")
+    check(len(list((bench.folder / "e").glob("*.piece"))) == 2, "equal maps: a metal's and a dielectric's are not two pieces")
+    # Another output of the same pieces is another job
+    bench.run(*words, "-o", "three.mip", "--take", "--work", "e").expect(0)
+    check(len(bench.run("merge", "e").expect(4).out.splitlines()) == 2, "two jobs")
     bench.run("bake", "direction", "a.png", "-o", "b.png", "--pieces").expect(2).expect_one_line("direction", "mip")
 
 
@@ -297,6 +315,27 @@ def content(bench):
         bench.run("bake", "environment", "builtin:sky", "--env-size", "16", "--env-samples", samples, "-q", "-o", "baked").expect(0)
         found.append(keys(bench, *row))
     check(not set(found[0]) & set(found[1]), "another bake of the same light changes no key")
+    # Scenes with equal triangles in other objects, and folders with equal files of other names
+    pictures = ("render", "scene.gltf", "--size", "32x32", "-q", "--band-rows", "16", "--orbit", "0,0", "--aov", "object-id", "-o", "o.exr")
+    found = []
+    for nodes in (1, 2):
+        gltf = gltf_files.triangle()
+        mesh = gltf["meshes"][0]
+        if nodes == 1:
+            mesh["primitives"] = 2 * mesh["primitives"]
+        else:
+            gltf["nodes"], gltf["scenes"] = 2 * gltf["nodes"], [{"nodes": [0, 1]}]
+        (bench.folder / "scene.gltf").write_text(gltf_files.text(gltf))
+        found.append(keys(bench, *pictures))
+    check(not set(found[0]) & set(found[1]), "another split into objects changes no key")
+    material = ("--material", "maps")
+    found = []
+    for name in ("wood_normal.png", "wood_roughness.png"):
+        shutil.rmtree(bench.folder / "maps", ignore_errors=True)
+        (bench.folder / "maps").mkdir()
+        (bench.folder / "maps" / name).write_bytes(gltf_files.png(4, 4))
+        found.append(keys(bench, "render", "builtin:sphere", *material, "--size", "32x32", "-q", "--band-rows", "16", "-o", "o.exr"))
+    check(not set(found[0]) & set(found[1]), "another name of a map changes no key")
 
 
 @case("pieces.of_another_renderer_are_others")

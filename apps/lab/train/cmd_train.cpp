@@ -305,14 +305,21 @@ std::vector<mipnet::Judged> rows_of(const Json& json)
 std::vector<JobPiece> judged_pieces(const std::vector<mipnet::TestMaterial>& set, const mipnet::Weights& weights, const std::string& text,
                                     const Jobs& jobs)
 {
+    const auto rate = std::make_shared<std::optional<double>>(); // seconds a texel, by the first material
+    const auto texels_of = [](const mipnet::TestMaterial& m) {
+        return static_cast<double>(m.material.texels.width) * static_cast<double>(m.material.texels.height);
+    };
     std::vector<JobPiece> pieces;
     for (std::size_t i = 0; i < set.size(); ++i) {
         const auto judged = [&set, &weights, &jobs, i] { return mipnet::judge({set[i]}, weights.shape.lobe, {weights}, jobs); };
         const std::string key = piece_key(fmt::format("train {} {}{}", i, set[i].material.name, text));
-        const auto seconds = [judged]() -> Result<double> {
-            const double begin = wall_ms();
-            judged();
-            return (wall_ms() - begin) * 1e-3;
+        const auto seconds = [judged, rate, texels = texels_of(set[i])]() -> Result<double> {
+            if (!*rate) {
+                const double begin = wall_ms();
+                judged();
+                *rate = (wall_ms() - begin) * 1e-3 / texels;
+            }
+            return **rate * texels;
         };
         const auto make = [judged, key](const std::string& file) -> Status {
             const std::string rows = rows_json(judged()).dump();

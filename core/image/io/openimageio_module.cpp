@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -198,10 +199,10 @@ bool has_all_chunks(const Bytes& file, std::size_t chunks, std::size_t place_byt
     return true;
 }
 
-// Does the same for a file that memory does not hold. The chunks' sizes are not read.
-bool file_has_all_chunks(const std::string& place, std::size_t chunks)
+// Does the same for a file that memory does not hold. Reads the size of the last chunk alone.
+bool file_has_all_chunks(const std::string& place, std::size_t chunks, std::size_t place_bytes)
 {
-    constexpr std::size_t kMostHeader = 1u << 16;
+    constexpr std::size_t kMostHeader = 1u << 20;
     std::ifstream file(place, std::ios::binary | std::ios::ate);
     const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
     Bytes head(static_cast<std::size_t>(std::min<std::uint64_t>(size, kMostHeader + 8 * chunks)));
@@ -209,10 +210,16 @@ bool file_has_all_chunks(const std::string& place, std::size_t chunks)
     if (!file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size())))
         return false;
     const std::size_t table = chunk_table(head);
-    for (std::size_t i = 0; i < chunks; ++i)
-        if (const std::uint64_t begin = number_at(head, table + 8 * i, 8); begin < table + 8 * chunks || begin >= size)
+    std::uint64_t last = 0;
+    for (std::size_t i = 0; i < chunks; ++i) {
+        const std::uint64_t begin = number_at(head, table + 8 * i, 8);
+        if (begin < table + 8 * chunks || begin + place_bytes + 4 > size)
             return false;
-    return true;
+        last = std::max(last, begin);
+    }
+    Bytes bytes(4);
+    file.seekg(static_cast<std::streamoff>(last + place_bytes));
+    return file.read(reinterpret_cast<char*>(bytes.data()), 4) && last + place_bytes + 4 + number_at(bytes, 0, 4) <= size;
 }
 
 std::size_t parts_of(int size, int part)
@@ -242,6 +249,7 @@ class OpenExrRows final : public RowWriter {
     {
         const int begin = next_, end = next_ + rows.height;
         next_ = end;
+        errno = 0;
         const bool written = tile_ > 0 ? output_->write_tiles(0, spec_.width, begin, end, 0, 1, OIIO::TypeDesc::FLOAT, rows.bytes.data())
                                        : output_->write_scanlines(begin, end, 0, OIIO::TypeDesc::FLOAT, rows.bytes.data());
         return written ? Status() : error(output_->geterror());
@@ -249,17 +257,21 @@ class OpenExrRows final : public RowWriter {
     Status finish() override
     {
         constexpr int kRowsOfChunk = 16; // of ZIP
+        errno = 0;
         if (!output_->close())
             return error(output_->geterror());
         output_.reset();
         const std::size_t chunks =
             tile_ > 0 ? parts_of(spec_.width, tile_) * parts_of(spec_.height, tile_) : parts_of(spec_.height, kRowsOfChunk);
-        return file_has_all_chunks(place_, chunks) ? Status() : error("not all rows were written");
+        return file_has_all_chunks(place_, chunks, tile_ > 0 ? 16 : 4) ? Status() : error("not all rows were written");
     }
 
   private:
     Error error(const std::string& message) const
     {
+        for (const int code : {ENOSPC, EFBIG, EDQUOT, EIO})
+            if (errno == code) // the library's message names the file by its place
+                return {ExitCode::output_failed, path_, "", fmt::format("cannot be written: {}", std::strerror(code))};
         return {ExitCode::output_failed, path_, "", "the image cannot be encoded: " + first_line(message)};
     }
 
