@@ -163,18 +163,18 @@ BN_FN film_cosines film_cosines_of(real n_dot_v, real roughness)
     return k;
 }
 
-// Returns the film's directional albedo over the lobe.
-BN_STAGE real3 film_albedo(BN_IN(surface) s, dfg_value dfg)
+// Returns the film's directional albedo over the lobe. Takes values, since a surface that is passed on leaves registers.
+BN_STAGE real3 film_albedo(fresnel_parts p, real n_dot_v, real roughness, dfg_value dfg)
 {
-    film_cosines k = film_cosines_of(s.n_dot_v, s.roughness);
-    return (film_on_mixture(s.parts, k.lower) + film_on_mixture(s.parts, k.upper)) * (lit(0.5) * (dfg.scale + dfg.bias));
+    film_cosines k = film_cosines_of(n_dot_v, roughness);
+    return (film_on_mixture(p, k.lower) + film_on_mixture(p, k.upper)) * (lit(0.5) * (dfg.scale + dfg.bias));
 }
 
 // Returns the same over the dielectric part alone.
-BN_STAGE real3 film_albedo_on_dielectric(BN_IN(surface) s, dfg_value dfg)
+BN_STAGE real3 film_albedo_on_dielectric(fresnel_parts p, real n_dot_v, real roughness, dfg_value dfg)
 {
-    film_cosines k = film_cosines_of(s.n_dot_v, s.roughness);
-    return (film_on_dielectric(s.parts, k.lower) + film_on_dielectric(s.parts, k.upper)) * (lit(0.5) * (dfg.scale + dfg.bias));
+    film_cosines k = film_cosines_of(n_dot_v, roughness);
+    return (film_on_dielectric(p, k.lower) + film_on_dielectric(p, k.upper)) * (lit(0.5) * (dfg.scale + dfg.bias));
 }
 
 // Returns the specular lobe's directional albedo.
@@ -187,7 +187,7 @@ BN_FN real3 albedo_of(BN_IN(surface) s, dfg_value dfg)
     if (s.exact != kFilmReflects)
         bare = bare_reflectance(s.parts, mean_v_dot_h(dfg)) * (dfg.scale + dfg.bias);
     if (film_used() && s.exact >= kFilmReflects)
-        bare = bare + (film_albedo(s, dfg) - bare) * s.parts.film;
+        bare = bare + (film_albedo(s.parts, s.n_dot_v, s.roughness, dfg) - bare) * s.parts.film;
     return bare;
 }
 
@@ -203,7 +203,7 @@ BN_FN real3 dielectric_albedo_of(BN_IN(surface) s, real3 f0, real f90, dfg_value
     if (s.exact != kFilmReflects)
         r = dielectric_reflectance(f0, f90, s.parts.ior, mean_v_dot_h(dfg)) * (dfg.scale + dfg.bias);
     if (film_used() && s.exact >= kFilmReflects)
-        r = r + (film_albedo_on_dielectric(s, dfg) - r) * s.parts.film;
+        r = r + (film_albedo_on_dielectric(s.parts, s.n_dot_v, s.roughness, dfg) - r) * s.parts.film;
     return r;
 }
 
