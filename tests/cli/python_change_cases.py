@@ -171,6 +171,29 @@ assert open('new.png', 'rb').read() == small.png(1.0)
 """)
 
 
+@case("python.ctrl_c_frees_nothing_twice", tier="quick")
+def freed_once(bench):
+    """Ctrl-C right behind the call that frees options."""
+    python(bench, f"""
+import gc
+from burnish import _native
+library, freed = _native.library(), []
+real = library.burnish_options_free
+def interrupted(handle):
+    freed.append(handle.value)
+    if freed.count(handle.value) == 1:
+        real(handle)
+        raise KeyboardInterrupt
+library.burnish_options_free = interrupted
+try:
+    with _native.Options({{}}, 'render()'):
+        pass
+except KeyboardInterrupt:
+    gc.collect()
+assert len(freed) == 1, freed
+""")
+
+
 @case("python.ctrl_c_stops_every_call", budget=30)
 def interrupt(bench):
     floats, picture = "memoryview(bytearray(12 * 8192 * 4096)).cast('f', [4096, 8192, 3])", "scene.render(width=8192, height=4096, msaa=1, technique='split_isotropic')"

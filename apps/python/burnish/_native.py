@@ -259,9 +259,9 @@ class Options:
         return self.handle
 
     def __exit__(self, *_):
-        if self.handle:
-            library().burnish_options_free(self.handle)
-            self.handle = ctypes.c_void_p()
+        handle, self.handle = self.handle, ctypes.c_void_p()  # Ctrl-C between the lines loses some bytes, and frees nothing twice
+        if handle:
+            library().burnish_options_free(handle)
 
     def __del__(self):
         self.__exit__()
