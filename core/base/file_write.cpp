@@ -244,6 +244,18 @@ bool allow_more_files()
     return ::setrlimit(RLIMIT_NOFILE, &files) == 0;
 }
 
+// Makes a file without a name, or else with a temporary one. Returns 0, or the errno of the obstacle.
+int make_some(const fs::path& target, Temporary& made)
+{
+    const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // /proc/self/fd is how an unnamed file gets its name
+    int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
+    if (code == EMFILE && allow_more_files())
+        code = make_unnamed(target, 0666, made);
+    if (code != 0 && code != EMFILE && code != ENOENT && code != EACCES)
+        code = make_named(target, 0666, made);
+    return code;
+}
+
 // Makes a folder with a temporary name beside `target`, and locks it against removal as a leftover.
 int make_locked_folder(const fs::path& target, std::string& name, Descriptor& held)
 {
@@ -326,19 +338,13 @@ Status FileSet::add(const std::string& name, const void* data, std::size_t size)
         sweep(target);
     // Make a file without a name, or else with a temporary one
     Temporary made;
-    const bool has_names = ::access("/proc/self/fd", X_OK) == 0; // /proc/self/fd is how an unnamed file gets its name
-    int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
-    if (code == EMFILE && allow_more_files())
-        code = make_unnamed(target, 0666, made);
-    if (code != 0 && code != EMFILE && code != ENOENT && code != EACCES)
-        code = make_named(target, 0666, made);
-    if (code != 0)
+    if (const int code = make_some(target, made))
         return unwritable(path, code);
     // Keep an existing file's permissions, and write the bytes
     if (exists)
         keep_owner(made.file.get(), before);
     added_.push_back({std::move(made.file), made.name, name, is_new_ ? "" : target.string()});
-    code = write_and_sync(added_.back().file.get(), [&](const PutBytes& put) { put(data, size); });
+    const int code = write_and_sync(added_.back().file.get(), [&](const PutBytes& put) { put(data, size); });
     return code ? Status(unwritable(path, code)) : Status();
 }
 
@@ -439,13 +445,7 @@ Result<StreamedFile> StreamedFile::make(const std::string& path)
         return Error{ExitCode::output_failed, path, "", "is no plain file: pictures are written there whole, not in bands"};
     sweep(target);
     Temporary made;
-    const bool has_names = ::access("/proc/self/fd", X_OK) == 0;
-    int code = has_names ? make_unnamed(target, 0666, made) : EOPNOTSUPP;
-    if (code == EMFILE && allow_more_files())
-        code = make_unnamed(target, 0666, made);
-    if (code != 0 && code != EMFILE && code != ENOENT && code != EACCES)
-        code = make_named(target, 0666, made);
-    if (code != 0)
+    if (const int code = make_some(target, made))
         return unwritable(path, code);
     if (exists)
         keep_owner(made.file.get(), before);
