@@ -101,7 +101,7 @@ std::size_t texels_of(const Scene& scene, std::size_t material)
 // Returns true for levels of equal maps, which a file holds once.
 bool same(const MipLevels& a, const MipLevels& b)
 {
-    return mip_file_bytes({{&a}, 0, {}}) == mip_file_bytes({{&b}, 0, {}});
+    return a.source == b.source && a.gained == b.gained && mip_file_bytes({{&a}, 0, {}}) == mip_file_bytes({{&b}, 0, {}});
 }
 
 // A piece holds the levels of one material, as a pyramid file. Materials with equal maps share a piece.

@@ -238,7 +238,7 @@ Command render_command()
               {{"--band-rows", "N",
                 "Draw the picture in bands of N rows, with the memory of one band; the default for sides above 16384 pixels, "
                 "up to 65536, and for more than 2^28 samples",
-                integer(arguments->band_rows, 16, kMaxPictureSide), "the whole picture, else 256"}});
+                integer(arguments->band_rows, 16, kMaxPictureSide), "the whole picture, else at most 256"}});
     table.add("Pieces, for several processes", piece_options(arguments->pieces));
     return {"render", "Render a scene to pictures", std::move(table), kFooter,
             [arguments](OptionTable& given) { return run_render(*arguments, given); }};

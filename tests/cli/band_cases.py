@@ -68,9 +68,9 @@ def rgb_of(file):
     return width, height, out
 
 
-@case("band.samples_are_shared_across_cells", budget=30)
+@case("band.no_line_shows_where_cells_meet", budget=30)
 def shared(bench):
-    """Pixels read their neighbours beyond their cell: at the cells' borders the picture changes no more than elsewhere."""
+    """At the cells' borders the picture changes no more than elsewhere, by a technique that shares samples."""
     look = ("--env-size", "32", "--env-samples", "64", "--no-cache", "-q", "--msaa", "1", "--technique", "lobe_line", "--eye", "0,0.2,0.6",
             "--target", "0,0,0", "--tonemap", "none")
     for size, name, stride, angle in (("33000x16", "wide.png", 3, "0.1"), ("16x33000", "high.png", 3 * 16, "90")):
