@@ -1,6 +1,7 @@
 #include "apps/render/reference_pieces.h"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
@@ -16,12 +17,21 @@ constexpr std::uint64_t kPieceSamples = 1u << 22, kMostPieces = 4096; // a secon
 constexpr std::uint64_t kPixelsOfBlock = 64;
 constexpr std::uint32_t kProbes = 8; // blocks that are timed for an estimate
 
-// Integrates some blocks, with `samples` a pixel (0: the picture's). Leaves their state in the part.
-Result<Frame> render_blocks(const RenderOptions& options, FrameDesc desc, Session& session, std::uint32_t first, std::uint32_t count,
-                            std::uint64_t samples)
+std::uint64_t samples_of_pass(const RenderOptions& options)
+{
+    return static_cast<std::uint64_t>(kPassPositions) * static_cast<std::uint64_t>(options.reference.shades);
+}
+
+struct Range {
+    std::uint64_t first, count;
+};
+
+// Integrates passes of some blocks. Leaves their state in the part.
+Result<Frame> render_blocks(const RenderOptions& options, FrameDesc desc, Session& session, Range blocks, Range passes)
 {
     ReferencePart& part = *options.reference.part;
-    part.first = first, part.count = count, part.samples = samples;
+    part.first = static_cast<std::uint32_t>(blocks.first), part.count = static_cast<std::uint32_t>(blocks.count);
+    part.first_pass = static_cast<std::uint32_t>(passes.first), part.samples = passes.count * samples_of_pass(options);
     desc.triangle_ids = false;
     return session.render(desc);
 }
@@ -33,12 +43,12 @@ Result<double> seconds_of_passes(const RenderOptions& options, const FrameDesc& 
     const std::uint32_t blocks = reference_blocks(desc.width, desc.height);
     const double begin = wall_ms();
     for (std::uint32_t i = 0; i < probes; ++i)
-        BN_TRY(render_blocks(options, desc, session, (2 * i + 1) * blocks / (2 * probes), 1, passes * kPassSamples));
+        BN_TRY(render_blocks(options, desc, session, {(2 * i + 1) * blocks / (2 * probes), 1}, {0, passes}));
     return (wall_ms() - begin) * 1e-3;
 }
 
-// Returns the time of one sample of one pixel on this machine, s. Two lengths of passes, so that a picture's own set-up does not count.
-Result<double> seconds_per_sample(const RenderOptions& options, const FrameDesc& desc, Session& session)
+// Returns the time of one pass of one pixel on this machine, s. Two lengths of passes, so that a picture's own set-up does not count.
+Result<double> seconds_per_pass(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
     constexpr std::uint64_t kShort = 1, kLong = 9;
     const std::uint32_t blocks = reference_blocks(desc.width, desc.height), probes = std::min(kProbes, blocks);
@@ -48,38 +58,48 @@ Result<double> seconds_per_sample(const RenderOptions& options, const FrameDesc&
     const Result<double> many = seconds_of_passes(options, desc, session, probes, kLong);
     BN_TRY(many);
     const double at_once = std::min<double>(session.parts().jobs->threads(), blocks);
-    return std::max(*many - *few, 0.0) / (probes * at_once * static_cast<double>(kPixelsOfBlock * kPassSamples * (kLong - kShort)));
+    return std::max(*many - *few, 0.0) / (probes * at_once * static_cast<double>(kPixelsOfBlock * (kLong - kShort)));
 }
 
 } // namespace
 
 std::vector<JobPiece> reference_pieces(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
-    const std::uint32_t blocks = reference_blocks(desc.width, desc.height);
-    const std::uint64_t samples = options.reference.samples;
-    const auto each = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-        std::max(kPieceSamples / (kPixelsOfBlock * samples), (blocks + kMostPieces - 1) / kMostPieces), 1, blocks));
+    const std::uint64_t blocks = reference_blocks(desc.width, desc.height);
+    const std::uint64_t passes = reference_passes(options.reference.samples, options.reference.shades),
+                        each_pass = samples_of_pass(options);
+    const std::uint64_t at_once = std::clamp<std::uint64_t>(
+        std::max(kPieceSamples / (kPixelsOfBlock * each_pass * passes), (blocks + kMostPieces - 1) / kMostPieces), 1, blocks);
+    // Split the passes, too, where one block is much: into nodes of the tree in which they are summed
+    std::uint64_t node = std::bit_ceil(passes);
+    if (at_once == 1)
+        node = std::min(node, std::bit_floor(kPieceSamples / (kPixelsOfBlock * each_pass)));
+    while (blocks * ((passes + node - 1) / node) > kMostPieces && node < passes)
+        node *= 2;
     const std::uint64_t picture = reference_key(session.parts().input(), session.drawn(desc), options.reference);
     const auto rate = std::make_shared<std::optional<double>>();
     std::vector<JobPiece> pieces;
-    for (std::uint32_t first = 0; first < blocks; first += each) {
-        const std::uint32_t count = std::min(each, blocks - first);
-        const std::string key = piece_key(fmt::format("reference {:016x} {} {} {}", picture, samples, first, count));
-        const auto seconds = [&options, desc, &session, rate, count, samples]() -> Result<double> {
+    const auto add = [&](Range of_blocks, Range of_passes) {
+        const std::string key = piece_key(fmt::format("reference {:016x} blocks {} {} passes {} {}", picture, of_blocks.first,
+                                                      of_blocks.count, of_passes.first, of_passes.count));
+        const auto seconds = [&options, desc, &session, rate, of_blocks, of_passes]() -> Result<double> {
             if (!*rate) {
-                const Result<double> measured = seconds_per_sample(options, desc, session);
+                const Result<double> measured = seconds_per_pass(options, desc, session);
                 BN_TRY(measured);
                 *rate = *measured;
             }
-            return **rate * static_cast<double>(count * kPixelsOfBlock * samples);
+            return **rate * static_cast<double>(of_blocks.count * kPixelsOfBlock * of_passes.count);
         };
-        const auto make = [&options, desc, &session, first, count, key](const std::string& file) -> Status {
-            const Result<Frame> frame = render_blocks(options, desc, session, first, count, 0);
+        const auto make = [&options, desc, &session, of_blocks, of_passes, key](const std::string& file) -> Status {
+            const Result<Frame> frame = render_blocks(options, desc, session, of_blocks, of_passes);
             BN_TRY(frame);
             return frame->stats.sampling.stopped ? Status() : write_piece(file, key, options.reference.part->made);
         };
         pieces.push_back({key, seconds, make});
-    }
+    };
+    for (std::uint64_t block = 0; block < blocks; block += at_once)
+        for (std::uint64_t pass = 0; pass < passes; pass += node)
+            add({block, std::min(at_once, blocks - block)}, {pass, std::min(node, passes - pass)});
     return pieces;
 }
 

@@ -1,4 +1,4 @@
-// Pieces of a reference picture: some blocks of pixels each, in rows.
+// Pieces of a reference picture: some blocks of pixels each, in rows; many passes of one block are several pieces.
 #pragma once
 #include <vector>
 

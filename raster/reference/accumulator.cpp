@@ -2,26 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace burnish {
 
 Accumulator::Accumulator(int w, int h)
     : width(w), height(h), blocks_x((w + kBlockSide - 1) / kBlockSide), blocks_y((h + kBlockSide - 1) / kBlockSide)
 {
-    pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+    sums.resize(kMostSums);
     passes.resize(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y));
 }
 
-PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass)
+void reserve_sums(Accumulator& a, std::uint32_t passes)
+{
+    for (int k = 0; k < kMostSums; ++k)
+        if (passes >> k & 1u && a.sums[static_cast<std::size_t>(k)].size() == 0)
+            a.sums[static_cast<std::size_t>(k)].resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height));
+}
+
+std::uint32_t bits_of_passes(const Accumulator& a)
+{
+    return std::accumulate(a.passes.begin(), a.passes.end(), 0u, std::bit_or<>());
+}
+
+void free_sums(Accumulator& a)
+{
+    const std::uint32_t used = bits_of_passes(a);
+    for (int k = 0; k < kMostSums; ++k)
+        if (!(used >> k & 1u))
+            a.sums[static_cast<std::size_t>(k)] = {};
+}
+
+PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until)
 {
     PixelBlock b = {};
     b.x0 = static_cast<int>(index % static_cast<std::size_t>(a.blocks_x)) * kBlockSide;
     b.y0 = static_cast<int>(index / static_cast<std::size_t>(a.blocks_x)) * kBlockSide;
     b.width = std::min(kBlockSide, a.width - b.x0);
     b.height = std::min(kBlockSide, a.height - b.y0);
-    b.first_pass = a.passes[index];
-    b.passes = until_pass > b.first_pass ? until_pass - b.first_pass : 0;
+    b.first_pass = a.first_pass;
+    b.done = a.passes[index];
+    b.passes = until > b.done ? until - b.done : 0;
     return b;
 }
 
@@ -56,23 +79,47 @@ double variance_of_mean(const PixelState& p, int channel, std::uint32_t passes)
     return std::max(p.m2[channel], 0.0) / (static_cast<double>(passes) * (static_cast<double>(passes) - 1.0));
 }
 
+std::size_t pixel_count(const Accumulator& a)
+{
+    return static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+}
+
 } // namespace
+
+PixelState state_of_pixel(const Accumulator& a, std::size_t pixel)
+{
+    const std::uint32_t passes = passes_of_pixel(a, pixel);
+    PixelState state = {};
+    std::uint32_t merged_passes = 0; // from the last passes to the first
+    for (int k = 0; k < kMostSums; ++k) {
+        if (!(passes >> k & 1u))
+            continue;
+        const PixelState& sum = a.sums[static_cast<std::size_t>(k)][pixel];
+        state = merged_passes ? merged(sum, static_cast<double>(1u << k), state, static_cast<double>(merged_passes)) : sum;
+        merged_passes += 1u << k;
+    }
+    return state;
+}
 
 Image mean_image(const Accumulator& a)
 {
     Image image = make_image(a.width, a.height, 3, PixelType::f32);
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (std::size_t i = 0; i < pixel_count(a); ++i) {
+        const PixelState state = state_of_pixel(a, i);
         for (std::size_t c = 0; c < 3; ++c)
-            image.f32()[3 * i + c] = static_cast<float>(a.pixels[i].mean[c]);
+            image.f32()[3 * i + c] = static_cast<float>(state.mean[c]);
+    }
     return image;
 }
 
 Image variance_image(const Accumulator& a)
 {
     Image image = make_image(a.width, a.height, 3, PixelType::f32);
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (std::size_t i = 0; i < pixel_count(a); ++i) {
+        const PixelState state = state_of_pixel(a, i);
         for (int c = 0; c < 3; ++c)
-            image.f32()[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(variance_of_mean(a.pixels[i], c, passes_of_pixel(a, i)));
+            image.f32()[3 * i + static_cast<std::size_t>(c)] = static_cast<float>(variance_of_mean(state, c, passes_of_pixel(a, i)));
+    }
     return image;
 }
 
@@ -92,8 +139,8 @@ double mean_relative_error(const Accumulator& a)
 {
     double sum = 0.0;
     std::size_t counted = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const PixelState& p = a.pixels[i];
+    for (std::size_t i = 0; i < pixel_count(a); ++i) {
+        const PixelState p = state_of_pixel(a, i);
         const double mean = p.mean[0] + p.mean[1] + p.mean[2];
         if (!(mean > 0.0))
             continue;

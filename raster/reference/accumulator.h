@@ -1,7 +1,9 @@
-// State of an unfinished picture: running mean and variance per pixel, and the number of passes per pixel block. Blocks advance
-// independently, so work can stop between any two blocks without loss.
+// State of an unfinished picture: partial sums per pixel, and the number of passes per pixel block. Blocks advance independently, so work
+// can stop between any two blocks without loss. Passes are summed in a binary tree (add_sum() of reference_types.h), so sums of 2^k passes
+// may come from anywhere.
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "core/base/column.h"
 #include "core/image/image.h"
@@ -16,12 +18,22 @@ struct Accumulator {
     Accumulator(int width, int height);
     int width = 0, height = 0;
     int blocks_x = 0, blocks_y = 0;
-    Column<PixelState> pixels;    // row-major
-    Column<std::uint32_t> passes; // by block, row-major
+    std::uint32_t first_pass = 0;         // of the sums
+    std::vector<Column<PixelState>> sums; // kMostSums: of 2^k passes, by pixel, row-major; empty where no block's passes have bit k
+    Column<std::uint32_t> passes;         // by block, row-major
 };
 
-// Returns block `index` with the passes that it lacks up to `until_pass`.
-PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until_pass);
+// Allocates sums for the bits of `passes`.
+void reserve_sums(Accumulator& a, std::uint32_t passes);
+// Frees the sums that no block has.
+void free_sums(Accumulator& a);
+// Returns the bits that are set in some block's passes.
+std::uint32_t bits_of_passes(const Accumulator& a);
+// Returns a pixel's state over all of its block's passes.
+PixelState state_of_pixel(const Accumulator& a, std::size_t pixel);
+
+// Returns block `index` with the passes that it lacks up to `until`.
+PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until);
 std::uint32_t least_passes(const Accumulator& a);                                       // minimum over the blocks
 std::uint32_t least_passes(const Accumulator& a, std::size_t first, std::size_t count); // over some
 std::uint32_t most_passes(const Accumulator& a);

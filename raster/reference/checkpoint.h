@@ -18,9 +18,9 @@ Status write_checkpoint(const std::string& path, std::uint64_t key, const Accumu
 // path: name for errors.
 Status parse_checkpoint(const std::uint8_t* data, std::size_t size, const std::string& path, std::uint64_t key, Accumulator& into);
 
-// Returns the state of `count` blocks from `first` on.
+// Returns the state of `count` blocks from `first` on, which have equal passes.
 std::vector<std::uint8_t> blocks_of(const Accumulator& a, std::uint64_t key, std::uint32_t first, std::uint32_t count);
-// Takes over such a state. Leaves the accumulator unchanged if the key or the size differs.
+// Adds such a state, whose passes follow those of the accumulator. Leaves the accumulator unchanged if key, size or passes differ.
 Status take_blocks(const std::vector<std::uint8_t>& bytes, std::uint64_t key, Accumulator& into);
 
 // Reads a checkpoint into an accumulator with equal size. A missing file is not an error. Returns true if a checkpoint was read.

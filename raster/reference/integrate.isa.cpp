@@ -361,8 +361,8 @@ BN_STAGE real3 radiance_at_positions(const PixelFrame& p, int x, int y, int firs
     return sum;
 }
 
-// Adds one pass to a pixel's running mean and variance.
-void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass, PixelState& state)
+// Returns the state of one pass.
+PixelState state_of_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y, std::uint32_t pass)
 {
     const std::uint32_t pixel =
         hash_seed(hash_seed(hash_seed(0x62726e73u, static_cast<std::uint32_t>(f.seed)), static_cast<std::uint32_t>(x + f.left)),
@@ -373,23 +373,36 @@ void add_pass(const ReferenceParams& f, ReferenceScratch& scratch, int x, int y,
         const real3 c = radiance_at_positions(p, x, y, first);
         store(channel[0] + first, c.x), store(channel[1] + first, c.y), store(channel[2] + first, c.z);
     }
+    PixelState state = {};
     for (int c = 0; c < 3; ++c) {
         double sum = 0.0;
         for (int i = 0; i < kPassPositions; ++i)
             sum += static_cast<double>(channel[c][i]);
-        const double value = sum / (kPassPositions * f.shades), delta = value - state.mean[c];
-        state.mean[c] += delta / (static_cast<double>(pass) + 1.0);
-        state.m2[c] += delta * (value - state.mean[c]);
+        state.mean[c] = sum / (kPassPositions * f.shades);
     }
+    return state;
 }
 
-void add_passes(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, PixelState* state)
+void add_passes_to_pixel(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, int x, int y, PixelState* const* sums)
+{
+    const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(y) * f.width + x;
+    PixelState own[kMostSums];
+    for (int k = 0; k < kMostSums; ++k)
+        if (b.done >> k & 1u)
+            own[k] = sums[k][pixel];
+    for (std::uint32_t pass = b.done; pass < b.done + b.passes; ++pass)
+        add_sum(own, pass, 0, state_of_pass(f, scratch, x, y, b.first_pass + pass));
+    for (int k = 0; k < kMostSums; ++k)
+        if ((b.done + b.passes) >> k & 1u)
+            sums[k][pixel] = own[k];
+}
+
+void add_passes(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, PixelState* const* sums)
 {
     const std::uint64_t begin = ticks();
     for (int y = b.y0; y < b.y0 + b.height; ++y)
         for (int x = b.x0; x < b.x0 + b.width; ++x)
-            for (std::uint32_t pass = b.first_pass; pass < b.first_pass + b.passes; ++pass)
-                add_pass(f, scratch, x, y, pass, state[static_cast<std::ptrdiff_t>(y) * f.width + x]);
+            add_passes_to_pixel(f, b, scratch, x, y, sums);
     scratch.count.all_ticks += ticks() - begin;
 }
 

@@ -138,28 +138,39 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 // Advances blocks to `passes`. Ends early, between blocks, if asked to stop.
 void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks)
 {
+    reserve_sums(a, passes);
+    PixelState* sums[kMostSums];
+    std::transform(a.sums.begin(), a.sums.end(), sums, [](Column<PixelState>& s) { return s.data(); });
     input_.jobs.parallel_for(blocks.end - blocks.begin, [&](std::size_t k, int worker) {
         const std::size_t i = blocks.begin + k;
         const PixelBlock block = block_of(a, i, passes);
         if (block.passes == 0 || stopped())
             return;
-        fns_.add_passes(f, block, workers_[static_cast<std::size_t>(worker)], a.pixels.data());
-        a.passes[i] = block.first_pass + block.passes;
+        fns_.add_passes(f, block, workers_[static_cast<std::size_t>(worker)], sums);
+        a.passes[i] = block.done + block.passes;
     });
 }
 
 constexpr std::uint64_t kRoundSamples = 1u << 22;
 
-// Returns the passes between two error checks: some million samples. They depend on the picture's size alone, so a run's end does not
-// depend on its speed.
-std::uint32_t passes_in_round(const FrameDesc& desc, std::uint64_t pass_samples)
+// Returns the passes that blocks take at once. Between two error checks: some million samples. They depend on the picture's size alone, so
+// a run's end does not depend on its speed. Without such checks a power of two, so few partial sums are kept for the whole picture.
+std::uint32_t passes_in_round(const FrameDesc& desc, std::uint64_t pass_samples, bool checks_error)
 {
+    constexpr std::uint32_t kUncheckedPasses = 32;
+    if (!checks_error)
+        return kUncheckedPasses;
     const std::uint64_t samples = static_cast<std::uint64_t>(desc.width) * static_cast<std::uint64_t>(desc.height) * pass_samples;
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
 
-// Blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes.
-constexpr std::size_t kBlocksInSlice = kRoundSamples / (kPassSamples * kBlockSide * kBlockSide);
+// Returns the blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes. Enough for many
+// threads.
+std::size_t blocks_in_slice(std::uint32_t passes)
+{
+    constexpr std::size_t kFewest = 64;
+    return std::max(kFewest, kRoundSamples / (kPassSamples * kBlockSide * kBlockSide * std::max<std::size_t>(passes, 1)));
+}
 
 // Returns the checkpoint's file for a picture with this key.
 std::string file_of(const ReferenceOptions& options, std::uint64_t key)
@@ -178,9 +189,10 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     constexpr std::uint32_t kFewestPasses = 8; // before the error estimate is trusted
     ReferencePart* const part = options_.part.get();
     const std::uint64_t samples = part && part->samples ? part->samples : options_.samples;
-    const auto passes = static_cast<std::uint32_t>((samples + pass_samples() - 1) / pass_samples());
-    const std::uint32_t round = passes_in_round(desc, pass_samples());
+    const auto passes = static_cast<std::uint32_t>(reference_passes(samples, options_.shades));
+    const std::uint32_t round = passes_in_round(desc, pass_samples(), options_.target_error > 0.0);
     Accumulator a(desc.width, desc.height);
+    a.first_pass = part ? part->first_pass : 0;
     const bool kept_up = keeps(options_);
     const std::uint64_t key = kept_up || part ? reference_key(input_, desc, options_) : 0;
     const std::string file = kept_up ? file_of(options_, key) : "";
@@ -198,7 +210,8 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     BN_CHECK(range.end <= a.passes.size());
     std::uint32_t done = least_passes(a, range.begin, range.end - range.begin);
     stats.samples_before = done * pass_samples();
-    const std::size_t slices = (range.end - range.begin + kBlocksInSlice - 1) / kBlocksInSlice; // of a pass
+    const std::size_t in_slice = blocks_in_slice(std::min(round, passes));
+    const std::size_t slices = (range.end - range.begin + in_slice - 1) / in_slice; // of a pass
     Progress progress("passes", passes > done ? (passes - done) * slices : 0, options_.quiet);
     Clock::time_point written = Clock::now();
     // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
@@ -212,14 +225,15 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     const auto run_round = [&] {
         const std::uint32_t until = std::min(passes, done - done % round + round);
         const TraceSpan round_span("passes");
-        for (std::size_t begin = range.begin; begin < range.end && !stopped(); begin += kBlocksInSlice) {
-            advance(f, a, until, {begin, std::min(begin + kBlocksInSlice, range.end)});
+        for (std::size_t begin = range.begin; begin < range.end && !stopped(); begin += in_slice) {
+            advance(f, a, until, {begin, std::min(begin + in_slice, range.end)});
             progress.step(until - done);
             if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
                 static_cast<void>(static_cast<bool>(write())); // the last write decides
                 written = Clock::now();
             }
         }
+        free_sums(a);
         done = least_passes(a, range.begin, range.end - range.begin);
     };
     try {
@@ -299,6 +313,12 @@ Result<Frame> ReferenceRenderer::render(const FrameDesc& desc, Frame)
 std::uint32_t reference_blocks(int width, int height)
 {
     return static_cast<std::uint32_t>(((width + kBlockSide - 1) / kBlockSide) * ((height + kBlockSide - 1) / kBlockSide));
+}
+
+std::uint64_t reference_passes(std::uint64_t samples, int shades)
+{
+    const auto each = static_cast<std::uint64_t>(kPassPositions * shades);
+    return (samples + each - 1) / each;
 }
 
 bool reference_available()

@@ -19,15 +19,17 @@ namespace burnish {
 enum class ReferenceMode : std::int32_t { direct, shadowed, path };
 enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // choice of directions to the environment
 
-// A part of a picture: blocks of 8x8 pixels in rows, from the top left. Parts put together give the bits of a picture that one process
-// makes.
+// A part of a picture: some passes of blocks of 8x8 pixels, in rows from the top left. Parts put together in order of their passes give the
+// bits of a picture that one process makes.
 struct ReferencePart {
     std::uint32_t first = 0, count = 0;            // blocks to integrate; count 0: all
+    std::uint32_t first_pass = 0;                  // of a pixel; a multiple of the least power of two that is not below its passes
     std::uint64_t samples = 0;                     // a pixel, in place of ReferenceOptions::samples; 0: those
     std::vector<std::uint8_t> made;                // filled by Renderer::render(): the blocks' state
     std::vector<std::vector<std::uint8_t>> others; // states from other processes, taken over before integration
 };
-std::uint32_t reference_blocks(int width, int height); // of a picture
+std::uint32_t reference_blocks(int width, int height);             // of a picture
+std::uint64_t reference_passes(std::uint64_t samples, int shades); // that give a pixel at least so many samples
 
 struct ReferenceOptions {
     ReferenceMode mode = ReferenceMode::direct;

@@ -27,9 +27,35 @@ struct ReferenceParams : ShadingFrame {
     void (*trace)(const RayScene& scene, RayPacket& rays, RayKind kind);
 };
 
-struct PixelState { // over all passes so far: Welford's mean and sum of squared differences per channel
+struct PixelState { // over some passes: mean and sum of squared differences from the mean, per channel
     double mean[3], m2[3];
 };
+
+// Merges the states of two sets of passes (Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing sample
+// variances").
+inline PixelState merged(const PixelState& a, double passes_a, const PixelState& b, double passes_b)
+{
+    const double passes = passes_a + passes_b;
+    PixelState r;
+    for (int c = 0; c < 3; ++c) {
+        const double delta = b.mean[c] - a.mean[c];
+        r.mean[c] = a.mean[c] + delta * (passes_b / passes);
+        r.m2[c] = a.m2[c] + b.m2[c] + delta * delta * (passes_a * passes_b / passes);
+    }
+    return r;
+}
+
+inline constexpr int kMostSums = 32; // the bits of a number of passes
+
+// Adds the state of the next 2^k passes to a pixel's partial sums. Passes form a binary tree: sums[k] holds 2^k of them where bit k of
+// `passes` is set, and two sums of one size become the next one. So a picture's bits do not depend on who made which 2^k passes. passes:
+// in the sums so far, a multiple of 2^k.
+inline void add_sum(PixelState* sums, std::uint32_t passes, int k, PixelState next)
+{
+    for (; passes >> k & 1u; ++k)
+        next = merged(sums[k], static_cast<double>(1u << k), next, static_cast<double>(1u << k));
+    sums[k] = next;
+}
 
 struct RayCount {
     std::uint64_t rays, ticks, all_ticks; // time stamp counter ticks: inside Embree, and in total
@@ -42,12 +68,14 @@ struct ReferenceScratch { // of one worker
 
 struct PixelBlock {
     std::int32_t x0, y0, width, height;
-    std::uint32_t first_pass, passes;
+    std::uint32_t first_pass, done; // the first pass of the sums, and how many they hold
+    std::uint32_t passes;           // to add
 };
 
 struct ReferenceFns { // one table per instruction set
-    // Adds passes to a block's pixels. `state` covers the whole picture.
-    void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* state);
+    // Adds passes to a block's pixels. sums: a column of the whole picture for each bit that is set in the block's passes, before or
+    // afterwards.
+    void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* const* sums);
     // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of
     // blended surfaces before them, [0,1]; through may be null.
     void (*trace_row)(const ReferenceParams&, int y, const SamplePattern&, ReferenceScratch&, std::uint32_t* ids, float* through);

@@ -14,7 +14,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::uint32_t kReferenceVersion = 5; // raise it when the same options give other samples
+constexpr std::uint32_t kReferenceVersion = 6; // raise it when the same options give other samples
 
 class Key {
   public:

@@ -79,6 +79,17 @@ def reference(bench):
     one_and_pieces(bench, PICTURE, ("o.exr", "o.png"))
 
 
+@case("pieces.of_the_passes_of_one_block_make_its_bytes", budget=10)
+def passes(bench):
+    """Many samples of few pixels are several pieces, and more samples of the same picture share them."""
+    needs_embree(bench)
+    words = ("render", "builtin:plate", "--backend", "reference", "--size", "4x4", "--env-size", "16", "--env-samples", "16", "-q")
+    keys = {samples: [key for key, _, _ in pieces_of(bench, (*words, "--samples", str(samples), "-o", "o.exr"))] for samples in (131072, 196608)}
+    check(len(keys[131072]) == 2 and len(keys[196608]) == 3 and keys[196608][:2] == keys[131072], f"{keys}")
+    shutil.rmtree(bench.folder / "w", ignore_errors=True)
+    one_and_pieces(bench, (*words, "--samples", "196608"), ("o.exr",))
+
+
 @case("pieces.of_a_row_make_its_bytes")
 def row(bench):
     one_and_pieces(bench, ROW, ("o_%d.png", "o.exr".replace("o.", "o_%d."), "o.apng"))

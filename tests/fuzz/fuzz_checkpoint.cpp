@@ -1,4 +1,5 @@
-// libFuzzer entry: any bytes as the checkpoint of a reference image. An odd first byte sets the right key and checksum.
+// libFuzzer entry: any bytes as the checkpoint of a reference image. An odd first byte sets the right key and checksum; its next
+// two bits are the number of sums.
 #include <cmath>
 
 #include "core/base/check.h"
@@ -17,7 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::uint8_t> bytes(data + 1, data + size);
     const bool sealed = data[0] & 1;
     if (sealed) {
-        bytes.resize(kHeader + a.passes.size() * sizeof(std::uint32_t) + a.pixels.size() * sizeof(PixelState));
+        const std::size_t pixels = static_cast<std::size_t>(kWidth) * kHeight;
+        const std::size_t sums = data[0] >> 1 & 3u;
+        bytes.resize(kHeader + a.passes.size() * sizeof(std::uint32_t) + sums * pixels * sizeof(PixelState));
         std::memcpy(bytes.data() + kKeyAt, &kKey, sizeof(kKey));
         seal(bytes, kHeader, bytes.size(), kHashAt);
     }

@@ -7,7 +7,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "core/scene/builtin/builtin.h"
 #include "raster/reference/accumulator.h"
@@ -222,6 +225,10 @@ TEST(checkpoint, that_is_none_or_damaged_is_refused)
     flipped[bytes.size() / 2] = static_cast<char>(flipped[bytes.size() / 2] ^ 4);
     refused(flipped, "damaged");
     refused(bytes.substr(0, bytes.size() - 5), "damaged");
+    std::string older = bytes;
+    ASSERT_EQ(older.substr(0, 7), "BNREF02");
+    older[6] = '1';
+    refused(older, "another version");
     refused("my diary", "not a checkpoint");
     refused(bytes.substr(0, 20), "not a checkpoint");
 }
@@ -260,7 +267,8 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     const Stage stage(small_scene(), 1.0f, 2);
     const FrameDesc d = small_desc();
     const RenderInput input = stage.input();
-    const std::uint64_t round = (1u << 22) / (37 * 21 * kPassSamples) * kPassSamples; // samples a pixel
+    const std::uint32_t round_passes = (1u << 22) / (37 * 21 * kPassSamples);
+    const std::uint64_t round = round_passes * kPassSamples; // samples a pixel
     const TempFile file("uneven");
     ReferenceOptions o = options_of(ReferenceMode::direct, round);
     o.checkpoint = file.path();
@@ -273,9 +281,12 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     ASSERT_TRUE(*read_checkpoint(file.path(), key, uneven)); // a whole second round, except for one block
     uneven.passes[0] = one.passes[0];
     const PixelBlock first = block_of(one, 0, 0);
+    reserve_sums(uneven, round_passes);
     for (int y = first.y0; y < first.y0 + first.height; ++y)
         for (int x = first.x0; x < first.x0 + first.width; ++x)
-            uneven.pixels[static_cast<std::size_t>(y * d.width + x)] = one.pixels[static_cast<std::size_t>(y * d.width + x)];
+            for (std::size_t k = 0; k < kMostSums; ++k)
+                if (round_passes >> k & 1u)
+                    uneven.sums[k][static_cast<std::size_t>(y * d.width + x)] = one.sums[k][static_cast<std::size_t>(y * d.width + x)];
     const double before = mean_relative_error(one), between = mean_relative_error(uneven);
     ASSERT_LT(between, before);
     ASSERT_TRUE(write_checkpoint(file.path(), key, uneven));
@@ -287,6 +298,59 @@ TEST(target_error, is_looked_at_after_whole_rounds_only)
     EXPECT_EQ(at_once.stats.sampling.samples, 2 * round);
     EXPECT_EQ(resumed.stats.sampling.samples, 2 * round);
     EXPECT_EQ(pixel_hash(resumed.color), pixel_hash(at_once.color));
+}
+
+// Renders passes of some blocks alone; returns their state.
+std::vector<std::uint8_t> part_of(const Stage& stage, std::uint32_t block, std::uint32_t count, std::uint32_t pass, std::uint32_t passes)
+{
+    ReferenceOptions o = options_of(ReferenceMode::direct, 27 * kPassSamples);
+    o.part = std::make_shared<ReferencePart>();
+    o.part->first = block, o.part->count = count;
+    o.part->first_pass = pass, o.part->samples = passes * kPassSamples;
+    render_reference(stage, small_desc(), o);
+    return o.part->made;
+}
+
+TEST(parts, of_blocks_and_of_passes_make_the_bits_of_one_run)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene(), 1.0f, 2);
+    ReferenceOptions o = options_of(ReferenceMode::direct, 27 * kPassSamples);
+    const Frame at_once = render_reference(stage, small_desc(), o);
+    const std::uint32_t blocks = reference_blocks(37, 21);
+    o.part = std::make_shared<ReferencePart>();
+    o.part->others = {part_of(stage, 7, blocks - 7, 0, 27)};
+    for (std::uint32_t block = 0; block < 7; ++block)
+        for (std::uint32_t pass = 0; pass < 27; pass += 8)
+            o.part->others.push_back(part_of(stage, block, 1, pass, std::min(8u, 27 - pass)));
+    const Frame merged = render_reference(stage, small_desc(), o);
+    EXPECT_EQ(merged.stats.sampling.rays, 0u) << "parts were not taken over";
+    EXPECT_EQ(pixel_hash(merged.color), pixel_hash(at_once.color));
+    EXPECT_EQ(pixel_hash(merged.variance), pixel_hash(at_once.variance));
+}
+
+TEST(parts, whose_passes_do_not_follow_are_refused)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene());
+    const std::vector<std::uint8_t> first = part_of(stage, 3, 2, 0, 8), second = part_of(stage, 3, 2, 8, 3),
+                                    odd = part_of(stage, 3, 2, 4, 8);
+    ReferenceOptions o = options_of(ReferenceMode::direct, 27 * kPassSamples);
+    o.part = std::make_shared<ReferencePart>();
+    const auto refused = [&](std::vector<std::vector<std::uint8_t>> others, const char* word) {
+        o.part->others = std::move(others);
+        const Result<Frame> f = try_render(stage, small_desc(), o);
+        ASSERT_FALSE(f) << word;
+        EXPECT_EQ(f.error().code, ExitCode::bad_input);
+        EXPECT_NE(f.error().reason.find(word), std::string::npos) << f.error().line();
+    };
+    refused({second}, "do not follow");
+    refused({first, first}, "do not follow");
+    refused({first, second, second}, "do not follow");
+    refused({part_of(stage, 3, 2, 0, 4), odd}, "damaged"); // 8 passes behind 4 are no node of the tree
+    refused({std::vector<std::uint8_t>(first.begin(), first.end() - 1)}, "damaged");
+    o.part->others = {first, second};
+    EXPECT_TRUE(try_render(stage, small_desc(), o));
 }
 
 // A pass of a large image takes minutes, so checkpoints are also written within a pass.
