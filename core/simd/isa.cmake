@@ -35,7 +35,11 @@ elseif(NOT BN_ISA_SET MATCHES "^(all|native|best|tested)$")
   message(FATAL_ERROR "BN_ISA_SET=${BN_ISA_SET}: neither all, native, best, scalar nor tested")
 endif()
 set(not_run) # compiled, but never run here
+set(BN_RUNS_AVX512 FALSE) # known to run here
 if(BN_ISA_SET STREQUAL "tested")
+  if(BN_MACHINE STREQUAL "x86_64" AND NOT avx512 IN_LIST left_out)
+    set(BN_RUNS_AVX512 TRUE)
+  endif()
   set(not_run ${left_out})
   set(left_out)
 endif()

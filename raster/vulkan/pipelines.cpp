@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <utility>
 
 #include "core/jobs/activity.h"
 #include "raster/vulkan/bands.h"
@@ -34,14 +35,6 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     auto info = vk_struct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
     info.stage = stage, info.module = module, info.pName = "main", info.pSpecializationInfo = constants;
     return info;
-}
-
-std::string key_of(const std::string& name, const Specialization& constants)
-{
-    std::string key = name;
-    for (std::int32_t c : constants)
-        key += fmt::format(",{}", c);
-    return key;
 }
 
 } // namespace
@@ -111,6 +104,22 @@ void Pipelines::make_native_layout(std::uint32_t more_samplers)
     BN_VK(vkCreateDescriptorSetLayout(context_.device(), &set, nullptr, &native_layout_));
 }
 
+void Pipelines::know(std::vector<KnownNumber> numbers)
+{
+    numbers_ = std::move(numbers);
+    numbers_key_.clear();
+    for (const KnownNumber& n : numbers_)
+        numbers_key_ += fmt::format(";{}.{}={}", n.binding, n.offset, n.value);
+}
+
+std::string Pipelines::key_of(const std::string& name, const Specialization& constants) const
+{
+    std::string key = name;
+    for (std::int32_t c : constants)
+        key += fmt::format(",{}", c);
+    return key + numbers_key_;
+}
+
 VkShaderModule Pipelines::module(const std::string& shader, const Specialization& constants)
 {
     const std::string key = key_of(shader, constants);
@@ -121,7 +130,7 @@ VkShaderModule Pipelines::module(const std::string& shader, const Specialization
         shader_words(shader, folder_, shaders_ ? shaders_->files : std::vector<EmbeddedShader>());
     if (!words)
         throw VulkanError{words.error()};
-    const std::vector<std::uint32_t> code = pruned(*words, constants);
+    const std::vector<std::uint32_t> code = pruned(*words, constants, numbers_);
     auto info = vk_struct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = code.size() * sizeof(std::uint32_t), info.pCode = code.data();
     VkShaderModule made = VK_NULL_HANDLE;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raster/vulkan/context.h"
+#include "raster/vulkan/prune.h"
 #include "shading/lang/gpu_records.h"
 
 namespace burnish {
@@ -57,6 +58,8 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
+    // Sets what stages may take for granted from now on. Pipelines differ by these numbers.
+    void know(std::vector<KnownNumber> numbers);
     // Return a pipeline, made on first use and then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
@@ -70,17 +73,20 @@ class Pipelines {
   private:
     Pipelines(Context& context) : context_(context) {}
     VkShaderModule module(const std::string& shader, const Specialization& constants);
+    std::string key_of(const std::string& name, const Specialization& constants) const;
     void make_native_layout(std::uint32_t more_samplers);
 
     Context& context_;
     std::string folder_;
     const ForwardShaders* shaders_ = nullptr;
+    std::vector<KnownNumber> numbers_;
+    std::string numbers_key_;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE, native_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
-    std::map<std::string, VkShaderModule> modules_; // pruned for their constants
+    std::map<std::string, VkShaderModule> modules_; // pruned for their constants and the known numbers
     std::map<std::string, VkPipeline> pipelines_;   // by everything that distinguishes them
 };
 

@@ -6,113 +6,15 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
+
+#include "raster/vulkan/known_numbers.h"
+#include "raster/vulkan/spirv.h"
 
 namespace burnish {
 namespace {
 
-// Opcodes in the SPIR-V specification 1.6, section 3.49.
-enum Op : std::uint32_t {
-    kNop = 0,
-    kName = 5,
-    kLine = 8,
-    kEntryPoint = 15,
-    kConstantTrue = 41,
-    kConstantFalse = 42,
-    kConstant = 43,
-    kSpecConstantTrue = 48,
-    kSpecConstantFalse = 49,
-    kSpecConstant = 50,
-    kSpecConstantOp = 52,
-    kFunction = 54,
-    kFunctionParameter = 55,
-    kFunctionEnd = 56,
-    kFunctionCall = 57,
-    kVariable = 59,
-    kLoad = 61,
-    kStore = 62,
-    kCopyMemory = 63,
-    kDecorate = 71,
-    kImageWrite = 99,
-    kIAdd = 128,
-    kLogicalEqual = 164,
-    kLogicalNotEqual = 165,
-    kLogicalOr = 166,
-    kLogicalAnd = 167,
-    kLogicalNot = 168,
-    kIEqual = 170,
-    kINotEqual = 171,
-    kSGreaterThan = 173,
-    kSGreaterThanEqual = 175,
-    kSLessThan = 177,
-    kSLessThanEqual = 179,
-    kShiftRightArithmetic = 195,
-    kShiftLeftLogical = 196,
-    kBitwiseOr = 197,
-    kBitwiseAnd = 199,
-    kEmitVertex = 218,
-    kEndPrimitive = 219,
-    kControlBarrier = 224,
-    kMemoryBarrier = 225,
-    kAtomicStore = 228,
-    kPhi = 245,
-    kLoopMerge = 246,
-    kSelectionMerge = 247,
-    kLabel = 248,
-    kBranch = 249,
-    kBranchConditional = 250,
-    kSwitch = 251,
-    kKill = 252,
-    kReturn = 253,
-    kReturnValue = 254,
-    kUnreachable = 255,
-    kNoLine = 317,
-    kTerminateInvocation = 4416,
-};
-constexpr Op kWithoutResult[] = {kNop,
-                                 kLine,
-                                 kFunctionEnd,
-                                 kStore,
-                                 kCopyMemory,
-                                 kImageWrite,
-                                 kEmitVertex,
-                                 kEndPrimitive,
-                                 kAtomicStore,
-                                 kLoopMerge,
-                                 kBranch,
-                                 kSelectionMerge,
-                                 kSwitch,
-                                 kControlBarrier,
-                                 kMemoryBarrier,
-                                 kKill,
-                                 kReturn,
-                                 kUnreachable,
-                                 kReturnValue,
-                                 kNoLine,
-                                 kBranchConditional,
-                                 kTerminateInvocation};
-constexpr struct {
-    Op op;
-    std::uint32_t words;
-} kLeast[] = {{kName, 2},  {kEntryPoint, 3},  {kDecorate, 2},  {kFunction, 3},         {kFunctionCall, 4}, {kFunctionParameter, 3},
-              {kLabel, 2}, {kStore, 3},       {kLoad, 4},      {kBranch, 2},           {kSwitch, 3},       {kSelectionMerge, 2},
-              {kPhi, 3},   {kReturnValue, 2}, {kLoopMerge, 3}, {kBranchConditional, 4}};
-constexpr std::uint32_t kMagic = 0x07230203, kSpecIdDecoration = 1, kFunctionStorage = 7;
-constexpr std::size_t kHeader = 5; // words
-
-struct Instruction {
-    const std::uint32_t* words;
-    std::uint32_t count() const { return words[0] >> 16; }
-    Op op() const { return static_cast<Op>(words[0] & 0xffff); }
-    // Returns the id that the instruction defines in a function, or 0.
-    std::uint32_t result() const
-    {
-        if (op() == kLabel)
-            return words[1];
-        return count() > 2 && std::find(std::begin(kWithoutResult), std::end(kWithoutResult), op()) == std::end(kWithoutResult) ? words[2]
-                                                                                                                                : 0;
-    }
-};
-using Values = std::map<std::uint32_t, std::int32_t>; // by id
+using namespace spirv;
 
 // Folds the operators in conditions on constants.
 std::optional<std::int32_t> folded(std::uint32_t op, std::int32_t a, std::int32_t b)
@@ -150,12 +52,6 @@ std::optional<std::int32_t> folded(std::uint32_t op, std::int32_t a, std::int32_
     }
 }
 
-std::optional<std::int32_t> value_in(const Values& values, std::uint32_t id)
-{
-    const auto known = values.find(id);
-    return known == values.end() ? std::nullopt : std::optional(known->second);
-}
-
 // Folds an operator with known operands. operands: ids of a, b; one id for `not`. `and` and `or` need only one known value if that
 // decides.
 std::optional<std::int32_t> folded(const Values& values, std::uint32_t op, const std::uint32_t* operands, std::size_t count)
@@ -172,14 +68,26 @@ std::optional<std::int32_t> folded(const Values& values, std::uint32_t op, const
     return a && b && count == 2 ? folded(op, *a, *b) : std::nullopt;
 }
 
+// What holds in the whole module.
+struct Given {
+    Values constants;
+    Buffers buffers;
+};
+
 // Known values at a point in a function.
 struct Known {
-    Values values; // by id
-    Values stored; // by local variable
+    Values values;       // by id
+    Values stored;       // by local variable
+    Values pointed = {}; // by pointer into a buffer
 
-    void evaluate(const Instruction& i, const std::set<std::uint32_t>& variables)
+    void evaluate(const Instruction& i, const std::set<std::uint32_t>& variables, const Buffers& buffers)
     {
-        if (i.op() == kStore && variables.count(i.words[1])) {
+        if (i.op() == kAccessChain) {
+            if (const auto number = buffers.number_at(i, values))
+                pointed[i.words[2]] = *number;
+        } else if (i.op() == kLoad && pointed.count(i.words[3])) {
+            values[i.words[2]] = pointed[i.words[3]];
+        } else if (i.op() == kStore && variables.count(i.words[1])) {
             stored.erase(i.words[1]);
             if (const auto value = value_in(values, i.words[2]))
                 stored[i.words[1]] = *value;
@@ -194,27 +102,94 @@ struct Known {
 };
 
 using Functions = std::map<std::uint32_t, std::vector<Instruction>>; // by id
+using Arguments = std::vector<std::optional<std::int32_t>>;          // of a call, where they are known
 
-// Returns a one-block function's result for known arguments, such as a test for a constant's bit.
-std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const Values& constants,
-                                     const std::vector<std::optional<std::int32_t>>& arguments)
+// Leaves what this call and all noted ones have in common.
+void note(std::map<std::uint32_t, Arguments>& calls, std::uint32_t function, const Arguments& arguments)
 {
-    if (std::count_if(body.begin(), body.end(), [](const Instruction& i) { return i.op() == kLabel; }) != 1)
-        return std::nullopt;
-    Known known = {constants, {}};
-    std::set<std::uint32_t> parameters;
-    for (const Instruction& i : body) {
-        if (i.op() == kFunctionParameter && parameters.size() < arguments.size()) {
-            if (const auto& value = arguments[parameters.size()])
+    const auto [known, first] = calls.try_emplace(function, arguments);
+    known->second.resize(std::min(known->second.size(), arguments.size()));
+    for (std::size_t i = 0; !first && i < known->second.size(); ++i)
+        if (known->second[i] != arguments[i])
+            known->second[i].reset();
+}
+
+// Returns the value of a phi for a predecessor block, if it is known.
+std::optional<std::int32_t> value_from(const Instruction& phi, std::uint32_t predecessor, const Values& values)
+{
+    for (std::uint32_t w = 3; w + 1 < phi.count(); w += 2)
+        if (phi.words[w + 1] == predecessor)
+            return value_in(values, phi.words[w]);
+    return std::nullopt;
+}
+
+// Returns a function's result for known arguments, such as a test for a constant's bit. Unknown if a branch on the way is.
+std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const Given& given, const Arguments& arguments)
+{
+    Known known = {given.constants, {}};
+    std::set<std::uint32_t> variables;
+    std::map<std::uint32_t, std::size_t> blocks; // their places by label
+    std::size_t parameters = 0;
+    for (std::size_t at = 0; at < body.size(); ++at) {
+        const Instruction& i = body[at];
+        if (i.op() == kLabel)
+            blocks[i.words[1]] = at;
+        if (i.op() != kFunctionParameter)
+            continue;
+        if (parameters < arguments.size())
+            if (const auto& value = arguments[parameters])
                 known.stored[i.words[2]] = *value;
-            parameters.insert(i.words[2]);
-        } else if (i.op() == kReturnValue)
+        ++parameters;
+        variables.insert(i.words[2]);
+    }
+    std::uint32_t before = 0, label = 0; // blocks
+    std::set<std::uint32_t> passed;
+    for (std::size_t at = 0; at < body.size();) {
+        const Instruction& i = body[at++];
+        std::optional<std::uint32_t> to;
+        switch (i.op()) {
+        case kLabel:
+            before = label, label = i.words[1];
+            if (!passed.insert(label).second)
+                return std::nullopt; // a loop
+            break;
+        case kPhi:
+            if (const auto value = value_from(i, before, known.values))
+                known.values[i.words[2]] = *value;
+            break;
+        case kReturnValue:
             return value_in(known.values, i.words[1]);
-        else if (i.op() == kFunctionCall)
+        case kFunctionCall:
             for (std::uint32_t w = 4; w < i.count(); ++w)
                 known.stored.erase(i.words[w]); // the callee may write it
-        else
-            known.evaluate(i, parameters);
+            break;
+        case kBranch:
+            to = i.words[1];
+            break;
+        case kBranchConditional:
+            if (const auto condition = value_in(known.values, i.words[1]))
+                to = i.words[*condition ? 2 : 3];
+            else
+                return std::nullopt;
+            break;
+        case kVariable:
+            if (i.count() == 4 && i.words[3] == kFunctionStorage)
+                variables.insert(i.words[2]);
+            break;
+        case kSwitch:
+        case kKill:
+        case kUnreachable:
+        case kTerminateInvocation:
+            return std::nullopt;
+        default:
+            known.evaluate(i, variables, given.buffers);
+        }
+        if (to) {
+            const auto block = blocks.find(*to);
+            if (block == blocks.end())
+                return std::nullopt;
+            at = block->second;
+        }
     }
     return std::nullopt;
 }
@@ -222,10 +197,13 @@ std::optional<std::int32_t> returned(const std::vector<Instruction>& body, const
 // Marks the reachable blocks of a function.
 class Walk {
   public:
-    Walk(const std::vector<Instruction>& body, const Functions& functions, const Values& constants)
-        : body_(body), functions_(functions), constants_(constants), known_{constants, {}}
+    // arguments: those that all calls of the function have in common.
+    Walk(const std::vector<Instruction>& body, const Functions& functions, const Given& given, const Arguments& arguments)
+        : body_(body), functions_(functions), given_(given), known_{given.constants, {}}
     {
         find_variables();
+        find_changes();
+        take(arguments);
     }
 
     bool run() // false: not understood
@@ -240,7 +218,7 @@ class Walk {
                 ++end;
             const std::uint32_t label = body_[at].words[1];
             if (first)
-                entries_[label] = {};
+                entries_[label].stored = known_.stored;
             first = false;
             if (!(entries_.count(label) ? block(at, end) : dead_block(label)))
                 return false;
@@ -254,7 +232,7 @@ class Walk {
     }
 
     std::vector<std::uint32_t> words;
-    std::set<std::uint32_t> calls;
+    std::map<std::uint32_t, Arguments> calls; // what all calls of a function have in common
     std::vector<std::uint32_t> defined;
 
   private:
@@ -267,13 +245,33 @@ class Walk {
     void find_variables()
     {
         for (const Instruction& i : body_)
-            if (i.op() == kVariable && i.count() >= 4 && i.words[3] == kFunctionStorage)
+            if (i.op() == kFunctionParameter || (i.op() == kVariable && i.words[3] == kFunctionStorage))
                 variables_.insert(i.words[2]);
         for (const Instruction& i : body_)
             for (std::uint32_t w = 1; w < i.count(); ++w)
-                if (!(i.op() == kVariable && w == 2) && !(i.op() == kLoad && w == 3) && !(i.op() == kStore && w == 1) &&
-                    !(i.op() == kFunctionCall && w > 3))
+                if (!((i.op() == kVariable || i.op() == kFunctionParameter) && w == 2) && !(i.op() == kLoad && w == 3) &&
+                    !(i.op() == kStore && w == 1) && !(i.op() == kFunctionCall && w > 3))
                     variables_.erase(i.words[w]);
+    }
+
+    // Finds local variables that the function may change somewhere.
+    void find_changes()
+    {
+        for (const Instruction& i : body_) {
+            if (i.op() == kStore)
+                changing_.insert(i.words[1]);
+            for (std::uint32_t w = 4; i.op() == kFunctionCall && w < i.count(); ++w)
+                changing_.insert(i.words[w]);
+        }
+    }
+
+    // Parameters are pointers to variables of the caller, which nothing else reads meanwhile.
+    void take(const Arguments& arguments)
+    {
+        std::size_t parameter = 0;
+        for (const Instruction& i : body_)
+            if (i.op() == kFunctionParameter && parameter++ < arguments.size() && arguments[parameter - 1] && variables_.count(i.words[2]))
+                known_.stored[i.words[2]] = *arguments[parameter - 1];
     }
 
     void keep(const Instruction& i)
@@ -281,8 +279,6 @@ class Walk {
         words.insert(words.end(), i.words, i.words + i.count());
         if (const std::uint32_t id = i.result())
             defined.push_back(id);
-        if (i.op() == kFunctionCall)
-            calls.insert(i.words[3]);
     }
 
     // Notes an edge between blocks, and merges the stored values. Returns false if the edge is not understood.
@@ -330,7 +326,8 @@ class Walk {
             end - begin >= 3 && (body_[end - 2].op() == kLoopMerge || body_[end - 2].op() == kSelectionMerge) ? &body_[end - 2] : nullptr;
         const bool loop = merge && merge->op() == kLoopMerge;
         if (loop) {
-            known_.stored.clear(); // values may differ in the next iteration
+            for (const std::uint32_t variable : changing_)
+                known_.stored.erase(variable); // may differ in the next iteration
             headers_.insert(label), merges_.insert(merge->words[1]), continues_[merge->words[2]] = label;
         }
         keep(body_[begin]);
@@ -339,9 +336,9 @@ class Walk {
             if (i.op() == kPhi) {
                 if (loop)
                     return false;
-                phi(i, entry.from);
+                phi(label, i, entry.from);
             } else if (&i != merge) {
-                i.op() == kFunctionCall ? call(i) : known_.evaluate(i, variables_);
+                i.op() == kFunctionCall ? call(i) : known_.evaluate(i, variables_, given_.buffers);
                 keep(i);
             }
         }
@@ -366,6 +363,10 @@ class Walk {
         case kBranch:
             return edge(label, last.words[1]);
         case kBranchConditional:
+            if (last.words[2] != last.words[3]) {
+                conditions_[{label, last.words[2]}] = {last.words[1], 1};
+                conditions_[{label, last.words[3]}] = {last.words[1], 0};
+            }
             return edge(label, last.words[2]) && edge(label, last.words[3]);
         case kSwitch: // 32-bit selectors
             for (std::uint32_t w = 2; w < last.count(); w += 2)
@@ -383,7 +384,7 @@ class Walk {
         }
     }
 
-    void phi(const Instruction& i, const std::vector<std::uint32_t>& from)
+    void phi(std::uint32_t label, const Instruction& i, const std::vector<std::uint32_t>& from)
     {
         const std::size_t begin = words.size();
         words.insert(words.end(), i.words, i.words + 3);
@@ -392,7 +393,7 @@ class Walk {
         for (std::uint32_t w = 3; w + 1 < i.count(); w += 2) {
             if (std::find(from.begin(), from.end(), i.words[w + 1]) == from.end())
                 continue;
-            const auto coming = value_in(known_.values, i.words[w]);
+            const auto coming = value_on_edge(i.words[w], i.words[w + 1], label);
             same = same && coming && (!value || *value == *coming);
             value = coming;
             words.insert(words.end(), {i.words[w], i.words[w + 1]});
@@ -403,27 +404,38 @@ class Walk {
             known_.values[i.words[2]] = *value;
     }
 
+    // Returns an id's value on the way from one block to another: a branch tells its own condition.
+    std::optional<std::int32_t> value_on_edge(std::uint32_t id, std::uint32_t from, std::uint32_t to) const
+    {
+        const auto condition = conditions_.find({from, to});
+        return condition != conditions_.end() && condition->second.first == id ? std::optional(condition->second.second)
+                                                                               : value_in(known_.values, id);
+    }
+
     void call(const Instruction& i)
     {
-        std::vector<std::optional<std::int32_t>> arguments;
+        Arguments arguments;
         for (std::uint32_t w = 4; w < i.count(); ++w) {
             arguments.push_back(value_in(known_.stored, i.words[w]));
             known_.stored.erase(i.words[w]); // the callee may write it
         }
+        note(calls, i.words[3], arguments);
         const auto function = functions_.find(i.words[3]);
         if (function == functions_.end())
             return;
-        if (const auto value = returned(function->second, constants_, arguments))
+        if (const auto value = returned(function->second, given_, arguments))
             known_.values[i.words[2]] = *value;
     }
 
     const std::vector<Instruction>& body_;
     const Functions& functions_;
-    const Values& constants_;
-    Known known_;                                                   // in the current block
-    std::set<std::uint32_t> variables_, passed_, headers_, merges_; // ids; blocks
-    std::map<std::uint32_t, std::uint32_t> continues_;              // maps continue targets to loop headers
-    std::map<std::uint32_t, Entry> entries_;                        // for reachable blocks
+    const Given& given_;
+    Known known_;                                       // in the current block
+    std::set<std::uint32_t> variables_, changing_;      // ids
+    std::set<std::uint32_t> passed_, headers_, merges_; // blocks
+    std::map<std::uint32_t, std::uint32_t> continues_;  // maps continue targets to loop headers
+    std::map<std::uint32_t, Entry> entries_;            // for reachable blocks
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::int32_t>> conditions_; // ids and values by edge
 };
 
 struct Module {
@@ -480,32 +492,58 @@ Values constants_of(const Module& m, const std::vector<std::int32_t>& constants)
     return values;
 }
 
+// Appends a function behind all that it calls.
+void add_calls(const Functions& functions, std::uint32_t id, std::set<std::uint32_t>& passed, std::vector<std::uint32_t>& to)
+{
+    const auto function = functions.find(id);
+    if (function == functions.end() || !passed.insert(id).second)
+        return;
+    for (const Instruction& i : function->second)
+        if (i.op() == kFunctionCall)
+            add_calls(functions, i.words[3], passed, to);
+    to.push_back(id);
+}
+
+// Returns the functions, each behind all that call it.
+std::vector<std::uint32_t> callers_first(const Module& m)
+{
+    std::vector<std::uint32_t> order;
+    std::set<std::uint32_t> passed;
+    for (const std::uint32_t entry : m.entry_points)
+        add_calls(m.functions, entry, passed, order);
+    std::reverse(order.begin(), order.end());
+    return order;
+}
+
 } // namespace
 
-std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const std::vector<std::int32_t>& constants)
+std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const std::vector<std::int32_t>& constants,
+                                  const std::vector<KnownNumber>& numbers)
 {
     Module m;
     if (!read(words, m))
         return words;
-    const Values values = constants_of(m, constants);
+    const Given given = {constants_of(m, constants), Buffers(m.globals, numbers)};
     std::map<std::uint32_t, std::vector<std::uint32_t>> kept; // words by function
     std::set<std::uint32_t> defined, all;
-    std::vector<std::uint32_t> waiting = m.entry_points;
-    // Walk all functions reachable from the entry points
-    while (!waiting.empty()) {
-        const std::uint32_t id = waiting.back();
-        waiting.pop_back();
-        const auto function = m.functions.find(id);
-        if (kept.count(id))
+    std::map<std::uint32_t, Arguments> called; // what all calls of a function have in common
+    for (const std::uint32_t entry : m.entry_points)
+        called[entry] = {};
+    // Walk all functions that are reached from the entry points
+    for (const std::uint32_t id : callers_first(m)) {
+        const auto arguments = called.find(id);
+        if (arguments == called.end())
             continue;
-        if (function == m.functions.end())
-            return words;
-        Walk walk(function->second, m.functions, values);
+        Walk walk(m.functions.at(id), m.functions, given, arguments->second);
         if (!walk.run())
             return words;
         kept[id] = std::move(walk.words);
         defined.insert(walk.defined.begin(), walk.defined.end());
-        waiting.insert(waiting.end(), walk.calls.begin(), walk.calls.end());
+        for (const auto& [function, own] : walk.calls) {
+            if (!m.functions.count(function))
+                return words;
+            note(called, function, own);
+        }
     }
     // Drop names and decorations of removed ids
     for (const auto& [id, body] : m.functions)

@@ -11,6 +11,7 @@
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/context.h"
 #include "raster/vulkan/forward.h"
+#include "raster/vulkan/frame_numbers.h"
 #include "raster/vulkan/gpu_scene.h"
 #include "raster/vulkan/pipelines.h"
 
@@ -188,9 +189,13 @@ void VulkanRenderer::geometry(VkCommandBuffer c)
     const std::size_t triangles = static_cast<std::size_t>(scene_.places().triangle_count);
     dispatch(c, pipelines_.compute("transform"), static_cast<std::size_t>(scene_.places().vertex_count));
     const char* const setup = context_.features().float64 ? "setup_exact" : "setup";
-    dispatch(c, pipelines_.compute(setup, {0}), triangles);
+    GpuPass pass = {};
+    pipelines_.push(c, pass);
+    dispatch(c, pipelines_.compute(setup), triangles);
     dispatch(c, pipelines_.compute("scan"), 1);
-    dispatch(c, pipelines_.compute(setup, {1}), triangles);
+    pass.group = 1;
+    pipelines_.push(c, pass);
+    dispatch(c, pipelines_.compute(setup), triangles);
 }
 
 // Runs one rasterizer pass, and copies its ids and depths to buffers.
@@ -327,6 +332,7 @@ void VulkanRenderer::begin_frame(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, setup_capacity_);
+    pipelines_.know(known_numbers(scene_.record(), scene_.materials_of_frame()));
     bind_all();
 }
 

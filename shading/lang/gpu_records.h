@@ -84,7 +84,7 @@ struct GpuPass {
     int sample_number;            // the sample's number; -1 where the device takes all samples itself
     int material, first_triangle; // of one draw in the forward pipeline
     int first_row, rows;          // the band
-    int group;                    // of recorded words, see kGpuForwardGroups
+    int group;                    // of recorded words, see kGpuForwardGroups; setup.comp counts in 0 and writes in 1
     int surfaces;                 // surfaces that a visibility pass draws: kGpuSolid...
     int own_begin, own_end;       // for compose.comp: the band's own rows among those drawn
 };

@@ -81,6 +81,8 @@ struct texture_fetches {
 texture_fetches textures_at(int f, material_ref m, visible_point p)
 {
     texture_fetches t; // a single call site fetches all slots
+    if (materials[m].textured == 0)
+        return t;
     for (int slot = 0; slot < kTextureSlots; ++slot)
         if (texture_used(m, slot))
             t.texel[slot] = fetch_texture(m, slot, p);

@@ -1,5 +1,5 @@
 // Turns triangles into setups, in draw order, in two phases with a prefix sum between. The first counts each triangle's
-// setups (0, 1, or the pieces left by clipping). The second writes them.
+// setups (0, 1, or the pieces left by clipping). The second writes them. The phase is pass.group, so drivers compile one.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
@@ -8,8 +8,8 @@ layout(local_size_x = 64) in;
 #include "shading/stages/interface.glsl"
 #include "shading/kernels/clip.t.h"
 #include "shading/kernels/pixel_range.k.h"
+#include "shading/stages/pass.glsl"
 
-layout(constant_id = 0) const int kPhase = 0; // 0: count, 1: write
 layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; }; // setups by triangle; after the scan, the first setup
 
 // Returns the sign of the triangle's area. Its two products need 47 bits each.
@@ -43,7 +43,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     if (!touches(x, frame.center_x, frame.pattern.min_x, frame.pattern.max_x, frame.width) ||
         !touches(y, frame.center_y, frame.pattern.min_y, frame.pattern.max_y, frame.height))
         return 0;
-    if (kPhase == 0 || at >= places.setup_capacity)
+    if (pass.group == 0 || at >= places.setup_capacity)
         return 1;
     // Write the corners, turned so that the area is positive with y down
     for (int j = 0; j < 3; ++j) {
@@ -61,44 +61,18 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     return 1;
 }
 
-// Emits one triangle of a clipped polygon's fan. side: the polygon's, see seen_side().
-int emit_piece(int triangle, clip_polygon polygon, int side, int i1, int i2, int at)
-{
-    int corner[3] = int[3](0, i1, i2);
-    ivec3 x, y;
-    vec3 inv_w, z;
-    mat3 bary;
-    for (int i = 0; i < 3; ++i) {
-        clip_corner c = polygon.corner[corner[i]];
-        x[i] = c.x;
-        y[i] = c.y;
-        inv_w[i] = c.inv_w;
-        z[i] = c.z;
-        bary[i] = vec3(float(c.bary[0]), float(c.bary[1]), float(c.bary[2]));
-    }
-    // Drop pieces that snapping has turned around
-    if (area_sign(x, y) != -side)
-        return 0;
-    return emit(triangle, x, y, inv_w, z, bary, kClipped, at);
-}
-
-// Clips a triangle and emits its pieces. Returns their number.
-int clip_triangle(int triangle, ivec3 v, int at)
+// Clips a triangle. Returns the visible side of what is left, see seen_side().
+int clip_triangle(ivec3 v, inout clip_polygon polygon)
 {
     // Set up the corners; those inside keep their snapped place
-    clip_polygon polygon;
     for (int i = 0; i < 3; ++i) {
         vec3 place = vertex_position(v[i]);
         set_corner(0, polygon, i, place.x, place.y, place.z);
         if (vertices[v[i]].x != kNeedsClip)
             place_corner(polygon, i, vertices[v[i]].x, vertices[v[i]].y, vertices[v[i]].inv_w, vertices[v[i]].z);
     }
-    // Clip, then emit a triangle fan
     clip_triangle_to_frame(0, polygon);
-    int side = seen_side(polygon), count = 0;
-    for (int i = 1; i + 1 < polygon.count && side != 0; ++i)
-        count += emit_piece(triangle, polygon, side, i, i + 1, at + count);
-    return count;
+    return seen_side(polygon);
 }
 
 void main()
@@ -109,6 +83,7 @@ void main()
     // Load the snapped corners
     ivec3 v, x, y;
     vec3 inv_w, z;
+    mat3 bary = mat3(1.0);
     for (int i = 0; i < 3; ++i) {
         v[i] = bn_ints[places.index_base + 3 * triangle + i];
         x[i] = vertices[v[i]].x;
@@ -116,12 +91,31 @@ void main()
         inv_w[i] = vertices[v[i]].inv_w;
         z[i] = vertices[v[i]].z;
     }
-    // Clip or emit the triangle
-    int at = kPhase == 0 ? 0 : counts[triangle], count;
-    if (x[0] == kNeedsClip || x[1] == kNeedsClip || x[2] == kNeedsClip)
-        count = clip_triangle(triangle, v, at);
-    else
-        count = emit(triangle, x, y, inv_w, z, mat3(1.0), 0, at);
-    if (kPhase == 0)
+    // Clip the triangle
+    clip_polygon polygon;
+    polygon.count = 3;
+    bool clips = x[0] == kNeedsClip || x[1] == kNeedsClip || x[2] == kNeedsClip;
+    int side = 0;
+    if (clips)
+        side = clip_triangle(v, polygon);
+    // Emit it, or a fan of pieces
+    int at = pass.group == 0 ? 0 : counts[triangle], count = 0;
+    for (int piece = 1; piece + 1 < polygon.count; ++piece) {
+        if (clips) {
+            for (int i = 0; i < 3; ++i) {
+                clip_corner c = polygon.corner[i == 0 ? 0 : piece + i - 1];
+                x[i] = c.x;
+                y[i] = c.y;
+                inv_w[i] = c.inv_w;
+                z[i] = c.z;
+                bary[i] = vec3(float(c.bary[0]), float(c.bary[1]), float(c.bary[2]));
+            }
+            // Drop pieces that snapping has turned around
+            if (side == 0 || area_sign(x, y) != -side)
+                continue;
+        }
+        count += emit(triangle, x, y, inv_w, z, bary, clips ? kClipped : 0, at + count);
+    }
+    if (pass.group == 0)
         counts[triangle] = count;
 }

@@ -4,11 +4,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <unistd.h>
 
 #include "raster/frame/frame.h"
 #include "raster/vulkan/forward_shaders.h"
+#include "raster/vulkan/frame_numbers.h"
 #include "raster/vulkan/lab/lean.h"
 #include "raster/vulkan/prune.h"
 
@@ -61,6 +63,63 @@ TEST(prune, leaves_everything_where_all_may_be_met)
         EXPECT_TRUE(has_function(same, name)) << name;
 }
 
+// Returns a material of the technique bent_normal, without textures and without anything special.
+MaterialRecord plain_material()
+{
+    MaterialRecord m = {};
+    while (techniques()[static_cast<std::size_t>(m.technique)].name != std::string_view("bent_normal"))
+        ++m.technique;
+    for (TextureBinding& t : m.textures)
+        t.texture = -1;
+    return m;
+}
+
+constexpr const char* kSpecial[] = {"light_of_facets",      "see_relief",    "fetch_texture",
+                                    "light_of_area_lights", "undo_widening", "area_light_by_samples"};
+
+TEST(prune, leaves_out_what_neither_the_frame_nor_a_material_has)
+{
+    const Words all = stage("shade");
+    const std::vector<std::int32_t> constants = {bit_of_technique("bent_normal"), -1, 0, 0};
+    const Words some = pruned(all, constants, known_numbers({}, {plain_material(), plain_material()}));
+    const Words unknown = pruned(all, constants);
+    EXPECT_LT(3 * some.size(), 2 * unknown.size());
+    for (const char* name : kSpecial) {
+        EXPECT_TRUE(has_function(unknown, name)) << name;
+        EXPECT_FALSE(has_function(some, name)) << name;
+    }
+    EXPECT_TRUE(has_function(some, "bent_normal_specular"));
+}
+
+TEST(prune, leaves_what_one_material_of_several_has)
+{
+    const Words all = stage("shade");
+    const std::vector<std::int32_t> constants = {bit_of_technique("bent_normal"), -1, 0, 0};
+    const auto kept = [&](MaterialRecord m, const char* name) {
+        return has_function(pruned(all, constants, known_numbers({}, {plain_material(), m})), name);
+    };
+    MaterialRecord m = plain_material();
+    EXPECT_FALSE(kept(m, "see_relief"));
+    m.relief = 1;
+    EXPECT_TRUE(kept(m, "see_relief"));
+    m = plain_material(), m.textured = 1;
+    EXPECT_TRUE(kept(m, "fetch_texture"));
+    m = plain_material(), m.moments = kMomentsOfAll;
+    EXPECT_TRUE(kept(m, "undo_widening"));
+    m = plain_material(), m.facets = 3;
+    EXPECT_FALSE(kept(m, "light_of_facets")) << "without a normal map";
+    m.textures[kNormalTex].texture = 0;
+    EXPECT_TRUE(kept(m, "light_of_facets"));
+}
+
+TEST(prune, leaves_lights_where_there_are_some)
+{
+    FrameRecord frame = {};
+    frame.area_light_count = 2;
+    const Words some = pruned(stage("shade"), {bit_of_technique("bent_normal"), -1, 0, 0}, known_numbers(frame, {plain_material()}));
+    EXPECT_TRUE(has_function(some, "light_of_area_lights"));
+}
+
 TEST(prune, gives_back_what_is_no_module)
 {
     const Words all = stage("gather");
@@ -93,13 +152,15 @@ TEST(prune, makes_valid_modules)
         std::vector<std::int32_t> constants;
     } cases[] = {
         {"shade", {0x2a, 0x15, 0, 1}}, {"share", {0x20, 1, 1, 1}}, {"forward_native", {1, 1, 0, 0, 0x155}}, {"lean", {1, 2, 3, 4, 5}}};
-    for (const auto& [name, constants] : cases) {
-        Words words = pruned(stage(name), constants);
+    for (int i = 0; i < 2 * static_cast<int>(std::size(cases)); ++i) {
+        const auto& [name, constants] = cases[i / 2];
+        const bool known = i % 2 == 1;
+        Words words = pruned(stage(name), constants, known ? known_numbers({}, {plain_material()}) : std::vector<KnownNumber>());
         EXPECT_LT(words.size(), stage(name).size()) << name << ": not understood";
         words = without_names(words);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * sizeof(words[0])));
-        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.3 '" + path + "'").c_str()), 0) << name;
+        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.3 '" + path + "'").c_str()), 0) << name << (known ? ", numbers known" : "");
     }
     std::filesystem::remove(path);
 }

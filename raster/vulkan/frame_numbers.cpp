@@ -1,0 +1,80 @@
+#include "raster/vulkan/frame_numbers.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "raster/vulkan/pipelines.h"
+
+namespace burnish {
+namespace {
+
+struct IntegerField {
+    std::uint32_t offset;
+    int MaterialRecord::*of;
+};
+#define BN_MATERIAL_INTEGER(name)                                                                                                          \
+    {                                                                                                                                      \
+        offsetof(MaterialRecord, name), &MaterialRecord::name                                                                              \
+    }
+constexpr IntegerField kMaterialIntegers[] = {
+    BN_MATERIAL_INTEGER(unlit),       BN_MATERIAL_INTEGER(alpha_mode),   BN_MATERIAL_INTEGER(textured),
+    BN_MATERIAL_INTEGER(uses_color),  BN_MATERIAL_INTEGER(anisotropic),  BN_MATERIAL_INTEGER(tilted),
+    BN_MATERIAL_INTEGER(tilt_mapped), BN_MATERIAL_INTEGER(moments),      BN_MATERIAL_INTEGER(coat_spread),
+    BN_MATERIAL_INTEGER(relief),      BN_MATERIAL_INTEGER(conductor),    BN_MATERIAL_INTEGER(roughness_fixed),
+    BN_MATERIAL_INTEGER(refracts),    BN_MATERIAL_INTEGER(film),         BN_MATERIAL_INTEGER(thin),
+    BN_MATERIAL_INTEGER(coatings),    BN_MATERIAL_INTEGER(frame_map),    BN_MATERIAL_INTEGER(keeps),
+    BN_MATERIAL_INTEGER(facets),      BN_MATERIAL_INTEGER(technique),    BN_MATERIAL_INTEGER(technique_traits),
+    BN_MATERIAL_INTEGER(lights_lobe), BN_MATERIAL_INTEGER(albedo_slice), BN_MATERIAL_INTEGER(phong_slice),
+    BN_MATERIAL_INTEGER(phong_set),
+};
+#undef BN_MATERIAL_INTEGER
+
+void add_frame_numbers(const FrameRecord& frame, std::vector<KnownNumber>& to)
+{
+    const auto add = [&](std::size_t offset, int value) { to.push_back({kFrameBinding, static_cast<std::uint32_t>(offset), value}); };
+    const auto add_zero = [&](std::size_t offset, int value) {
+        if (value == 0)
+            add(offset, 0);
+    };
+    add_zero(offsetof(FrameRecord, light_count), frame.light_count);
+    add_zero(offsetof(FrameRecord, area_light_count), frame.area_light_count);
+    add_zero(offsetof(FrameRecord, extracted_light_count), frame.extracted_light_count);
+    add(offsetof(FrameRecord, positions), frame.positions);
+    add(offsetof(FrameRecord, background), frame.background);
+    add(offsetof(FrameRecord, override_anisotropy), frame.override_anisotropy);
+    add(offsetof(FrameRecord, lobe), frame.lobe);
+    add(offsetof(FrameRecord, lobe_traits), frame.lobe_traits);
+    // Add parameters with few values
+#define BN_KNOWN_number(id)
+#define BN_KNOWN_whole(id)
+#define BN_KNOWN_angles(id)
+#define BN_KNOWN_flag(id) add(offsetof(FrameRecord, id), frame.id);
+#define BN_KNOWN_choice(id) add(offsetof(FrameRecord, id), frame.id);
+#define BN_KNOWN_lobe(id) add(offsetof(FrameRecord, id), frame.id);
+#define BN_KNOWN_way(id) add(offsetof(FrameRecord, id), frame.id);
+#define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_KNOWN_##kind(id)
+#include "shading/models.def"
+}
+
+} // namespace
+
+std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials)
+{
+    std::vector<KnownNumber> numbers;
+    add_frame_numbers(frame, numbers);
+    for (const IntegerField& field : kMaterialIntegers) {
+        const auto same = [&](const MaterialRecord& m) { return m.*field.of == materials.front().*field.of; };
+        if (!materials.empty() && std::all_of(materials.begin(), materials.end(), same))
+            numbers.push_back({kMaterialsBinding, field.offset, materials.front().*field.of});
+    }
+    // Add textures that no material has
+    for (std::size_t slot = 0; slot < static_cast<std::size_t>(kTextureSlots); ++slot) {
+        const auto without = [&](const MaterialRecord& m) { return m.textures[slot].texture < 0; };
+        const std::size_t offset = offsetof(MaterialRecord, textures) + slot * sizeof(TextureBinding) + offsetof(TextureBinding, texture);
+        if (std::all_of(materials.begin(), materials.end(), without))
+            numbers.push_back({kMaterialsBinding, static_cast<std::uint32_t>(offset), -1});
+    }
+    return numbers;
+}
+
+} // namespace burnish
