@@ -58,7 +58,8 @@ void add_frame_numbers(const FrameRecord& frame, std::vector<KnownNumber>& to)
 
 } // namespace
 
-std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials)
+std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials,
+                                       const std::vector<AreaLightRecord>& area_lights)
 {
     std::vector<KnownNumber> numbers;
     add_frame_numbers(frame, numbers);
@@ -67,6 +68,12 @@ std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vect
         if (!materials.empty() && std::all_of(materials.begin(), materials.end(), same))
             numbers.push_back({kMaterialsBinding, field.offset, materials.front().*field.of});
     }
+    // Add the area lights' shape, and the pictures that none of them has
+    const auto shaped = [&](const AreaLightRecord& light) { return light.shape == area_lights.front().shape; };
+    if (!area_lights.empty() && std::all_of(area_lights.begin(), area_lights.end(), shaped))
+        numbers.push_back({kAreaLightsBinding, offsetof(AreaLightRecord, shape), area_lights.front().shape});
+    if (std::all_of(area_lights.begin(), area_lights.end(), [](const AreaLightRecord& light) { return light.picture < 0; }))
+        numbers.push_back({kAreaLightsBinding, offsetof(AreaLightRecord, picture), -1});
     // Add textures that no material has
     for (std::size_t slot = 0; slot < static_cast<std::size_t>(kTextureSlots); ++slot) {
         const auto without = [&](const MaterialRecord& m) { return m.textures[slot].texture < 0; };

@@ -254,14 +254,15 @@ class Walk {
                     variables_.erase(i.words[w]);
     }
 
-    // Finds local variables that the function may change somewhere.
+    // Finds where the function may change local variables for the last time.
     void find_changes()
     {
-        for (const Instruction& i : body_) {
+        for (std::size_t at = 0; at < body_.size(); ++at) {
+            const Instruction& i = body_[at];
             if (i.op() == kStore)
-                changing_.insert(i.words[1]);
+                last_change_[i.words[1]] = at;
             for (std::uint32_t w = 4; i.op() == kFunctionCall && w < i.count(); ++w)
-                changing_.insert(i.words[w]);
+                last_change_[i.words[w]] = at;
         }
     }
 
@@ -326,8 +327,9 @@ class Walk {
             end - begin >= 3 && (body_[end - 2].op() == kLoopMerge || body_[end - 2].op() == kSelectionMerge) ? &body_[end - 2] : nullptr;
         const bool loop = merge && merge->op() == kLoopMerge;
         if (loop) {
-            for (const std::uint32_t variable : changing_)
-                known_.stored.erase(variable); // may differ in the next iteration
+            for (const auto& [variable, change] : last_change_)
+                if (change > begin) // may differ in the next iteration
+                    known_.stored.erase(variable);
             headers_.insert(label), merges_.insert(merge->words[1]), continues_[merge->words[2]] = label;
         }
         keep(body_[begin]);
@@ -431,7 +433,8 @@ class Walk {
     const Functions& functions_;
     const Given& given_;
     Known known_;                                       // in the current block
-    std::set<std::uint32_t> variables_, changing_;      // ids
+    std::set<std::uint32_t> variables_;                 // ids
+    std::map<std::uint32_t, std::size_t> last_change_;  // places in the body by variable
     std::set<std::uint32_t> passed_, headers_, merges_; // blocks
     std::map<std::uint32_t, std::uint32_t> continues_;  // maps continue targets to loop headers
     std::map<std::uint32_t, Entry> entries_;            // for reachable blocks

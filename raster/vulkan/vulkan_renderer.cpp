@@ -332,7 +332,7 @@ void VulkanRenderer::begin_frame(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, setup_capacity_);
-    pipelines_.know(known_numbers(scene_.record(), scene_.materials_of_frame()));
+    pipelines_.know(known_numbers(scene_.record(), scene_.materials_of_frame(), scene_.tables().area_lights));
     bind_all();
 }
 

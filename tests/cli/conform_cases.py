@@ -82,7 +82,7 @@ PRODUCT = ("--env", "folder/environment.exr", "--env-size", "256", "--env-sample
            "256x192", "--msaa", "8", "--no-background")
 
 
-@case("conform.any_reader_takes_a_folder_and_draws_what_its_kernels_draw", budget=35)
+@case("conform.any_reader_takes_a_folder_and_draws_what_its_kernels_draw", tier="nightly")
 def folder_is_whole(bench):
     """The folder is whole. The product's pictures of its scenes are those of the kernels without a mistake, and they are judged right."""
     folder = bench.folder / written(bench)
@@ -135,17 +135,26 @@ def named(bench, folder, *mistakes, kept=SCENES):
 
 @case("conform.names_a_mistake_and_two", budget=65)
 def names(bench):
-    """Names one mistake, made in the files, then those that few scenes show, then two, made by kernels and pictures, then an exposure."""
+    """Names one mistake, made in the files, then one that few scenes show, then two, made by kernels and pictures, then an exposure."""
     written(bench)
     check_mistake_in_files(bench)
-    for mistake, *kept in (("no_fresnel", "dark_limb"), ("no_energy_share", "high_index"), ("geometric_normals", "few_triangles"),
-                           ("no_bend", "rotation_0", "rotation_30", "lamp", "area_light")):
-        found = named(bench, "folder", mistake, kept=("mirror", "round", *kept))
-        check(found == [mistake], f"{mistake}: {found}")
+    check_few_scenes(bench, ("no_bend", "rotation_0", "rotation_30", "lamp", "area_light"))
     # Of two mistakes the second is seen where the first is taken into account
     found = named(bench, "folder", "handedness_ignored", "upside_down", kept=("mirror", "rotation_30", "left_handed"))
     check(sorted(found) == ["handedness_ignored", "upside_down"], f"{found}")
     check_exposures(bench)
+
+
+def check_few_scenes(bench, *rows):
+    for mistake, *kept in rows:
+        found = named(bench, "folder", mistake, kept=("mirror", "round", *kept))
+        check(found == [mistake], f"{mistake}: {found}")
+
+
+@case("conform.names_mistakes_that_few_scenes_show", tier="nightly")
+def names_few(bench):
+    written(bench)
+    check_few_scenes(bench, ("no_fresnel", "dark_limb"), ("no_energy_share", "high_index"), ("geometric_normals", "few_triangles"))
 
 
 def check_mistake_in_files(bench):
