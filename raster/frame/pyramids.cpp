@@ -56,6 +56,11 @@ const Image* image_of(const Scene& scene, const TextureRef& ref)
     return ref.used() ? &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref.texture)].image)] : nullptr;
 }
 
+bool has_alpha(const Image& image)
+{
+    return image.channels == 2 || image.channels == 4;
+}
+
 // Maps that a mip filter reads.
 struct FilteredMap {
     TextureRef Material::*ref;
@@ -279,16 +284,16 @@ TexturePyramid filtered_pyramid(const Scene& scene, const SceneMips& all, const 
     const bool normals = key.tensor_power == 0;
     const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
     TexturePyramid own; // pyramid of the map, whose alpha may hold heights
-    if (normals) {
+    const bool keeps = normals && kept_weights_of(scene, m, mips).any;
+    if (normals && !keeps && has_alpha(*image_of(scene, m.normal_tex))) {
         const Image& map = *image_of(scene, m.normal_tex);
         const MapLevels* heights =
             m.heights ? given_map(scene, all, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
         own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
     }
     // Average the light that facets keep, or the lobe widths
-    const bool same = normals && own.width == source.width() && own.height == source.height();
+    const bool same = own.width == source.width() && own.height == source.height();
     const KeptShares& shares = kept_shares(mean_roughness(scene, m));
-    const bool keeps = normals && kept_weights_of(scene, m, mips).any;
     std::vector<std::vector<float>> means; // by level from 1 on, then texel
     if (keeps)
         means = mean_levels(source, [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });

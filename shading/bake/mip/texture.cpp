@@ -9,6 +9,7 @@
 #include "core/base/check.h"
 #include "core/image/colour.h"
 #include "core/simd/half.h"
+#include "core/simd/half_rows.h"
 #include "shading/bake/mip/grid.h"
 
 namespace burnish {
@@ -171,8 +172,11 @@ std::uint16_t* row_of(TexturePyramid& p, int level, Size size, int y)
 void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
     std::uint16_t* out = row_of(p, level, size, y);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(size.w) * 4; ++i)
-        out[i] = stored_half(encoding, rgba[i]);
+    const std::size_t numbers = static_cast<std::size_t>(size.w) * 4;
+    if (encoding == TextureEncoding::residual)
+        residuals_to_halves(rgba, numbers, out);
+    else
+        floats_to_halves(rgba, numbers, out);
 }
 
 // Returns the texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the outer edge of the last

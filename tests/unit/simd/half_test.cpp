@@ -4,8 +4,10 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <vector>
 
 #include "core/simd/cpu.h"
+#include "core/simd/half_rows.h"
 
 namespace burnish {
 namespace {
@@ -61,6 +63,31 @@ TEST(half, saturates_instead_of_overflowing)
     EXPECT_EQ(float_to_half(INFINITY), 0x7bff);
     EXPECT_EQ(float_to_half(-INFINITY), 0xfbff);
     EXPECT_EQ(float_to_half(NAN) & 0x7fff, 0x7e00);
+}
+
+TEST(half, rows_have_the_bits_of_single_numbers)
+{
+    std::vector<float> numbers = {0.0f, -0.0f, 65504.0f, 65519.99f, 65520.0f, INFINITY, -INFINITY, NAN, -NAN, 5.9604645e-8f, 2.9802322e-8f};
+    for (std::uint32_t h = 0; h < 0x10000u; ++h) { // each half, and the floats beside it and half way to the next
+        const std::uint32_t bits = std::bit_cast<std::uint32_t>(half_to_float(static_cast<std::uint16_t>(h)));
+        for (const std::uint32_t more : {0u, 1u, 0xfffu, 0x1000u, 0x1001u, 0xffffffffu})
+            numbers.push_back(std::bit_cast<float>(bits + more));
+    }
+    std::mt19937 random(17);
+    for (int i = 0; i < 1 << 20; ++i)
+        numbers.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(random())));
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{13}, numbers.size()}) {
+        std::vector<std::uint16_t> halves(n + 1, 0xabcd);
+        floats_to_halves(numbers.data(), n, halves.data());
+        for (std::size_t i = 0; i < n; ++i)
+            ASSERT_EQ(halves[i], float_to_half(numbers[i])) << std::bit_cast<std::uint32_t>(numbers[i]);
+        EXPECT_EQ(halves[n], 0xabcd);
+        residuals_to_halves(numbers.data(), n, halves.data());
+        for (std::size_t i = 0; i < n; ++i)
+            ASSERT_EQ(halves[i], float_to_half(numbers[i] - half_to_float(float_to_half(numbers[i]))))
+                << std::bit_cast<std::uint32_t>(numbers[i]);
+        EXPECT_EQ(halves[n], 0xabcd);
+    }
 }
 
 TEST(half, equals_the_processors_conversion)
