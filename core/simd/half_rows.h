@@ -44,7 +44,7 @@ static inline void floats_to_halves(const float* from, std::size_t n, std::uint1
         to[i] = static_cast<std::uint16_t>(half_bits(from[i]));
 }
 
-// Converts what a half of each of n floats leaves.
+// Converts n floats, each less the float nearest to it among halves.
 static inline void residuals_to_halves(const float* from, std::size_t n, std::uint16_t* to)
 {
     for (std::size_t i = 0; i < n; ++i)

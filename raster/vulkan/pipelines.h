@@ -58,7 +58,7 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
-    // Sets what stages may take for granted from now on. Pipelines differ by these numbers.
+    // Sets the known numbers. Pipelines made for other numbers are kept beside the new ones.
     void know(std::vector<KnownNumber> numbers);
     // Return a pipeline, made on first use and then kept.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});

@@ -68,7 +68,7 @@ std::optional<std::int32_t> folded(const Values& values, std::uint32_t op, const
     return a && b && count == 2 ? folded(op, *a, *b) : std::nullopt;
 }
 
-// What holds in the whole module.
+// Values known in the whole module.
 struct Given {
     Values constants;
     Buffers buffers;
@@ -104,7 +104,7 @@ struct Known {
 using Functions = std::map<std::uint32_t, std::vector<Instruction>>; // by id
 using Arguments = std::vector<std::optional<std::int32_t>>;          // of a call, where they are known
 
-// Leaves what this call and all noted ones have in common.
+// Leaves the arguments that this call shares with all noted ones.
 void note(std::map<std::uint32_t, Arguments>& calls, std::uint32_t function, const Arguments& arguments)
 {
     const auto [known, first] = calls.try_emplace(function, arguments);
@@ -232,7 +232,7 @@ class Walk {
     }
 
     std::vector<std::uint32_t> words;
-    std::map<std::uint32_t, Arguments> calls; // what all calls of a function have in common
+    std::map<std::uint32_t, Arguments> calls; // those that all calls of a function share
     std::vector<std::uint32_t> defined;
 
   private:
@@ -529,7 +529,7 @@ std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const
     const Given given = {constants_of(m, constants), Buffers(m.globals, numbers)};
     std::map<std::uint32_t, std::vector<std::uint32_t>> kept; // words by function
     std::set<std::uint32_t> defined, all;
-    std::map<std::uint32_t, Arguments> called; // what all calls of a function have in common
+    std::map<std::uint32_t, Arguments> called; // those that all calls of a function share
     for (const std::uint32_t entry : m.entry_points)
         called[entry] = {};
     // Walk all functions that are reached from the entry points

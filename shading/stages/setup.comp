@@ -61,7 +61,7 @@ int emit(int triangle, ivec3 x, ivec3 y, vec3 inv_w, vec3 z, mat3 bary, int clip
     return 1;
 }
 
-// Clips a triangle. Returns the visible side of what is left, see seen_side().
+// Clips a triangle. Returns the remaining polygon's visible side, see seen_side().
 int clip_triangle(ivec3 v, inout clip_polygon polygon)
 {
     // Set up the corners; those inside keep their snapped place
