@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "raster/vulkan/pipelines.h"
 
 namespace burnish {
 namespace {
@@ -57,6 +56,43 @@ void add_frame_numbers(const FrameRecord& frame, std::vector<KnownNumber>& to)
 }
 
 } // namespace
+
+Used used_by(const std::vector<FrameDesc>& frames, bool sharing)
+{
+    const auto& all = techniques();
+    Used used;
+    for (const FrameDesc& frame : frames) {
+        for (std::size_t at = 0; at < all.size(); ++at)
+            if (((all[at].traits & kSharesSamples) != 0) == sharing && frame.technique == all[at].name)
+                used.techniques |= 1 << at;
+        used.lobes |= 1 << lobe_with(kRoundLobe) | 1 << lobe_of(frame, frame.tilt_rad != glm::vec2(0.0f));
+        if (frame.masking != 0)
+            used.lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
+    }
+    return used;
+}
+
+Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, const Used& others)
+{
+    std::int32_t techniques = others.techniques, lobes = others.lobes | 1 << frame.lobe;
+    if (frame.masking != 0) // the frame compares it with the default lobe
+        lobes |= 1 << lobe_with(kDefaultLobe) | 1 << lobe_with(kSeparableLobe);
+    static_assert(kLobeCount <= kGpuFirstAreaWay && kGpuFirstAreaWay + kAreaWays <= kGpuTransmits &&
+                  kGpuFirstCoating + kCoatings <= kGpuFilms);
+    if (frame.area_light_count > 0)
+        lobes |= 1 << (kGpuFirstAreaWay + frame.area_way);
+    for (const MaterialRecord& m : materials) {
+        techniques |= 1 << m.technique, lobes |= 1 << m.lights_lobe;
+        lobes |= m.refracts ? 1 << kGpuTransmits : 0;
+        lobes |= m.film ? 1 << kGpuFilms : 0;
+        // Add its coatings and their lobes
+#define BN_COATING(id, at, strength, lobe)                                                                                                 \
+    if (m.coatings >> at & 1)                                                                                                              \
+        lobes |= 1 << (kGpuFirstCoating + at) | 1 << kLobe_##lobe;
+#include "shading/coatings.def"
+    }
+    return {techniques, lobes};
+}
 
 std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials,
                                        const std::vector<AreaLightRecord>& area_lights)
