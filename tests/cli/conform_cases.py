@@ -128,7 +128,7 @@ def known_mistakes(bench):
 def named(bench, folder, *mistakes, kept=SCENES):
     """Returns the names found in pictures with mistakes."""
     pictures = "_".join(mistakes)
-    result = judged(bench, folder, drawn(bench, folder, pictures, "--mistake", ",".join(mistakes)), *without(*kept))
+    result = judged(bench, folder, drawn(bench, folder, pictures, "--mistake", ",".join(mistakes), *without(*kept)), *without(*kept))
     shutil.rmtree(bench.folder / pictures)
     return [m["name"] for m in result["mistakes"]]
 
@@ -244,6 +244,9 @@ def missing_or_unusable(bench):
     written(bench)
     drawn(bench, "folder", "pictures")
     kept, pictures = without("rotation_0", "lamp"), bench.folder / "pictures"
+    drawn(bench, "folder", "two", *kept)
+    check(sorted(path.name for path in (bench.folder / "two").iterdir()) == ["lamp.exr", "rotation_0.exr"], "scenes that were left out are drawn")
+    check((bench.folder / "two/lamp.exr").read_bytes() == (pictures / "lamp.exr").read_bytes(), "fewer scenes, another picture")
     # A missing one
     (pictures / "rotation_0.exr").unlink()
     done = bench.run("conform", "folder", "pictures", *kept, "--json", "-", "--junit", "j.xml", "-q").expect(1)

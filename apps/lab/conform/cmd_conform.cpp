@@ -92,13 +92,13 @@ std::string ways_in_words()
 OptionTable conform_option_table(ConformArguments& to)
 {
     OptionTable table;
-    table.add(
-        "", {{"DIR", "", "Conformance folder", text(to.folder), "none"},
-             {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"}});
+    table.add("",
+              {{"DIR", "", "Conformance folder", text(to.folder), "none"},
+               {"PICTURES", "", "Folder of the engine's pictures: NAME.exr, .hdr, .pfm or .png for each scene", text(to.pictures), "none"},
+               {"--without", "NAME,...", "Leave out scenes, which the engine cannot draw", choices(to.without, scene_names())}});
     table.add("Write", {{"--write", "DIR", "Write a conformance folder", folder(to.write)},
                         {"--samples", "N", "Samples a pixel of the reference's pictures, {}", integer(to.samples, 64, 65536)}});
-    table.add("Judge", {{"--without", "NAME,...", "Leave out scenes, which the engine cannot draw", choices(to.without, scene_names())},
-                        {"--html", "FILE", "Page with pictures, error maps and mistakes", file(to.html)},
+    table.add("Judge", {{"--html", "FILE", "Page with pictures, error maps and mistakes", file(to.html)},
                         {"--json", "FILE", "Results as JSON; - for standard output", file(to.json)},
                         {"--junit", "FILE", "Results as JUnit XML; - for standard output", file(to.junit)}});
     table.add("Draw", {{"--draw", "", "Draw the scenes into PICTURES by burnish, in place of judging them", flag(to.draw)},
@@ -141,7 +141,7 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
         for (const Mutant& mutant : mutants())
             if (mutant.name == name && mutant.kernels != 0 && (mutant.kernels & kOfGltfBend) != 0 && !is_gltf(a.technique))
                 return usage_error("--mistake", fmt::format("{} is a mistake of --technique gltf", name));
-    for (const char* option : {"--without", "--html", "--json", "--junit"})
+    for (const char* option : {"--html", "--json", "--junit"})
         if (a.draw && given.given(option))
             return usage_error(option, "does not go with --draw");
     std::vector<std::string> inputs = {a.folder + "/conform.json", a.folder + "/environment.exr", a.folder + "/environment.hdr"};
@@ -291,6 +291,16 @@ void tell(const Judgement& judgement, Report& report)
         report.figure("mistake", fmt::format("none of ours looks like {}", join(names)));
 }
 
+// Reads the folder without the scenes that are left out.
+Result<ConformFolder> kept_folder(const ConformArguments& a)
+{
+    Result<ConformFolder> folder = read_conform_folder(a.folder);
+    if (folder)
+        std::erase_if(folder->scenes,
+                      [&](const FolderScene& s) { return std::find(a.without.begin(), a.without.end(), s.name) != a.without.end(); });
+    return folder;
+}
+
 // Draws a scene with mistakes, or without where they change nothing in it.
 Result<Image> drawn_with(ConformDrawer& drawer, std::size_t scene, const std::vector<int>& mistakes)
 {
@@ -303,7 +313,7 @@ Result<Image> drawn_with(ConformDrawer& drawer, std::size_t scene, const std::ve
 
 int draw_folder(const ConformArguments& a, Report& report)
 {
-    const Result<ConformFolder> folder = read_conform_folder(a.folder);
+    const Result<ConformFolder> folder = kept_folder(a);
     if (!folder)
         return fail(folder.error());
     if (const Status made = make_output_folder(a.pictures); !made)
@@ -335,11 +345,9 @@ int draw_folder(const ConformArguments& a, Report& report)
 int judge_folder(const ConformArguments& a, Report& report)
 {
     report.promise_stdout({a.json, a.junit});
-    Result<ConformFolder> folder = read_conform_folder(a.folder);
+    const Result<ConformFolder> folder = kept_folder(a);
     if (!folder)
         return fail(folder.error());
-    std::erase_if(folder->scenes,
-                  [&](const FolderScene& s) { return std::find(a.without.begin(), a.without.end(), s.name) != a.without.end(); });
     const Result<ConformPictures> pictures = read_conform_pictures(*folder, a.pictures, a.limits, report);
     if (!pictures)
         return fail(pictures.error());
