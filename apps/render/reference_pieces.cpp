@@ -47,7 +47,7 @@ Result<double> seconds_of_passes(const RenderOptions& options, const FrameDesc& 
     return (wall_ms() - begin) * 1e-3;
 }
 
-// Returns the time of one pass of one pixel on this machine, s. Two lengths of passes, so that a picture's own set-up does not count.
+// Returns the time of one pass of one pixel by one thread, s. Two lengths of passes, so that a picture's own set-up does not count.
 Result<double> seconds_per_pass(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
     constexpr std::uint64_t kShort = 1, kLong = 9;
@@ -57,8 +57,7 @@ Result<double> seconds_per_pass(const RenderOptions& options, const FrameDesc& d
     BN_TRY(few);
     const Result<double> many = seconds_of_passes(options, desc, session, probes, kLong);
     BN_TRY(many);
-    const double at_once = std::min<double>(session.parts().jobs->threads(), blocks);
-    return std::max(*many - *few, 0.0) / (probes * at_once * static_cast<double>(kPixelsOfBlock * (kLong - kShort)));
+    return std::max(*many - *few, 0.0) / (probes * static_cast<double>(kPixelsOfBlock * (kLong - kShort)));
 }
 
 } // namespace
@@ -88,7 +87,8 @@ std::vector<JobPiece> reference_pieces(const RenderOptions& options, const Frame
                 BN_TRY(measured);
                 *rate = *measured;
             }
-            return **rate * static_cast<double>(of_blocks.count * kPixelsOfBlock * of_passes.count);
+            const double threads = std::min<double>(session.parts().jobs->threads(), static_cast<double>(of_blocks.count));
+            return **rate * static_cast<double>(of_blocks.count * kPixelsOfBlock * of_passes.count) / threads;
         };
         const auto make = [&options, desc, &session, of_blocks, of_passes, key](const std::string& file) -> Status {
             const Result<Frame> frame = render_blocks(options, desc, session, of_blocks, of_passes);

@@ -2,11 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
 namespace burnish {
+
+namespace {
+
+std::size_t pixel_count(const Accumulator& a)
+{
+    return static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+}
+
+} // namespace
 
 Accumulator::Accumulator(int w, int h)
     : width(w), height(h), blocks_x((w + kBlockSide - 1) / kBlockSide), blocks_y((h + kBlockSide - 1) / kBlockSide)
@@ -19,12 +27,20 @@ void reserve_sums(Accumulator& a, std::uint32_t passes)
 {
     for (int k = 0; k < kMostSums; ++k)
         if (passes >> k & 1u && a.sums[static_cast<std::size_t>(k)].size() == 0)
-            a.sums[static_cast<std::size_t>(k)].resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height));
+            a.sums[static_cast<std::size_t>(k)].resize(pixel_count(a));
+}
+
+void keep_totals(Accumulator& a, std::uint32_t passes)
+{
+    a.last_passes = passes;
+    a.totals.resize(pixel_count(a));
 }
 
 std::uint32_t bits_of_passes(const Accumulator& a)
 {
-    return std::accumulate(a.passes.begin(), a.passes.end(), 0u, std::bit_or<>());
+    return std::accumulate(a.passes.begin(), a.passes.end(), 0u, [&](std::uint32_t bits, std::uint32_t passes) {
+        return a.last_passes && passes == a.last_passes ? bits : bits | passes;
+    });
 }
 
 void free_sums(Accumulator& a)
@@ -79,26 +95,18 @@ double variance_of_mean(const PixelState& p, int channel, std::uint32_t passes)
     return std::max(p.m2[channel], 0.0) / (static_cast<double>(passes) * (static_cast<double>(passes) - 1.0));
 }
 
-std::size_t pixel_count(const Accumulator& a)
-{
-    return static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
-}
-
 } // namespace
 
 PixelState state_of_pixel(const Accumulator& a, std::size_t pixel)
 {
     const std::uint32_t passes = passes_of_pixel(a, pixel);
-    PixelState state = {};
-    std::uint32_t merged_passes = 0; // from the last passes to the first
-    for (int k = 0; k < kMostSums; ++k) {
-        if (!(passes >> k & 1u))
-            continue;
-        const PixelState& sum = a.sums[static_cast<std::size_t>(k)][pixel];
-        state = merged_passes ? merged(sum, static_cast<double>(1u << k), state, static_cast<double>(merged_passes)) : sum;
-        merged_passes += 1u << k;
-    }
-    return state;
+    if (a.last_passes && passes == a.last_passes)
+        return a.totals[pixel];
+    PixelState own[kMostSums];
+    for (std::size_t k = 0; k < kMostSums; ++k)
+        if (passes >> k & 1u)
+            own[k] = a.sums[k][pixel];
+    return total_of_sums(own, passes);
 }
 
 Image mean_image(const Accumulator& a)

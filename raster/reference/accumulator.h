@@ -21,7 +21,12 @@ struct Accumulator {
     std::uint32_t first_pass = 0;         // of the sums
     std::vector<Column<PixelState>> sums; // kMostSums: of 2^k passes, by pixel, row-major; empty where no block's passes have bit k
     Column<std::uint32_t> passes;         // by block, row-major
+    std::uint32_t last_passes = 0;        // blocks with so many have totals in place of sums; 0: none
+    Column<PixelState> totals;            // by pixel, row-major
 };
+
+// Keeps totals alone of blocks that reach `passes`, after which nothing is added to them. Sums of several sizes would take more memory.
+void keep_totals(Accumulator& a, std::uint32_t passes);
 
 // Allocates sums for the bits of `passes`.
 void reserve_sums(Accumulator& a, std::uint32_t passes);

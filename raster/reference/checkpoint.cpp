@@ -191,7 +191,6 @@ Status take_blocks(const std::vector<std::uint8_t>& bytes, std::uint64_t key, Ac
                 add_to_block(into, i, k, from);
                 each_row(into, i, [&](std::size_t, std::size_t width) { from += width * sizeof(PixelState); });
             }
-    free_sums(into);
     return {};
 }
 

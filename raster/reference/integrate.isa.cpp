@@ -392,6 +392,10 @@ void add_passes_to_pixel(const ReferenceParams& f, const PixelBlock& b, Referenc
             own[k] = sums[k][pixel];
     for (std::uint32_t pass = b.done; pass < b.done + b.passes; ++pass)
         add_sum(own, pass, 0, state_of_pass(f, scratch, x, y, b.first_pass + pass));
+    if (b.totals) {
+        b.totals[pixel] = total_of_sums(own, b.done + b.passes);
+        return;
+    }
     for (int k = 0; k < kMostSums; ++k)
         if ((b.done + b.passes) >> k & 1u)
             sums[k][pixel] = own[k];

@@ -1,6 +1,7 @@
 #include "raster/reference/reference_renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
@@ -48,6 +49,11 @@ FrameDesc with_msaa(FrameDesc desc, int msaa)
     return desc;
 }
 
+bool keeps(const ReferenceOptions& options)
+{
+    return !options.checkpoint.empty() || !options.checkpoint_folder.empty();
+}
+
 Status check_options(const ReferenceOptions& o)
 {
     if (o.samples < 1 || o.samples > kMaxReferenceSamples)
@@ -56,6 +62,11 @@ Status check_options(const ReferenceOptions& o)
         return Error{ExitCode::usage, "", "", "shades must lie in 1..4"};
     if (o.part && o.target_error > 0.0)
         return Error{ExitCode::usage, "", "", "ReferenceOptions::target_error is of whole pictures"};
+    if (o.part && keeps(o))
+        return Error{ExitCode::usage, "", "", "ReferenceOptions::checkpoint is of whole pictures"};
+    const std::uint64_t passes = reference_passes(o.part && o.part->samples ? o.part->samples : o.samples, o.shades);
+    if (o.part && o.part->first_pass % std::bit_ceil(passes) != 0)
+        return Error{ExitCode::usage, "", "", "ReferencePart::first_pass must be a multiple of the power of two from its passes on"};
     if (o.bounces < 0)
         return Error{ExitCode::usage, "", "", "bounces must not be negative"};
     return {};
@@ -138,12 +149,15 @@ ReferenceParams ReferenceRenderer::params(const FrameDesc& desc)
 // Advances blocks to `passes`. Ends early, between blocks, if asked to stop.
 void ReferenceRenderer::advance(const ReferenceParams& f, Accumulator& a, std::uint32_t passes, BlockRange blocks)
 {
-    reserve_sums(a, passes);
+    const bool last = a.last_passes != 0 && passes == a.last_passes;
+    if (!last)
+        reserve_sums(a, passes);
     PixelState* sums[kMostSums];
     std::transform(a.sums.begin(), a.sums.end(), sums, [](Column<PixelState>& s) { return s.data(); });
     input_.jobs.parallel_for(blocks.end - blocks.begin, [&](std::size_t k, int worker) {
         const std::size_t i = blocks.begin + k;
-        const PixelBlock block = block_of(a, i, passes);
+        PixelBlock block = block_of(a, i, passes);
+        block.totals = last ? a.totals.data() : nullptr;
         if (block.passes == 0 || stopped())
             return;
         fns_.add_passes(f, block, workers_[static_cast<std::size_t>(worker)], sums);
@@ -164,12 +178,13 @@ std::uint32_t passes_in_round(const FrameDesc& desc, std::uint64_t pass_samples,
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kRoundSamples / samples));
 }
 
-// Returns the blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes. Enough for many
-// threads.
-std::size_t blocks_in_slice(std::uint32_t passes)
+// Returns the blocks between two looks at the clock for the checkpoint: one pass over a large picture may take minutes. Threads wait for
+// each other after them, so each thread has several.
+std::size_t blocks_in_slice(std::uint32_t passes, int threads)
 {
-    constexpr std::size_t kFewest = 64;
-    return std::max(kFewest, kRoundSamples / (kPassSamples * kBlockSide * kBlockSide * std::max<std::size_t>(passes, 1)));
+    constexpr std::size_t kFewest = 64, kOfThread = 8;
+    return std::max({kFewest, kOfThread * static_cast<std::size_t>(threads),
+                     kRoundSamples / (kPassSamples * kBlockSide * kBlockSide * std::max<std::size_t>(passes, 1))});
 }
 
 // Returns the checkpoint's file for a picture with this key.
@@ -177,11 +192,6 @@ std::string file_of(const ReferenceOptions& options, std::uint64_t key)
 {
     return options.checkpoint_folder.empty() ? options.checkpoint
                                              : fmt::format("{}/reference-{:016x}.part", options.checkpoint_folder, key);
-}
-
-bool keeps(const ReferenceOptions& options)
-{
-    return !options.checkpoint.empty() || !options.checkpoint_folder.empty();
 }
 
 Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const ReferenceParams& f, SamplingStats& stats)
@@ -205,12 +215,15 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     // Take over the parts of others
     for (const std::vector<std::uint8_t>& other : part ? part->others : std::vector<std::vector<std::uint8_t>>())
         BN_TRY(take_blocks(other, key, a));
+    free_sums(a);
+    if (!kept_up && !part && options_.target_error <= 0.0)
+        keep_totals(a, passes);
     const BlockRange range =
         part && part->count ? BlockRange{part->first, std::size_t{part->first} + part->count} : BlockRange{0, a.passes.size()};
     BN_CHECK(range.end <= a.passes.size());
     std::uint32_t done = least_passes(a, range.begin, range.end - range.begin);
     stats.samples_before = done * pass_samples();
-    const std::size_t in_slice = blocks_in_slice(std::min(round, passes));
+    const std::size_t in_slice = blocks_in_slice(std::min(round, passes), input_.jobs.threads());
     const std::size_t slices = (range.end - range.begin + in_slice - 1) / in_slice; // of a pass
     Progress progress("passes", passes > done ? (passes - done) * slices : 0, options_.quiet);
     Clock::time_point written = Clock::now();

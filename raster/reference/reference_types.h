@@ -33,7 +33,7 @@ struct PixelState { // over some passes: mean and sum of squared differences fro
 
 // Merges the states of two sets of passes (Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing sample
 // variances").
-inline PixelState merged(const PixelState& a, double passes_a, const PixelState& b, double passes_b)
+static inline __attribute__((always_inline)) PixelState merged(const PixelState& a, double passes_a, const PixelState& b, double passes_b)
 {
     const double passes = passes_a + passes_b;
     PixelState r;
@@ -50,7 +50,7 @@ inline constexpr int kMostSums = 32; // the bits of a number of passes
 // Adds the state of the next 2^k passes to a pixel's partial sums. Passes form a binary tree: sums[k] holds 2^k of them where bit k of
 // `passes` is set, and two sums of one size become the next one. So a picture's bits do not depend on who made which 2^k passes. passes:
 // in the sums so far, a multiple of 2^k.
-inline void add_sum(PixelState* sums, std::uint32_t passes, int k, PixelState next)
+static inline __attribute__((always_inline)) void add_sum(PixelState* sums, std::uint32_t passes, int k, PixelState next)
 {
     for (; passes >> k & 1u; ++k)
         next = merged(sums[k], static_cast<double>(1u << k), next, static_cast<double>(1u << k));
@@ -66,15 +66,30 @@ struct ReferenceScratch { // of one worker
     RayCount count;
 };
 
+// Merges a pixel's partial sums, from the last passes to the first.
+static inline __attribute__((always_inline)) PixelState total_of_sums(const PixelState* sums, std::uint32_t passes)
+{
+    PixelState total = {};
+    std::uint32_t merged_passes = 0;
+    for (int k = 0; k < kMostSums; ++k) {
+        if (!(passes >> k & 1u))
+            continue;
+        total = merged_passes ? merged(sums[k], static_cast<double>(1u << k), total, static_cast<double>(merged_passes)) : sums[k];
+        merged_passes += 1u << k;
+    }
+    return total;
+}
+
 struct PixelBlock {
     std::int32_t x0, y0, width, height;
     std::uint32_t first_pass, done; // the first pass of the sums, and how many they hold
     std::uint32_t passes;           // to add
+    PixelState* totals;             // of the whole picture: takes the pixels' totals in place of their sums; null: sums are kept
 };
 
 struct ReferenceFns { // one table per instruction set
-    // Adds passes to a block's pixels. sums: a column of the whole picture for each bit that is set in the block's passes, before or
-    // afterwards.
+    // Adds passes to a block's pixels. sums: a column of the whole picture for each bit that is set in the block's passes, before or,
+    // without totals, afterwards.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* const* sums);
     // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of
     // blended surfaces before them, [0,1]; through may be null.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace burnish {
 namespace {
@@ -9,25 +10,25 @@ namespace {
 struct IntegerField {
     std::uint32_t offset;
     int MaterialRecord::*of;
+    bool differs; // between frames that share pipelines: by technique, lobe or tilt
 };
-#define BN_MATERIAL_INTEGER(name)                                                                                                          \
+#define BN_MATERIAL_INTEGER(name, differs)                                                                                                 \
     {                                                                                                                                      \
-        offsetof(MaterialRecord, name), &MaterialRecord::name                                                                              \
+        offsetof(MaterialRecord, name), &MaterialRecord::name, differs                                                                     \
     }
 constexpr IntegerField kMaterialIntegers[] = {
-    BN_MATERIAL_INTEGER(unlit),       BN_MATERIAL_INTEGER(alpha_mode),   BN_MATERIAL_INTEGER(textured),
-    BN_MATERIAL_INTEGER(uses_color),  BN_MATERIAL_INTEGER(anisotropic),  BN_MATERIAL_INTEGER(tilted),
-    BN_MATERIAL_INTEGER(tilt_mapped), BN_MATERIAL_INTEGER(moments),      BN_MATERIAL_INTEGER(coat_spread),
-    BN_MATERIAL_INTEGER(relief),      BN_MATERIAL_INTEGER(conductor),    BN_MATERIAL_INTEGER(roughness_fixed),
-    BN_MATERIAL_INTEGER(refracts),    BN_MATERIAL_INTEGER(film),         BN_MATERIAL_INTEGER(thin),
-    BN_MATERIAL_INTEGER(coatings),    BN_MATERIAL_INTEGER(frame_map),    BN_MATERIAL_INTEGER(keeps),
-    BN_MATERIAL_INTEGER(facets),      BN_MATERIAL_INTEGER(technique),    BN_MATERIAL_INTEGER(technique_traits),
-    BN_MATERIAL_INTEGER(lights_lobe), BN_MATERIAL_INTEGER(albedo_slice), BN_MATERIAL_INTEGER(phong_slice),
-    BN_MATERIAL_INTEGER(phong_set),
+    BN_MATERIAL_INTEGER(unlit, false),       BN_MATERIAL_INTEGER(alpha_mode, false),  BN_MATERIAL_INTEGER(textured, false),
+    BN_MATERIAL_INTEGER(uses_color, false),  BN_MATERIAL_INTEGER(anisotropic, false), BN_MATERIAL_INTEGER(tilted, true),
+    BN_MATERIAL_INTEGER(tilt_mapped, false), BN_MATERIAL_INTEGER(moments, false),     BN_MATERIAL_INTEGER(coat_spread, false),
+    BN_MATERIAL_INTEGER(relief, false),      BN_MATERIAL_INTEGER(conductor, false),   BN_MATERIAL_INTEGER(roughness_fixed, false),
+    BN_MATERIAL_INTEGER(refracts, false),    BN_MATERIAL_INTEGER(film, false),        BN_MATERIAL_INTEGER(thin, false),
+    BN_MATERIAL_INTEGER(coatings, false),    BN_MATERIAL_INTEGER(frame_map, false),   BN_MATERIAL_INTEGER(keeps, false),
+    BN_MATERIAL_INTEGER(facets, false),      BN_MATERIAL_INTEGER(technique, true),    BN_MATERIAL_INTEGER(technique_traits, true),
+    BN_MATERIAL_INTEGER(lights_lobe, true),
 };
 #undef BN_MATERIAL_INTEGER
 
-void add_frame_numbers(const FrameRecord& frame, std::vector<KnownNumber>& to)
+void add_frame_numbers(const FrameRecord& frame, const std::vector<FrameDesc>& others, std::vector<KnownNumber>& to)
 {
     const auto add = [&](std::size_t offset, int value) { to.push_back({kFrameBinding, static_cast<std::uint32_t>(offset), value}); };
     const auto add_zero = [&](std::size_t offset, int value) {
@@ -40,18 +41,37 @@ void add_frame_numbers(const FrameRecord& frame, std::vector<KnownNumber>& to)
     add(offsetof(FrameRecord, positions), frame.positions);
     add(offsetof(FrameRecord, background), frame.background);
     add(offsetof(FrameRecord, override_anisotropy), frame.override_anisotropy);
-    add(offsetof(FrameRecord, lobe), frame.lobe);
-    add(offsetof(FrameRecord, lobe_traits), frame.lobe_traits);
-    // Add parameters with few values
+    if (others.empty())
+        add(offsetof(FrameRecord, lobe), frame.lobe), add(offsetof(FrameRecord, lobe_traits), frame.lobe_traits);
+    // Add parameters with few values, unless other frames have others
+    const auto add_common = [&](std::size_t offset, int value, auto FrameDesc::*of) {
+        if (std::all_of(others.begin(), others.end(), [&](const FrameDesc& o) { return static_cast<int>(o.*of) == value; }))
+            add(offset, value);
+    };
 #define BN_KNOWN_number(id)
 #define BN_KNOWN_whole(id)
 #define BN_KNOWN_angles(id)
-#define BN_KNOWN_flag(id) add(offsetof(FrameRecord, id), frame.id);
-#define BN_KNOWN_choice(id) add(offsetof(FrameRecord, id), frame.id);
-#define BN_KNOWN_lobe(id) add(offsetof(FrameRecord, id), frame.id);
-#define BN_KNOWN_way(id) add(offsetof(FrameRecord, id), frame.id);
+#define BN_KNOWN_flag(id) add_common(offsetof(FrameRecord, id), frame.id, &FrameDesc::id);
+#define BN_KNOWN_choice(id) add_common(offsetof(FrameRecord, id), frame.id, &FrameDesc::id);
+#define BN_KNOWN_lobe(id) add_common(offsetof(FrameRecord, id), frame.id, &FrameDesc::id);
+#define BN_KNOWN_way(id) add_common(offsetof(FrameRecord, id), frame.id, &FrameDesc::id);
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_KNOWN_##kind(id)
 #include "shading/models.def"
+}
+
+// Returns the number that all records have, if there are records.
+template <class Record> std::optional<int> common(const std::vector<Record>& records, int Record::*of)
+{
+    if (records.empty() || !std::all_of(records.begin(), records.end(), [&](const Record& r) { return r.*of == records.front().*of; }))
+        return std::nullopt;
+    return records.front().*of;
+}
+
+// Adds -1 where all materials have it; other values are places in tables, which differ by frame.
+void add_absent(const std::vector<MaterialRecord>& materials, std::size_t offset, int MaterialRecord::*of, std::vector<KnownNumber>& to)
+{
+    if (common(materials, of) == -1)
+        to.push_back({kMaterialsBinding, static_cast<std::uint32_t>(offset), -1});
 }
 
 } // namespace
@@ -94,19 +114,19 @@ Specialization technique_constants(const std::vector<MaterialRecord>& materials,
 }
 
 std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials,
-                                       const std::vector<AreaLightRecord>& area_lights)
+                                       const std::vector<AreaLightRecord>& area_lights, const std::vector<FrameDesc>& others)
 {
     std::vector<KnownNumber> numbers;
-    add_frame_numbers(frame, numbers);
-    for (const IntegerField& field : kMaterialIntegers) {
-        const auto same = [&](const MaterialRecord& m) { return m.*field.of == materials.front().*field.of; };
-        if (!materials.empty() && std::all_of(materials.begin(), materials.end(), same))
-            numbers.push_back({kMaterialsBinding, field.offset, materials.front().*field.of});
-    }
+    add_frame_numbers(frame, others, numbers);
+    for (const IntegerField& field : kMaterialIntegers)
+        if (const std::optional<int> value = common(materials, field.of); value && !(field.differs && !others.empty()))
+            numbers.push_back({kMaterialsBinding, field.offset, *value});
+    add_absent(materials, offsetof(MaterialRecord, albedo_slice), &MaterialRecord::albedo_slice, numbers);
+    add_absent(materials, offsetof(MaterialRecord, phong_slice), &MaterialRecord::phong_slice, numbers);
+    add_absent(materials, offsetof(MaterialRecord, phong_set), &MaterialRecord::phong_set, numbers);
     // Add the area lights' shape, and the pictures that none of them has
-    const auto shaped = [&](const AreaLightRecord& light) { return light.shape == area_lights.front().shape; };
-    if (!area_lights.empty() && std::all_of(area_lights.begin(), area_lights.end(), shaped))
-        numbers.push_back({kAreaLightsBinding, offsetof(AreaLightRecord, shape), area_lights.front().shape});
+    if (const std::optional<int> shape = common(area_lights, &AreaLightRecord::shape))
+        numbers.push_back({kAreaLightsBinding, offsetof(AreaLightRecord, shape), *shape});
     if (std::all_of(area_lights.begin(), area_lights.end(), [](const AreaLightRecord& light) { return light.picture < 0; }))
         numbers.push_back({kAreaLightsBinding, offsetof(AreaLightRecord, picture), -1});
     // Add textures that no material has

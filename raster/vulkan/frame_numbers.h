@@ -21,8 +21,8 @@ Used used_by(const std::vector<FrameDesc>& frames, bool sharing);
 Specialization technique_constants(const std::vector<MaterialRecord>& materials, const FrameRecord& frame, const Used& others);
 
 // Returns the frame's settings, the counts that are 0, and the flags that all materials or all area lights share. Other frames may have
-// others.
+// others. `others`: frames that are to share pipelines; settings in which they differ are left out.
 std::vector<KnownNumber> known_numbers(const FrameRecord& frame, const std::vector<MaterialRecord>& materials,
-                                       const std::vector<AreaLightRecord>& area_lights = {});
+                                       const std::vector<AreaLightRecord>& area_lights = {}, const std::vector<FrameDesc>& others = {});
 
 } // namespace burnish

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "core/base/hash.h"
 #include "core/jobs/activity.h"
 #include "raster/vulkan/bands.h"
 #include "raster/vulkan/forward_shaders.h"
@@ -35,6 +36,14 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
     auto info = vk_struct<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
     info.stage = stage, info.module = module, info.pName = "main", info.pSpecializationInfo = constants;
     return info;
+}
+
+std::string words_of(const Specialization& constants)
+{
+    std::string words;
+    for (std::int32_t c : constants)
+        words += fmt::format(",{}", c);
+    return words;
 }
 
 } // namespace
@@ -78,9 +87,9 @@ Pipelines::Pipelines(Context& context, const VulkanOptions& options) : Pipelines
 Pipelines::~Pipelines()
 {
     const VkDevice device = context_.device();
-    for (const auto& [key, pipeline] : pipelines_)
+    for (const auto& [state, pipeline] : pipelines_of_code_)
         vkDestroyPipeline(device, pipeline, nullptr);
-    for (const auto& [name, shader] : modules_)
+    for (const auto& [code, shader] : modules_of_code_)
         vkDestroyShaderModule(device, shader, nullptr);
     vkDestroySampler(device, sampler_, nullptr);
     vkDestroyDescriptorPool(device, pool_, nullptr);
@@ -114,10 +123,7 @@ void Pipelines::know(std::vector<KnownNumber> numbers)
 
 std::string Pipelines::key_of(const std::string& name, const Specialization& constants) const
 {
-    std::string key = name;
-    for (std::int32_t c : constants)
-        key += fmt::format(",{}", c);
-    return key + numbers_key_;
+    return name + words_of(constants) + numbers_key_;
 }
 
 VkShaderModule Pipelines::module(const std::string& shader, const Specialization& constants)
@@ -131,11 +137,14 @@ VkShaderModule Pipelines::module(const std::string& shader, const Specialization
     if (!words)
         throw VulkanError{words.error()};
     const std::vector<std::uint32_t> code = pruned(*words, constants, numbers_);
+    const std::uint64_t hash = hash_bytes(code.data(), code.size() * sizeof(std::uint32_t));
+    if (const auto same = modules_of_code_.find(hash); same != modules_of_code_.end())
+        return modules_[key] = same->second;
     auto info = vk_struct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = code.size() * sizeof(std::uint32_t), info.pCode = code.data();
     VkShaderModule made = VK_NULL_HANDLE;
     BN_VK(vkCreateShaderModule(context_.device(), &info, nullptr, &made));
-    return modules_[key] = made;
+    return modules_[key] = modules_of_code_[hash] = made;
 }
 
 VkPipeline Pipelines::compute(const std::string& shader, const Specialization& constants)
@@ -144,28 +153,36 @@ VkPipeline Pipelines::compute(const std::string& shader, const Specialization& c
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end())
         return known->second;
+    const VkShaderModule code = module(shader, constants);
+    const std::string state_of_code = fmt::format("{}{}", static_cast<const void*>(code), words_of(constants));
+    if (const auto same = pipelines_of_code_.find(state_of_code); same != pipelines_of_code_.end())
+        return pipelines_[key] = same->second;
     const SpecializationInfo specialization(constants);
     auto info = vk_struct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
-    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, module(shader, constants), &specialization.info);
+    info.stage = stage_info(VK_SHADER_STAGE_COMPUTE_BIT, code, &specialization.info);
     info.layout = layout_;
     VkPipeline made = VK_NULL_HANDLE;
     const Activity activity("compiling " + shader);
     BN_VK(vkCreateComputePipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
-    return pipelines_[key] = made;
+    return pipelines_[key] = pipelines_of_code_[state_of_code] = made;
 }
 
 VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization& constants)
 {
-    const std::string key = key_of(fmt::format("{}+{},{},{},{}", state.vertex, state.fragment, static_cast<int>(state.color),
-                                               static_cast<int>(state.samples), static_cast<int>(state.compare)),
-                                   constants);
+    const std::string numbers =
+        fmt::format("{},{},{}", static_cast<int>(state.color), static_cast<int>(state.samples), static_cast<int>(state.compare));
+    const std::string key = key_of(fmt::format("{}+{},{}", state.vertex, state.fragment, numbers), constants);
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end())
         return known->second;
+    const VkShaderModule vertex = module(state.vertex, {}), fragment = module(state.fragment, constants);
+    const std::string state_of_code =
+        fmt::format("{}+{},{}{}", static_cast<const void*>(vertex), static_cast<const void*>(fragment), numbers, words_of(constants));
+    if (const auto same = pipelines_of_code_.find(state_of_code); same != pipelines_of_code_.end())
+        return pipelines_[key] = same->second;
     const SpecializationInfo specialization(constants);
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        stage_info(VK_SHADER_STAGE_VERTEX_BIT, module(state.vertex, {}), nullptr),
-        stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, module(state.fragment, constants), &specialization.info)};
+    const VkPipelineShaderStageCreateInfo stages[] = {stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex, nullptr),
+                                                      stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, &specialization.info)};
     const auto none = vk_struct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     auto assembly = vk_struct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
@@ -196,7 +213,7 @@ VkPipeline Pipelines::graphics(const GraphicsState& state, const Specialization&
     VkPipeline made = VK_NULL_HANDLE;
     const Activity activity("compiling " + state.fragment);
     BN_VK(vkCreateGraphicsPipelines(context_.device(), context_.pipeline_cache(), 1, &info, nullptr, &made));
-    return pipelines_[key] = made;
+    return pipelines_[key] = pipelines_of_code_[state_of_code] = made;
 }
 
 void Pipelines::bind_buffer(Binding binding, const Buffer& buffer)

@@ -86,8 +86,12 @@ class Pipelines {
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
-    std::map<std::string, VkShaderModule> modules_; // pruned for their constants and the known numbers
-    std::map<std::string, VkPipeline> pipelines_;   // by everything that distinguishes them
+    // By everything that may distinguish them; several entries may hold the same
+    std::map<std::string, VkShaderModule> modules_;
+    std::map<std::string, VkPipeline> pipelines_;
+    // By hash of the pruned words; by modules, state and constants
+    std::map<std::uint64_t, VkShaderModule> modules_of_code_;
+    std::map<std::string, VkPipeline> pipelines_of_code_;
 };
 
 } // namespace burnish

@@ -530,8 +530,11 @@ std::vector<std::uint32_t> pruned(const std::vector<std::uint32_t>& words, const
     std::map<std::uint32_t, std::vector<std::uint32_t>> kept; // words by function
     std::set<std::uint32_t> defined, all;
     std::map<std::uint32_t, Arguments> called; // those that all calls of a function share
-    for (const std::uint32_t entry : m.entry_points)
+    for (const std::uint32_t entry : m.entry_points) {
+        if (!m.functions.count(entry))
+            return words;
         called[entry] = {};
+    }
     // Walk all functions that are reached from the entry points
     for (const std::uint32_t id : callers_first(m)) {
         const auto arguments = called.find(id);

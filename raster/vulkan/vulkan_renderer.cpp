@@ -288,7 +288,7 @@ void VulkanRenderer::begin_frame(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, setup_capacity_);
-    pipelines_.know(known_numbers(scene_.record(), scene_.materials_of_frame(), scene_.tables().area_lights));
+    pipelines_.know(known_numbers(scene_.record(), scene_.materials_of_frame(), scene_.tables().area_lights, device_->options.frames));
     bind_all();
 }
 
@@ -488,6 +488,7 @@ Frame VulkanRenderer::render_forward(const FrameDesc& desc)
 {
     device_ms_ = device_cpu_ms_ = 0.0;
     scene_.prepare(context_, desc, setup_capacity_);
+    pipelines_.know({});
     forward_.prepare(desc, band_bytes());
     for (const auto& [binding, buffer] : scene_bindings())
         bind(binding, *buffer);

@@ -338,8 +338,10 @@ TEST(parts, whose_passes_do_not_follow_are_refused)
 {
     BN_NEEDS_EMBREE();
     const Stage stage(small_scene());
-    const std::vector<std::uint8_t> first = part_of(stage, 3, 2, 0, 8), second = part_of(stage, 3, 2, 8, 3),
-                                    odd = part_of(stage, 3, 2, 4, 8);
+    const std::vector<std::uint8_t> first = part_of(stage, 3, 2, 0, 8), second = part_of(stage, 3, 2, 8, 3);
+    std::vector<std::uint8_t> odd = first; // as if of passes 4 to 11
+    constexpr std::size_t kFirstPassAt = 32;
+    odd[kFirstPassAt] = 4;
     ReferenceOptions o = options_of(ReferenceMode::direct, 27 * kPassSamples);
     o.part = std::make_shared<ReferencePart>();
     const auto refused = [&](std::vector<std::vector<std::uint8_t>> others, const char* word) {
@@ -356,6 +358,26 @@ TEST(parts, whose_passes_do_not_follow_are_refused)
     refused({std::vector<std::uint8_t>(first.begin(), first.end() - 1)}, "damaged");
     o.part->others = {first, second};
     EXPECT_TRUE(try_render(stage, small_desc(), o));
+}
+
+TEST(parts, that_no_merge_could_take_are_refused)
+{
+    BN_NEEDS_EMBREE();
+    const Stage stage(small_scene());
+    ReferenceOptions o = options_of(ReferenceMode::direct, 64);
+    o.part = std::make_shared<ReferencePart>();
+    o.part->count = 1, o.part->first_pass = 4, o.part->samples = 5 * kPassSamples; // 5 passes behind 4 are no node of the tree
+    Result<Frame> f = try_render(stage, small_desc(), o);
+    ASSERT_FALSE(f);
+    EXPECT_NE(f.error().reason.find("first_pass"), std::string::npos);
+    o.part->first_pass = 8;
+    EXPECT_TRUE(try_render(stage, small_desc(), o));
+    const TempFile file("part");
+    o.checkpoint = file.path(); // would hold later passes as the picture's first
+    f = try_render(stage, small_desc(), o);
+    ASSERT_FALSE(f);
+    EXPECT_NE(f.error().reason.find("checkpoint"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(file.path()));
 }
 
 // A pass of a large image takes minutes, so checkpoints are also written within a pass.

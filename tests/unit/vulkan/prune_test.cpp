@@ -112,6 +112,24 @@ TEST(prune, leaves_what_one_material_of_several_has)
     EXPECT_TRUE(kept(m, "light_of_facets"));
 }
 
+// A roughness that changes from picture to picture must not compile stages anew.
+TEST(prune, numbers_do_not_change_with_places_in_tables)
+{
+    const auto key_of = [](const MaterialRecord& m, const std::vector<FrameDesc>& others) {
+        std::string key;
+        for (const KnownNumber& n : known_numbers({}, {m}, {}, others))
+            key += std::to_string(n.binding) + "." + std::to_string(n.offset) + "=" + std::to_string(n.value) + " ";
+        return key;
+    };
+    MaterialRecord a = plain_material(), b = plain_material();
+    a.albedo_slice = 0, b.albedo_slice = 4096;
+    a.phong_set = 0, b.phong_set = 64;
+    EXPECT_EQ(key_of(a, {}), key_of(b, {}));
+    b.technique = a.technique + 1;
+    EXPECT_NE(key_of(a, {}), key_of(b, {}));
+    EXPECT_EQ(key_of(a, {FrameDesc()}), key_of(b, {FrameDesc()})) << "frames that share pipelines have other techniques";
+}
+
 TEST(prune, leaves_lights_where_there_are_some)
 {
     FrameRecord frame = {};
@@ -150,8 +168,11 @@ TEST(prune, makes_valid_modules)
     const struct {
         const char* name;
         std::vector<std::int32_t> constants;
-    } cases[] = {
-        {"shade", {0x2a, 0x15, 0, 1}}, {"share", {0x20, 1, 1, 1}}, {"forward_native", {1, 1, 0, 0, 0x155}}, {"lean", {1, 2, 3, 4, 5}}};
+    } cases[] = {{"shade", {0x2a, 0x15, 0, 1}},
+                 {"compose", {0x2a, 0x15, 0, 1, -1, 1}},
+                 {"share", {0x20, 1, 1, 1}},
+                 {"forward_native", {1, 1, 0, 0, 0x155}},
+                 {"lean", {1, 2, 3, 4, 5}}};
     for (int i = 0; i < 2 * static_cast<int>(std::size(cases)); ++i) {
         const auto& [name, constants] = cases[i / 2];
         const bool known = i % 2 == 1;
