@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <vulkan/vulkan.h>
 
 #include "core/scene/builtin/builtin.h"
@@ -159,6 +160,28 @@ TEST(vulkan, windows_have_the_words_of_the_tile_renderer)
             const Result<Frame> refused = forward.renderer->render(d);
             EXPECT_TRUE(!refused && refused.error().code == ExitCode::usage);
         }
+}
+
+// Stages are pruned by a frame's numbers: the next frame has others.
+TEST(vulkan, frames_with_other_settings_have_the_words_of_the_tile_renderer)
+{
+    const std::unique_ptr<Stage> stage = spheres();
+    Device device(*stage, lavapipe());
+    BN_NEEDS(device);
+    void (*const changes[])(FrameDesc&) = {[](FrameDesc&) {},
+                                           [](FrameDesc& d) { d.energy_compensation = true; },
+                                           [](FrameDesc& d) { d.tilt_rad = glm::vec2(0.3f, -0.1f); },
+                                           [](FrameDesc& d) { d.technique = "mc", d.samples = 8; },
+                                           [](FrameDesc& d) { d.background = false, d.fresnel = kFresnelConductor; },
+                                           [](FrameDesc&) {}};
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
+        FrameDesc d = desc_of(*stage, 64, 40, 1);
+        d.technique = "bent_normal", d.samples = 1;
+        changes[i](d);
+        const Result<Frame> frame = device.renderer->render(d);
+        ASSERT_TRUE(frame) << frame.error().line();
+        EXPECT_EQ(largest_difference(frame->color, stage->render(d, best_isa()).color), 0.0f) << i;
+    }
 }
 
 TEST(vulkan, a_limit_that_is_exceeded_is_named_with_need_and_have)
