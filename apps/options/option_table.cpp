@@ -111,8 +111,9 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--as-table", "FILE|FOLDER",
          "Tables for as_mc from burnish bake half-vectors and brdf-lut: each file by its own option, or their folder",
          files(to.plain.as_tables)},
-        {"--ltc-table", "FILE", "Table of linearly transformed cosines for --area-lights, from burnish bake ltc", file(to.plain.ltc_table),
-         "the program's own"},
+        {"--ltc-table", "FILE",
+         "Table of linearly transformed cosines for --area-lights, from burnish bake ltc, or an .npy array of 8x8x8x8 matrices",
+         file(to.plain.ltc_table), "the program's own"},
         {"--texture-anisotropy", "N", "Texture taps along the footprint's major axis at most, {}", integer(f.texture_anisotropy, 1, 16)},
         {"--no-background", "", "Leave the environment out of the background: black, with alpha as coverage", flag(f.background, false)},
     };

@@ -11,6 +11,7 @@
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/half.h"
+#include "shading/bake/ltc/npy.h"
 
 namespace burnish::ltc {
 namespace {
@@ -121,6 +122,8 @@ Result<Table> parse_table(const std::uint8_t* data, std::size_t bytes, const std
     const auto refuse = [&](const std::string& place, const std::string& reason) {
         return Error{ExitCode::bad_input, path, place, reason};
     };
+    if (is_npy(data, bytes))
+        return parse_npy(data, bytes, path, size);
     Header h;
     if (bytes < sizeof h || std::memcmp(data, kMagic, sizeof kMagic) != 0)
         return refuse("byte 0", "is not a table of transformed cosines");
