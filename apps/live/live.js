@@ -15,43 +15,131 @@
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
   }
 
-  const waiting = new Map();
-  let next = 0, worker = null, lost = null, begun = null, kept = null, running = null, asked = 0;
-  const post = message => new Promise((resolve, reject) => { waiting.set(++next, { resolve, reject }); worker.postMessage({ id: next, ...message }); });
-  const reject_all = error => { for (const { reject } of waiting.values()) reject(error); waiting.clear(); };
-  const lose = text => { lost = new Error(text); reject_all(lost); };
+  let lost = null, begun = null, kept = null, running = null, asked = 0, lead = null;
+
+  // A worker with a renderer of its own. ask(message) returns a promise of its answer.
+  class Renderer {
+    constructor(on_end) {
+      this.waiting = new Map(), this.next = 0, this.on_end = on_end;
+      this.worker = new Worker(URL.createObjectURL(new Blob([document.getElementById('burnish-worker').textContent], { type: 'text/javascript' })));
+      this.worker.onmessage = ({ data: answer }) => {
+        const wait = this.waiting.get(answer.id);
+        this.waiting.delete(answer.id);
+        if (!wait) return;
+        if (answer.error) wait.reject(new Error(answer.error)); else wait.resolve(answer);
+      };
+      this.worker.onerror = event => { event.preventDefault(); this.end(new Error('The renderer ended: ' + (event.message || 'the page may not start it') + '. Load the page again.')); };
+    }
+    ask(message, transferred = []) {
+      return new Promise((resolve, reject) => { this.waiting.set(++this.next, { resolve, reject }); this.worker.postMessage({ id: this.next, ...message }, transferred); });
+    }
+    end(error) {
+      this.worker.terminate();
+      this.on_end(error);
+      for (const { reject } of this.waiting.values()) reject(error);
+      this.waiting.clear();
+    }
+  }
 
   async function unpack() {
     if (typeof WebAssembly !== 'object' || typeof DecompressionStream !== 'function') throw new Error(kTooOld);
     const files = {};
     for (const element of document.querySelectorAll('script.burnish-file')) files[element.dataset.name] = await bytes_of(element);
-    return { files, wasm: await bytes_of(document.getElementById('burnish-wasm')), target: data.target };
+    const wasm = await bytes_of(document.getElementById('burnish-wasm'));
+    return { files, module: await WebAssembly.compile(wasm).catch(() => { throw new Error(kTooOld); }), target: data.target };
+  }
+
+  // Small phones keep the picture that the page was made with until their reader asks for more.
+  const small = (navigator.deviceMemory || 8) <= 1 || matchMedia('(pointer: coarse) and (max-width: 480px)').matches;
+  let wanted = !small;
+  function until_wanted() {
+    return wanted || new Promise(resolve => {
+      const button = Object.assign(document.createElement('button'), { id: 'burnish-begin', textContent: 'Draw here' });
+      button.style.cssText = 'position: fixed; z-index: 9; left: 50%; bottom: 4em; transform: translateX(-50%); padding: .6em 1.2em; font: inherit';
+      button.addEventListener('click', () => { wanted = true; button.remove(); resolve(); });
+      document.body.append(button);
+    });
   }
 
   async function begin() {
+    await until_wanted();
     kept ||= unpack();
     const contents = await kept;
-    worker = new Worker(URL.createObjectURL(new Blob([document.getElementById('burnish-worker').textContent], { type: 'text/javascript' })));
-    worker.onmessage = ({ data: answer }) => {
-      const wait = waiting.get(answer.id);
-      waiting.delete(answer.id);
-      if (!wait) return;
-      if (answer.error) wait.reject(new Error(/CompileError/.test(answer.error) ? kTooOld : answer.error)); else wait.resolve(answer);
-    };
-    worker.onerror = event => { event.preventDefault(); lose('The renderer ended: ' + (event.message || 'the page may not start it') + '. Load the page again.'); };
-    await post(contents);
+    lead = new Renderer(error => { if (error.name !== 'AbortError') lost = error; });
+    await lead.ask(contents);
   }
 
-  // Ends a picture that nobody waits for any more and that goes on: with its worker, which keeps nothing.
+  // Ends a picture that nobody waits for any more and that goes on: with its workers, which keep nothing.
   function end_forgotten() {
     if (!running || !running.signal || !running.signal.aborted || performance.now() - running.since < kPatience) return;
     running = null;
-    worker.terminate();
-    reject_all(new DOMException('', 'AbortError'));
+    for (const renderer of [lead, ...helpers]) renderer.end(new DOMException('', 'AbortError'));
     begun = begin();
   }
 
-  // One question is with the worker; of the others, those that are still wanted wait.
+  // --- Several workers draw bands of one picture. Bits do not depend on the bands.
+
+  const kMostWorkers = 4, kMostShared = 1 << 22;      // kMostShared: pixels, whose floats the workers exchange
+  const kMostBytes = 1 << 30, kWorkerBytes = 100e6;  // of all workers; of one without the scene
+  const helpers = [], wholes = new Set(), drawn = new Set();  // wholes: keys of pictures that have no bands; drawn: pictures that the lead keeps
+  let hired = false, in_bands = 0, ends = [0, 1];  // in_bands: pictures so far; ends: shares of the height where bands begin and end
+
+  const key_of = ({ scene, options }) => JSON.stringify([scene, Object.entries(options || {}).filter(([name]) => !['--eye', '--target', '--fov', '--orbit', '--zoom'].includes(name))]);
+  const pixels_of = body => body.width * body.height / (body.reduction || 1) ** 2;
+
+  // Starts the helpers after a first picture, which they prepare too.
+  async function hire(body) {
+    const contents = await kept, bytes = Object.values(contents.files).reduce((sum, file) => sum + file.byteLength, 0);
+    const count = Math.min(kMostWorkers, navigator.hardwareConcurrency || 1, Math.floor(kMostBytes / (kWorkerBytes + 4 * bytes))) - 1;
+    if (hired || count < 1) return;
+    hired = true;
+    await Promise.all(Array.from({ length: count }, async () => {
+      const helper = new Renderer(() => { helpers.splice(helpers.indexOf(helper) >>> 0, 1); hired = helpers.length > 0; });
+      try {
+        await helper.ask(contents);
+        await helper.ask({ path: '/part', body: JSON.stringify({ picture: body, from: 0, to: 0.01 }) });
+        helpers.push(helper);
+      } catch { helper.worker.terminate(); }  // a page of fewer workers
+    }));
+  }
+
+  // Moves the ends of bands so that each would have taken equally long.
+  function balance(took) {
+    const all = took.reduce((sum, ms) => sum + ms, 0), each = all / took.length, moved = [0];
+    let sum = 0, band = 0;
+    for (let k = 1; k < took.length; ++k) {
+      while (band < took.length - 1 && sum + took[band] < k * each) sum += took[band++];
+      moved.push(ends[band] + (ends[band + 1] - ends[band]) * (k * each - sum) / Math.max(took[band], 1e-3));
+    }
+    ends = [...moved.map((end, k) => 0.5 * (end + ends[k])), 1];
+  }
+
+  // Returns the answer of /draw, or nothing where the picture has no bands.
+  async function draw_in_bands(body) {
+    const workers = [lead, ...helpers], since = performance.now();
+    if (ends.length !== workers.length + 1) ends = Array.from({ length: workers.length + 1 }, (_, k) => k / workers.length);
+    const parts = await Promise.all(workers.map((worker, k) => worker.ask({ path: '/part', body: JSON.stringify({ picture: body, from: ends[k], to: ends[k + 1] }) }).catch(fault => { if (worker === lead) throw fault; worker.end(fault); return {}; })));
+    if (parts.some(part => part.status === 409)) wholes.add(key_of(body));
+    if (parts.some(part => part.status !== 200)) return null;
+    drawn.add(JSON.stringify(body)), ++in_bands;
+    if (drawn.size > 8) drawn.delete(drawn.values().next().value);
+    const pixels = parts.map(part => part.body), bands = parts.map(part => JSON.parse(part.info));
+    const joined = await lead.ask({ path: '/join', body: JSON.stringify({ picture: body, bands, ms: performance.now() - since }), pixels }, pixels);
+    balance(parts.map(part => part.ms));
+    return joined;
+  }
+
+  async function answer_to(path, body) {
+    if (path === '/draw' && helpers.length && pixels_of(body) <= kMostShared && !wholes.has(key_of(body)) && !drawn.has(JSON.stringify(body))) {
+      const joined = await draw_in_bands(body);
+      if (joined) return joined;
+    }
+    const answer = await lead.ask({ path, body: body && JSON.stringify(body) });
+    if (path === '/draw' && answer.status === 200 && body.reduction === 1) hire(body);
+    return answer;
+  }
+
+  // One question is with the workers; of the others, those that are still wanted wait.
   let last = Promise.resolve();
   function ask(path, body, signal) {
     begun ||= begin();
@@ -64,7 +152,7 @@
       if (signal && signal.aborted) throw new DOMException('', 'AbortError');
       running = { signal, since: performance.now() };
       try {
-        return await post({ path, body: body && JSON.stringify(body) });
+        return await answer_to(path, body);
       } finally {
         running = null;
       }
@@ -101,7 +189,7 @@
   let studio = null;
   // Opens the page of `burnish serve` over this one, with a row's scene and options.
   async function open(key) {
-    names.page = key;
+    names.page = key, wanted = true;
     const dialog = document.createElement('dialog'), close = document.createElement('button'), frame = document.createElement('iframe');
     dialog.className = 'burnish-live';
     dialog.setAttribute('aria-label', 'The picture, drawn here');
@@ -135,5 +223,5 @@
     return made;
   }
 
-  window.burnish_live = { ask, prove, button, get page() { return data.rows[names.page]; } };
+  window.burnish_live = { ask, prove, button, get page() { return data.rows[names.page]; }, get workers() { return 1 + helpers.length; }, get in_bands() { return in_bands; } };
 })();

@@ -16,135 +16,20 @@
 #include "apps/pieces/packed.h"
 #include "apps/pieces/pieces.h"
 #include "apps/render/picture.h"
+#include "apps/render/rows.h"
 #include "core/base/clock.h"
-#include "core/base/hash.h"
 #include "core/image/io/image_io.h"
 #include "core/image/io/image_stream.h"
 #include "core/jobs/jobs.h"
-#include "raster/frame/upload.h"
 #include "raster/reference/scene_key.h"
 
 namespace burnish {
 namespace {
 
-// The rows of a band, in each form that some output needs.
-struct Band {
-    Image linear;                   // f32, RGB or RGBA
-    Image layered;                  // f32, with --aov
-    std::vector<std::string> names; // of its channels
-    Image shown;                    // u8, for .png
-    FrameStats stats;
-    std::uint64_t nan_pixels = 0;
-};
-
-struct Bands {
-    const RenderOptions& options;
-    FrameDesc desc; // of the first window
-    Session& session;
-    const RenderFigures& figures;
-    bool margin = false; // pixels read their neighbours, so windows reach beyond the band
-
-    int width() const { return picture_width(desc); }
-    int height() const { return picture_height(desc); }
-    int count() const { return (height() + options.band_rows - 1) / options.band_rows; }
-    int rows(int band) const { return std::min(options.band_rows, height() - band * options.band_rows); }
-    bool in_cells() const { return std::max(width(), height()) > kMaxPictureSide; }
-};
-
-bool has_margin(const RenderOptions& options, const FrameDesc& desc, const Session& session)
-{
-    const auto shares = [&](std::size_t material) { return (technique_of(desc, material).traits & kSharesSamples) != 0; };
-    bool any = (technique_of(desc).traits & kSharesSamples) != 0;
-    for (std::size_t i = 0; i < desc.by_material.size(); ++i)
-        any = any || shares(i);
-    return any || casts_shadows({options.shadows, options.shadow_samples, options.isa, true}, desc, session);
-}
-
-// One direction of a window and of the part of it that a band takes.
-struct Side {
-    int first, size; // of the window in the picture
-    int skip, taken; // of the window
-};
-Side side_of(int begin, int end, int picture, bool margin)
-{
-    const int before = margin && begin > 0 ? kWindowStep : 0, after = margin ? std::min(kWindowStep, picture - end) : 0;
-    return {begin - before, end - begin + before + after, before, end - begin};
-}
-
-// Copies a part of a window into the band, which is made where it is empty. left: the part's first column in the band.
-void paste(const Image& window, const Side& x, const Side& y, int width, int left, Image& band)
-{
-    if (band.empty())
-        band = make_image(width, y.taken, window.channels, window.type);
-    const std::size_t pixel = static_cast<std::size_t>(window.channels) * pixel_type_bytes(window.type);
-    for (int row = 0; row < y.taken; ++row) {
-        const std::size_t from =
-            static_cast<std::size_t>(y.skip + row) * static_cast<std::size_t>(window.width) + static_cast<std::size_t>(x.skip);
-        const std::size_t to = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(left);
-        std::memcpy(band.bytes.data() + to * pixel, window.bytes.data() + from * pixel, static_cast<std::size_t>(x.taken) * pixel);
-    }
-}
-
-bool shows_some(const RenderOptions& options)
-{
-    return std::any_of(options.outputs.begin(), options.outputs.end(), is_png);
-}
-
-void add_stats(const FrameStats& from, FrameStats& to)
-{
-    to.triangles = from.triangles; // fragments of margins lie in several windows, so none are counted
-    to.ms += from.ms;
-}
-
 Result<Band> draw_band(const Bands& bands, int index)
 {
-    Band band;
-    RenderOptions options = bands.options;
-    options.quiet = true; // of the windows
-    const int top = index * bands.options.band_rows;
-    const Side y = side_of(top, top + bands.rows(index), bands.height(), bands.margin);
-    const int step = bands.in_cells() ? kWindowCell : bands.width();
-    for (int left = 0; left < bands.width(); left += step) {
-        // Draw a window
-        const Side x = side_of(left, std::min(left + step, bands.width()), bands.width(), bands.margin);
-        FrameDesc desc = bands.desc;
-        desc.window.left = x.first, desc.window.top = y.first, desc.width = x.size, desc.height = y.size;
-        const TraceSpan span("band");
-        const Result<Rendered> rendered = render_frames(options, desc, bands.session, bands.figures);
-        BN_TRY(rendered);
-        add_stats(rendered->figures.frame, band.stats);
-        // Copy the band's part
-        paste(rendered->color, x, y, bands.width(), left, band.linear);
-        if (!options.aov.empty())
-            paste(rendered->layered.image, x, y, bands.width(), left, band.layered), band.names = rendered->layered.names;
-        if (shows_some(options))
-            paste(display_picture(rendered->color, options.tonemap, options.exposure_ev, rendered->parts, options.resolve), x, y,
-                  bands.width(), left, band.shown);
-    }
-    band.nan_pixels = count_not_finite(band.linear);
-    return band;
+    return draw_rows(bands, index * bands.options.band_rows, bands.rows(index));
 }
-
-// The hash of a picture, as pixel_hash(), from its bands.
-class BandHash {
-  public:
-    BandHash(int width, int height)
-    {
-        const std::uint32_t header[3] = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 3};
-        hash_ = HashStream(hash_bytes(header, sizeof header));
-    }
-    void add(const Image& band)
-    {
-        if (band.channels == 3)
-            return hash_.add(band.bytes.data(), band.bytes.size());
-        for (std::size_t i = 0; i < static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height); ++i)
-            hash_.add(band.f32() + i * static_cast<std::size_t>(band.channels), 3 * sizeof(float));
-    }
-    std::uint64_t value() const { return hash_.value(); }
-
-  private:
-    HashStream hash_;
-};
 
 // The outputs of a picture, open from its first band on.
 class BandFiles {
@@ -247,7 +132,7 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
         fmt::format("{:016x} {:016x} {}{}", reference_key(parts.input(), bands.session.drawn(bands.desc), bands.options.reference),
                     parts.environment->content_hash, bands.options.band_rows,
                     text_of_scene(bands.options.scene, bands.session.scene().files) + text_of_given(given)) +
-        (shows_some(bands.options) ? "\nshown" : "");
+        (writes_png(bands.options) ? "\nshown" : "");
     const auto rate = std::make_shared<std::optional<double>>(); // seconds a row
     std::vector<JobPiece> pieces;
     for (int i = 0; i < bands.count(); ++i) {

@@ -60,6 +60,7 @@ class SettingReader {
     SettingReader();
     SettingReader(const SettingReader&) = delete;
     Result<AtlasSetting> read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
+    const OptionTable& given() const { return command_.options; } // of the setting that was read last
 
   private:
     RenderArguments arguments_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <fmt/core.h>
 #include <system_error>
 #include <thread>
 
@@ -129,9 +130,8 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     return made;
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request, const std::stop_token& stop)
+Result<Drawings::Opened> Drawings::open(const DrawRequest& request)
 {
-    auto drawn = std::make_shared<Drawn>();
     RenderArguments arguments;
     Result<RenderOptions> options = render_options_of(request, limits_, threads_, arguments);
     BN_TRY(options);
@@ -144,26 +144,99 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     if (!made && made.error().code == ExitCode::stopped)
         return overtaken();
     BN_TRY(made);
-    Session& session = *made->session;
-    const Result<ChosenView> view = choose_view(*options, session.scene(), session.tables());
+    const Result<ChosenView> view = choose_view(*options, made->session->scene(), made->session->tables());
     BN_TRY(view);
     options->outputs = {"picture.png"}; // whose edges need the pixels' samples
     FrameDesc desc = options->frame;
     desc.view = view->view;
+    return Opened{std::move(*options), std::move(*made), desc};
+}
+
+std::shared_ptr<const Drawn> Drawings::drawn_of(Opened opened, Rendered rendered) const
+{
+    auto drawn = std::make_shared<Drawn>();
+    const Session& session = *opened.made.session;
+    drawn->warnings = std::move(opened.made.warnings);
+    drawn->warnings.insert(drawn->warnings.begin(), opened.options.warnings.begin(), opened.options.warnings.end());
+    drawn->files = files_read(session);
+    const DrawTables& tables = session.tables();
+    drawn->view = opened.desc.view, drawn->origin = session.scene().origin;
+    drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));
+    drawn->radius = std::max(0.5f * glm::length(tables.bounds_max - tables.bounds_min), 1e-20f);
+    drawn->options = std::move(opened.options), drawn->rendered = std::move(rendered);
+    return drawn;
+}
+
+Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& request, const std::stop_token& stop)
+{
+    Result<Opened> opened = open(request);
+    BN_TRY(opened);
     const Controlled controlled({stop, {}});
-    Result<Rendered> rendered = guarded(request.scene, [&] { return render_frames(*options, desc, session, made->figures); });
+    Result<Rendered> rendered =
+        guarded(request.scene, [&] { return render_frames(opened->options, opened->desc, *opened->made.session, opened->made.figures); });
     if (!rendered && rendered.error().code == ExitCode::stopped)
         return overtaken();
     BN_TRY(rendered);
-    drawn->warnings = made->warnings;
-    drawn->warnings.insert(drawn->warnings.begin(), options->warnings.begin(), options->warnings.end());
-    drawn->files = files_read(session);
-    const DrawTables& tables = session.tables();
-    drawn->view = view->view, drawn->origin = session.scene().origin;
-    drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));
-    drawn->radius = std::max(0.5f * glm::length(tables.bounds_max - tables.bounds_min), 1e-20f);
-    drawn->options = std::move(*options), drawn->rendered = std::move(*rendered);
-    return std::shared_ptr<const Drawn>(drawn);
+    return drawn_of(std::move(*opened), std::move(*rendered));
+}
+
+Result<Band> Drawings::draw_part(const DrawRequest& request, double from, double to)
+{
+    const std::lock_guard drawing(tile_);
+    Result<Opened> opened = open(request);
+    BN_TRY(opened);
+    const RenderOptions& options = opened->options;
+    if (request.reference_samples > 0 || options.show != Shown::light || options.floor == FloorChoice::mirror)
+        return Error{ExitCode::usage, request.scene, "", "is drawn as a whole", "FrameDesc::window"};
+    FrameDesc& desc = opened->desc;
+    const auto row = [height = desc.height](double share) {
+        return share >= 1.0 ? height : static_cast<int>(std::max(share, 0.0) * height) / kWindowStep * kWindowStep;
+    };
+    const int top = row(from), rows = row(to) - top;
+    if (rows <= 0)
+        return Band();
+    desc.window.picture_width = desc.width, desc.window.picture_height = desc.height;
+    Session& session = *opened->made.session;
+    const Bands bands{options, desc, session, opened->made.figures, has_margin(options, desc, session)};
+    return guarded(request.scene, [&] { return draw_rows(bands, top, rows); });
+}
+
+Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, const std::vector<Band>& bands, double ms)
+{
+    const std::lock_guard drawing(tile_);
+    Result<Opened> opened = open(request);
+    BN_TRY(opened);
+    const int width = opened->desc.width, height = opened->desc.height;
+    Rendered out;
+    out.figures = opened->made.figures;
+    BandHash hash(width, height);
+    int rows = 0;
+    // Append the bands
+    for (const Band& band : bands) {
+        const auto append = [&](const Image& from, Image& to) {
+            if (to.empty())
+                to = Image{from.width, 0, from.channels, from.type, {}};
+            to.bytes.insert(to.bytes.end(), from.bytes.begin(), from.bytes.end()), to.height += from.height;
+            return from.width == width && from.channels == to.channels && from.type == to.type;
+        };
+        if (band.linear.empty())
+            continue;
+        if (band.linear.height != band.shown.height || !append(band.linear, out.color) || !append(band.shown, out.shown))
+            return usage_error("bands", "differ in their pixels");
+        hash.add(band.linear);
+        rows += band.linear.height;
+        add_stats(band.stats, out.figures.frame);
+        out.figures.nan_pixels += band.nan_pixels;
+        for (std::size_t i = 0; i < kFrameStages; ++i)
+            out.profile.stage_ns[i] += band.stage_ns[i];
+    }
+    if (rows != height)
+        return usage_error("bands", fmt::format("have {} of {} rows", rows, height));
+    out.figures.hash = hash.value(), out.figures.frame_ms = {ms};
+    const std::shared_ptr<const Drawn> drawn = drawn_of(std::move(*opened), std::move(out));
+    const std::lock_guard lock(kept_);
+    keep(request, drawn);
+    return drawn;
 }
 
 void Drawings::stop_older(bool passing)
@@ -225,7 +298,13 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
     const std::lock_guard lock(kept_);
     if (changes != changes_) // of files that are others now
         return drawn;
-    pictures_.emplace_front(request, *drawn);
+    keep(request, *drawn);
+    return drawn;
+}
+
+void Drawings::keep(const DrawRequest& request, const std::shared_ptr<const Drawn>& drawn)
+{
+    pictures_.emplace_front(request, drawn);
     std::int64_t pixels = 0;
     std::size_t kept = 0;
     auto at = pictures_.begin();
@@ -235,7 +314,6 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
             break;
     }
     pictures_.erase(at, pictures_.end());
-    return drawn;
 }
 
 std::uint64_t Drawings::look_for_changes()

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/render/picture.h"
+#include "apps/render/rows.h"
 #include "apps/serve/request.h"
 
 namespace burnish {
@@ -43,6 +44,13 @@ class Drawings {
     // ExitCode::differ. Other errors are those of `burnish render`.
     Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request, const Call& call);
 
+    // Draws the rows between two shares of the picture's height, in [0, 1]. Keeps the session, not the rows. Bands with shared ends make
+    // the picture. Errors: those of draw(), and ExitCode::usage at FrameDesc::window for a picture that is drawn as a whole.
+    Result<Band> draw_part(const DrawRequest& request, double from, double to);
+    // Joins bands from top to bottom. Keeps the picture as draw() does. ms: time of the picture. Errors: ExitCode::usage for bands that do
+    // not fill the picture.
+    Result<std::shared_ptr<const Drawn>> join(const DrawRequest& request, const std::vector<Band>& bands, double ms);
+
     // Forgets everything if a file that was read has changed since. Returns how often that happened.
     std::uint64_t look_for_changes();
     void stop(); // ends all pictures; later ones stop at once
@@ -60,6 +68,15 @@ class Drawings {
     };
     using Time = std::filesystem::file_time_type;
     Result<Prepared> prepared(const DrawRequest& request, const RenderOptions& options);
+    // A request with its session, ready to draw.
+    struct Opened {
+        RenderOptions options;
+        Prepared made;
+        FrameDesc desc;
+    };
+    Result<Opened> open(const DrawRequest& request);
+    std::shared_ptr<const Drawn> drawn_of(Opened opened, Rendered rendered) const;
+    void keep(const DrawRequest& request, const std::shared_ptr<const Drawn>& drawn);
     Result<std::shared_ptr<const Drawn>> draw_now(const DrawRequest& request, const std::stop_token& stop);
     void note_file(const std::string& path, Time time);
     void stop_older(bool passing);

@@ -1,6 +1,7 @@
 #include "apps/serve/pages.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
 #include <mutex>
@@ -61,6 +62,38 @@ Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<s
             {"warnings", drawn.warnings}};
 }
 
+Json json_of_band(const Band& band)
+{
+    return {{"width", band.linear.width},    {"rows", band.linear.height},        {"linear", band.linear.channels},
+            {"shown", band.shown.channels},  {"triangles", band.stats.triangles}, {"ms", band.stats.ms},
+            {"nan_pixels", band.nan_pixels}, {"stage_ns", band.stage_ns}};
+}
+
+// Reads what json_of_band() wrote, with the pixels of all bands. Errors: ExitCode::usage.
+Result<std::vector<Band>> bands_of(const Json& json, std::span<const std::uint8_t> pixels)
+{
+    constexpr int kMostSide = 1 << 14;
+    std::vector<Band> bands;
+    for (const Json& figures : json) {
+        Band band;
+        const int width = figures.at("width"), rows = figures.at("rows");
+        const std::pair<Image*, int> images[] = {{&band.linear, figures.at("linear")}, {&band.shown, figures.at("shown")}};
+        for (const auto& [image, channels] : images) {
+            if (width < 0 || width > kMostSide || rows < 0 || rows > kMostSide || channels < 0 || channels > 4)
+                return usage_error("bands", "are no bands");
+            *image = make_image(width, rows, channels, image == &band.linear ? PixelType::f32 : PixelType::u8);
+            if (image->bytes.size() > pixels.size())
+                return usage_error("bands", "have too few pixels");
+            std::memcpy(image->bytes.data(), pixels.data(), image->bytes.size());
+            pixels = pixels.subspan(image->bytes.size());
+        }
+        band.stats.triangles = figures.at("triangles"), band.stats.ms = figures.at("ms");
+        band.nan_pixels = figures.at("nan_pixels"), band.stage_ns = figures.at("stage_ns").get<decltype(band.stage_ns)>();
+        bands.push_back(std::move(band));
+    }
+    return bands;
+}
+
 } // namespace
 
 class Pages::Answers {
@@ -74,16 +107,54 @@ class Pages::Answers {
 
     void operator()(const HttpRequest& request, HttpResponse& response)
     {
+        guard(response, [&] { return route(request, response); });
+    }
+
+    void draw_part(const HttpRequest& request, HttpResponse& response)
+    {
+        guard(response, [&]() -> Status {
+            const Result<Json> json = request_json(request.body);
+            BN_TRY(json);
+            const Result<DrawRequest> picture = draw_request_of(json->value("picture", Json()), *lists());
+            BN_TRY(picture);
+            const Result<Band> band = drawings_.draw_part(*picture, json->value("from", 0.0), json->value("to", 1.0));
+            if (!band && band.error().field == "FrameDesc::window")
+                return Error{ExitCode::differ, "", "", "the picture is drawn as a whole"};
+            BN_TRY(band);
+            response.headers.emplace_back(kPictureHeader, json_text(json_of_band(*band), -1));
+            response.type = "application/octet-stream";
+            for (const Image* image : {&band->linear, &band->shown})
+                response.body.append(reinterpret_cast<const char*>(image->bytes.data()), image->bytes.size());
+            return {};
+        });
+    }
+
+    void join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response)
+    {
+        guard(response, [&]() -> Status {
+            const Result<Json> json = request_json(request.body);
+            BN_TRY(json);
+            const Result<DrawRequest> picture = draw_request_of(json->value("picture", Json()), *lists());
+            BN_TRY(picture);
+            Result<std::vector<Band>> bands = bands_of(json->value("bands", Json::array()), pixels);
+            BN_TRY(bands);
+            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.join(*picture, *bands, json->value("ms", 0.0));
+            BN_TRY(drawn);
+            return this->picture(response, shown_picture(**drawn), info_of(*picture, **drawn, setting_.limit_words));
+        });
+    }
+
+  private:
+    template <class Work> static void guard(HttpResponse& response, const Work& work)
+    {
         try {
-            const Status done = route(request, response);
-            if (!done)
+            if (const Status done = work(); !done)
                 refuse(response, done.error());
         } catch (...) {
             refuse(response, error_of_exception(Error{ExitCode::internal, "", "", "a fault of burnish"}));
         }
     }
 
-  private:
     static void answer(HttpResponse& response, const Json& json)
     {
         response.type = "application/json", response.body = json_text(json, -1);
@@ -258,6 +329,16 @@ Pages::~Pages() = default;
 void Pages::answer(const HttpRequest& request, HttpResponse& response)
 {
     (*answers_)(request, response);
+}
+
+void Pages::draw_part(const HttpRequest& request, HttpResponse& response)
+{
+    answers_->draw_part(request, response);
+}
+
+void Pages::join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response)
+{
+    answers_->join(request, pixels, response);
 }
 
 void Pages::stop()

@@ -1,6 +1,8 @@
 // Answers what the page of `burnish serve` asks, whichever way the questions come.
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,11 @@ class Pages {
     ~Pages();
     // Status 400: the body says the error; 404; 409: another picture was asked for meanwhile.
     void answer(const HttpRequest& request, HttpResponse& response);
+    // For several renderers that draw one picture. draw_part answers {picture, from, to}, two shares of the height in [0, 1], with a header
+    // about the rows and their pixels: floats, then 8 bits. join answers {picture, bands, ms}, headers of bands from top to bottom, as POST
+    // /draw does; pixels: those of all bands. Status 409 of draw_part: the picture is drawn as a whole.
+    void draw_part(const HttpRequest& request, HttpResponse& response);
+    void join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response);
     void stop(); // ends all pictures; later ones stop at once
 
   private:

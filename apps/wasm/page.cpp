@@ -52,6 +52,23 @@ Page& page()
     return *p;
 }
 
+// Answers a question by `work`. Returns the answer's status.
+template <class Work> int answered(const char* path, const char* body, const Work& work)
+{
+    Page& p = page();
+    HttpRequest request;
+    request.method = body ? "POST" : "GET", request.path = path, request.body = body ? body : "";
+    p.response = {};
+    p.info.clear();
+    if (!p.pages)
+        return 404;
+    work(*p.pages, request, p.response);
+    for (const auto& [name, value] : p.response.headers)
+        if (name == kPictureHeader)
+            p.info = value;
+    return p.response.status;
+}
+
 } // namespace
 } // namespace burnish
 
@@ -75,22 +92,23 @@ extern "C" EMSCRIPTEN_KEEPALIVE const char* burnish_page_open(const char* target
     }
 }
 
-// Answers a question. Returns the answer's status. burnish_page_body, _size and _info then hold the answer until the next question.
+// Answers a question, or draws a part of a picture at /part (Pages::draw_part). Returns the answer's status. burnish_page_body, _size and
+// _info then hold the answer until the next question.
 extern "C" EMSCRIPTEN_KEEPALIVE int burnish_page_ask(const char* path, const char* body)
 {
-    using namespace burnish;
-    Page& p = page();
-    HttpRequest request;
-    request.method = body ? "POST" : "GET", request.path = path, request.body = body ? body : "";
-    p.response = {};
-    p.info.clear();
-    if (!p.pages)
-        return 404;
-    p.pages->answer(request, p.response);
-    for (const auto& [name, value] : p.response.headers)
-        if (name == kPictureHeader)
-            p.info = value;
-    return p.response.status;
+    const bool part = std::strcmp(path, "/part") == 0;
+    return burnish::answered(path, body, [&](burnish::Pages& pages, const burnish::HttpRequest& request, burnish::HttpResponse& response) {
+        part ? pages.draw_part(request, response) : pages.answer(request, response);
+    });
+}
+
+// Joins bands that other workers drew (Pages::join). Returns the answer's status.
+extern "C" EMSCRIPTEN_KEEPALIVE int burnish_page_join(const char* body, const std::uint8_t* pixels, std::size_t size)
+{
+    return burnish::answered("/join", body,
+                             [&](burnish::Pages& pages, const burnish::HttpRequest& request, burnish::HttpResponse& response) {
+                                 pages.join(request, {pixels, size}, response);
+                             });
 }
 
 extern "C" EMSCRIPTEN_KEEPALIVE const char* burnish_page_body()

@@ -4,6 +4,7 @@ import base64
 import functools
 import http.server
 import json
+import os
 import pathlib
 import shutil
 import struct
@@ -246,6 +247,38 @@ def shown(bench, browser, mode="A"):
     return hash_
 
 
+CORES = min(4, os.cpu_count())
+
+
+def helped(browser):
+    """Waits until all workers of the page draw."""
+    browser.until(f"burnish_live.workers === {CORES}", 120)
+
+
+@case("wasm.glass_is_drawn_by_one_worker", "of_wasm", tier="nightly", budget=150)
+def glass_as_a_whole(bench):
+    """And a small phone waits until its reader asks."""
+    export_page(bench, "glass.html", "builtin:glass", "--env-size", "32")
+    with Browser(bench.folder) as browser:
+        browser.send("Emulation.setTouchEmulationEnabled", enabled=True)
+        browser.size(400, 700)
+        browser.open(bench.folder / "glass.html")
+        browser.until("document.getElementById('burnish-begin')")
+        check(browser.value("document.getElementById('a').naturalWidth") > 0, "the picture that the page was made with is gone")
+        browser.screenshot(bench.folder / "phone.png", whole=False)
+        browser.value("document.getElementById('burnish-begin').click()")
+        browser.until(PROOF, 120)
+        check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
+        first = shown(bench, browser)
+        helped(browser)
+        browser.value("document.getElementById('view').focus()")
+        browser.value("document.body.dataset.done = ''")
+        browser.press("ArrowLeft")
+        browser.until("document.body.dataset.done === 'A' && !document.getElementById('command').textContent.includes('--msaa 1')", 120)
+        check(shown(bench, browser) != first and browser.value("burnish_live.in_bands") == 0, "glass has bands")
+        check(not browser.faults, str(browser.faults))
+
+
 @case("wasm.a_page_draws_from_disk_with_the_program_s_bits", "of_wasm", tier="nightly", budget=150)
 def page_from_disk(bench):
     export_page(bench, "page.html", "builtin:teapot", "--technique", "bent_normal", "--env-size", "64")
@@ -256,6 +289,7 @@ def page_from_disk(bench):
         browser.until(PROOF, 120)
         check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
         first = shown(bench, browser)
+        helped(browser)
         # By keyboard alone
         browser.value("document.getElementById('view').focus()")
         for key in ("ArrowLeft", "ArrowUp", "+"):
@@ -263,6 +297,7 @@ def page_from_disk(bench):
             browser.press(key, text=key if key == "+" else None)
             browser.until("document.body.dataset.done === 'A'", 120)
         check(shown(bench, browser) != first, "the view did not turn")
+        check(browser.value("burnish_live.in_bands") >= (3 if CORES > 1 else 0), "one worker draws")
         # Two settings, and their difference
         browser.value("document.querySelector('[data-edit=B]').click()")
         browser.value("(() => { const list = document.querySelector('[data-name=\"--technique\"] select'); list.value = 'split_isotropic'; list.dispatchEvent(new Event('change')); })()")
@@ -523,6 +558,28 @@ def live_golden(bench):
     check(files["scenes/" + page["rows"]["model"]["scene"]] == model.read_bytes(), str(list(files)))
     for name, path in (("model", "set/light.hdr"), ("night", "set/night/light.hdr")):  # two lights of one name
         check(files["scenes/" + page["rows"][name]["environment"]] == (bench.folder / path).read_bytes(), f"{name}: {list(files)}")
+
+
+@case("wasm.worst_places_of_the_atlas_are_drawn_anew", "of_wasm", tier="nightly", budget=150)
+def atlas_anew(bench):
+    entries = ("bent_normal_bends_too_far", "half_vectors_in_eight_bits")  # the latter reads a table of a trial
+    done = bench.run("atlas", *entries, "--quick", "--live", "--renderer", package(bench), "-o", "atlas").expect(0)
+    check("the page cannot draw 1 of 2 entries" in done.err, done.err)
+    worst = max(json.loads((bench.folder / "atlas/atlas.json").read_text())["entries"][0]["steps"], key=lambda step: step["error"])
+    with Browser(bench.folder) as browser:
+        browser.size(1200, 800)
+        browser.open(bench.folder / "atlas/index.html")
+        check(browser.value("document.querySelectorAll('.burnish-open').length") == 1, "one entry has a button")
+        browser.value("document.querySelector('.burnish-open').click()")
+        inside = "document.querySelector('dialog.burnish-live iframe')?.contentDocument"
+        browser.until(f"{inside}?.body?.dataset.proof", 120)
+        check(browser.value(f"{inside}.body.dataset.proof") == "same", browser.value(f"{inside}.getElementById('proof').textContent"))
+        name, value = worst["values"].split()
+        check(f"--{name} {value}" in browser.value(f"{inside}.getElementById('command').textContent"), f"not the worst place, {worst}")
+        browser.screenshot(bench.folder / "atlas.png", whole=False)
+        check(not browser.faults, str(browser.faults))
+    for words, text in ((["--live"], "--live: needs -o"), (["-o", "b", "--renderer", "x"], "--renderer: needs --live")):
+        check(text in bench.run("atlas", "--quick", *words, entries[0]).expect(2).err, text)
 
 
 @case("wasm.rows_of_reports_open_in_the_page", "of_wasm", tier="nightly", budget=150)

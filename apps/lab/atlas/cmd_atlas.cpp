@@ -14,6 +14,7 @@
 #include "apps/cli/stop_signal.h"
 #include "apps/lab/atlas/options.h"
 #include "apps/lab/atlas/page.h"
+#include "apps/live/live.h"
 #include "apps/pieces/packed.h"
 #include "apps/pieces/pieces.h"
 #include "apps/risks/assets.h"
@@ -104,6 +105,7 @@ class Atlas {
     Status take(const std::vector<std::string>& files, const std::vector<JobPiece>& pieces); // into taken_
     void judge_entry(const AtlasEntry& entry, MeasuredEntry measured);
     void tell(const AtlasResult& result);
+    std::string live_html();
     Status write();
     Status bless();
 
@@ -224,6 +226,30 @@ Status Atlas::bless()
     return {};
 }
 
+// Returns the scripts that draw each entry's worst place anew in the page.
+std::string Atlas::live_html()
+{
+    LiveWish wish;
+    wish.renderer_folder = options_.renderer, wish.threads = options_.threads;
+    SettingReader reader;
+    for (const AtlasResult& r : results_) {
+        const auto worst = std::max_element(r.measured.steps.begin(), r.measured.steps.end(),
+                                            [](const AtlasStep& a, const AtlasStep& b) { return a.error < b.error; });
+        if (worst == r.measured.steps.end() || !reader.read(*r.entry, AtlasRole::test, worst->s, options_.walk().side, 0))
+            continue;
+        if (std::optional<DrawRequest> request = live_request(reader.given()))
+            wish.rows.push_back({r.entry->id, std::move(*request)});
+    }
+    const Result<LiveParts> parts = live_parts(wish);
+    if (!parts)
+        report_.warning("--live: " + parts.error().line());
+    else if (const std::size_t left = results_.size() - wish.rows.size() + parts->left_out.size())
+        report_.warning(
+            fmt::format("--live: the page cannot draw {} of {} entries{}", left, results_.size(),
+                        parts->left_out.empty() ? ": their options read a file" : ": " + parts->left_out.front().second.line()));
+    return parts ? parts->html : "";
+}
+
 Status Atlas::write()
 {
     const std::string json = json_text(atlas_json(results_, options_.walk()), 1) + "\n";
@@ -232,7 +258,7 @@ Status Atlas::write()
         files.emplace_back(options_.json, json);
     if (!options_.folder.empty()) {
         files.emplace_back(options_.folder + "/atlas.json", json);
-        files.emplace_back(options_.folder + "/index.html", atlas_page(results_, options_.walk()));
+        files.emplace_back(options_.folder + "/index.html", atlas_page(results_, options_.walk(), options_.live ? live_html() : ""));
     }
     for (const auto& [path, text] : files) {
         if (const Status written = write_text(path, text); !written)
@@ -305,6 +331,9 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
         return fail(good.error());
     if (options.list)
         return list_entries(options);
+    if (options.live)
+        if (const Status found = check_renderer(options.renderer); !found)
+            return fail(found.error());
     Result<BlessedTable> blessed = blessed_table(options);
     if (!blessed)
         return fail(blessed.error());

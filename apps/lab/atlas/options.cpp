@@ -39,12 +39,17 @@ OptionTable atlas_option_table(AtlasOptions& to)
               flag(to.quick)},
              {"--with", "WORDS", "Further options of burnish render for the failing picture and its cure, to try a change", text(to.with),
               ""}});
-    table.add("Output", {{"-o,--output", "DIR", "Folder for index.html and atlas.json, created if missing", folder(to.folder)},
-                         {"--json", "FILE", "Figures as JSON; - for standard output", file(to.json)},
-                         {"--table", "FILE", "Blessed figures to compare with", file(to.table), "the program's own"},
-                         {"--bless", "", "Write the measured figures into --table; other entries stay as they are", flag(to.bless)},
-                         quiet_option(to.quiet),
-                         verbose_option(to.verbosity)});
+    table.add("Output",
+              {{"-o,--output", "DIR", "Folder for index.html and atlas.json, created if missing", folder(to.folder)},
+               {"--live", "", "Put the renderer into the page, which then draws each entry's worst place anew: see burnish export page",
+                flag(to.live)},
+               {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),
+                "build/wasm/package"},
+               {"--json", "FILE", "Figures as JSON; - for standard output", file(to.json)},
+               {"--table", "FILE", "Blessed figures to compare with", file(to.table), "the program's own"},
+               {"--bless", "", "Write the measured figures into --table; other entries stay as they are", flag(to.bless)},
+               quiet_option(to.quiet),
+               verbose_option(to.verbosity)});
     table.add("Pieces, for several processes", piece_options(to.pieces));
     table.add("Machine", {threads_option(to.threads),
                           isa_option(to.isa, "Instruction set: {}; never changes the figures"),
@@ -57,6 +62,10 @@ Status check_atlas_options(AtlasOptions& options, const OptionTable& given)
     BN_TRY(check_piece_options(options.pieces));
     if (options.bless && any_pieces(options.pieces) && !options.pieces.merge)
         return usage_error("--bless", "is for the merge");
+    if (options.live && options.folder.empty())
+        return usage_error("--live", "needs -o DIR, whose page it is for");
+    if (given.given("--renderer") && !options.live)
+        return usage_error("--renderer", "needs --live");
     if (options.bless && options.table.empty())
         return usage_error("--bless", "needs --table, the file that is written");
     if (options.bless && !options.with.empty())

@@ -15,8 +15,9 @@ struct AtlasOptions {
     std::string folder, json;     // empty: no output
     std::string table;            // blessed figures; empty: the built-in table
     std::string with;             // see AtlasEntry
+    std::string renderer;         // of the page, with live
     PieceOptions pieces;
-    bool list = false, quick = false, bless = false, use_cache = true, quiet = false;
+    bool list = false, quick = false, bless = false, live = false, use_cache = true, quiet = false;
     int threads = 0, verbosity = 0;
     Isa isa = {};
 

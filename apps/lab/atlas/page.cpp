@@ -135,7 +135,7 @@ std::string section(const AtlasResult& r)
 
 } // namespace
 
-std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk)
+std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk, const std::string& live)
 {
     const auto red = std::count_if(results.begin(), results.end(), [](const AtlasResult& r) { return r.judged.verdict >= Verdict::worse; });
     const auto unknown =
@@ -160,7 +160,7 @@ std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk&
     page += overview(results);
     for (const AtlasResult& r : results)
         page += section(r);
-    return page + fmt::format("</main>\n<script>\n{}</script>\n</body>\n</html>\n", kAtlasPageScript.bytes);
+    return page + fmt::format("</main>\n{}<script>\n{}</script>\n</body>\n</html>\n", live, kAtlasPageScript.bytes);
 }
 
 } // namespace burnish

@@ -8,6 +8,7 @@
 namespace burnish {
 
 // Returns the page. The strips of pictures lie beside the page; no other file is needed.
-std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk);
+// live: scripts of a page with the renderer inside, by the entries' names; or "".
+std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk& walk, const std::string& live = "");
 
 } // namespace burnish

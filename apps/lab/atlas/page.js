@@ -6,6 +6,7 @@
   const entries = [...document.querySelectorAll('.entry')].map(node => {
     const slider = node.querySelector('.path'), panes = node.querySelector('.panes');
     const entry = {node, slider, panes, zoom: 1, flicker: 0};
+    if (window.burnish_live) node.querySelector('h2').append(' ', window.burnish_live.button(node.id));
     if (!slider) return entry;
     const steps = JSON.parse(node.querySelector('.steps').textContent), says = node.querySelector('.says');
     const show = () => {
