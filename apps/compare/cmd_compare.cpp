@@ -2,10 +2,13 @@
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "apps/cli/command.h"
+#include "apps/cli/command_line.h"
+#include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/compare/displayed.h"
@@ -13,8 +16,12 @@
 #include "apps/compare/folders.h"
 #include "apps/compare/options.h"
 #include "apps/compare/verdict.h"
+#include "apps/live/live.h"
+#include "apps/options/options.h"
+#include "core/base/text.h"
 #include "core/image/io/image_io.h"
 #include "core/image/magma.h"
+#include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
@@ -36,6 +43,7 @@ Examples:
   burnish compare expected/ actual/ --fail-flip 0.01 --junit junit.xml --csv figures.csv
   burnish compare --sequence truth_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
   burnish compare reference.exr test.exr --second-reference other_seed.exr
+  burnish compare reference.exr test.exr --html report.html --live "lamp.glb --technique auto --size 640x360"
   burnish compare mean.exr test.exr --variance variance.exr --significance 0.01)";
 
 // Returns each output path with its option.
@@ -75,19 +83,47 @@ Status write_error_map(const std::string& path, const Image& error)
     return write_image(path, stores_floats(path) ? error : magma_map(error));
 }
 
-Status write_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const Status& verdict)
+// Returns the scripts that draw TEST anew in the page. Warns if they draw another picture.
+Result<std::string> live_html(const CompareOptions& options, const Pictures& pictures, Report& report)
+{
+    if (options.live.empty())
+        return std::string();
+    RenderArguments arguments;
+    Command render{"render", "", render_option_table(arguments), "", {}};
+    const std::optional<std::vector<std::string>> words = split_words(options.live);
+    if (!words)
+        return usage_error("--live", "a quote does not end");
+    if (const Status read = read_command_line(render, *words); !read)
+        return usage_error("--live", line_of(read.error()));
+    const std::optional<DrawRequest> request = live_request(render.options);
+    if (!request)
+        return usage_error("--live", "has an option that a page cannot follow");
+    LiveWish wish{{{"0", *request}}, options.renderer, options.limits, options.threads};
+    Result<LiveParts> parts = live_parts(wish);
+    BN_TRY(parts);
+    if (!parts->left_out.empty())
+        return parts->left_out.front().second;
+    const Image& test = pictures.test;
+    const bool same_size = test.width == request->width && test.height == request->height;
+    if (!same_size || (test.type == PixelType::f32 && test.channels == 3 && pixel_hash(test) != parts->hash))
+        report.warning(fmt::format("--live draws another picture than {}", options.test));
+    return std::move(parts->html);
+}
+
+Status write_page(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const std::string& live,
+                  const Status& verdict)
 {
     if (figures.nan_pixels)
         return write_text(options.html, failure_page(options, verdict.error()));
-    const ComparePage top{options.reference + " and " + options.test, verdict_html(options, verdict)};
+    const ComparePage top{options.reference + " and " + options.test, verdict_html(options, verdict), live};
     const Result<std::string> page = compare_page(top, options, figures, pictures);
     return page ? write_text(options.html, *page) : Status(page.error());
 }
 
 // Tries every output even after one fails. Returns the first failure. For pictures with NaN only texts are written: there are no errors to
 // show, and the page holds none.
-Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const Status& verdict,
-                     Report& report)
+Status write_outputs(const CompareOptions& options, const CompareFigures& figures, const Pictures& pictures, const std::string& live,
+                     const Status& verdict, Report& report)
 {
     Json json = verdict_json(options, verdict);
     json.update(compare_json(options, figures));
@@ -99,7 +135,7 @@ Status write_outputs(const CompareOptions& options, const CompareFigures& figure
         const Status status = kind == "--json"    ? write_text(path, json_text(json, 2) + "\n")
                               : kind == "--csv"   ? write_text(path, csv_text(Json::array({json})))
                               : kind == "--junit" ? write_text(path, compare_junit({verdict_case(options.test, verdict)}))
-                              : kind == "--html"  ? write_page(options, figures, pictures, verdict)
+                              : kind == "--html"  ? write_page(options, figures, pictures, live, verdict)
                                                   : write_error_map(path, figures.flip.error);
         if (status)
             report.wrote(path);
@@ -136,11 +172,14 @@ int run_compare(const CompareArguments& arguments, const OptionTable& given)
         report.event("note", pictures->note);
     report.detail("pictures", describe(pictures->reference));
 
+    const Result<std::string> live = live_html(options, *pictures, report);
+    if (!live)
+        return fail(live.error());
     const CompareFigures figures = compare_pictures(options, *pictures, jobs);
     for (const auto& [name, value] : figure_lines(options, figures))
         report.figure(name, value);
     const Status verdict = judge_pictures(options, figures, *pictures);
-    const Status written = write_outputs(options, figures, *pictures, verdict, report);
+    const Status written = write_outputs(options, figures, *pictures, *live, verdict, report);
     const int code = verdict ? 0 : fail(verdict.error());
     return written ? code : fail(written.error());
 }

@@ -47,9 +47,9 @@ Json compare_json(const CompareOptions& options, const CompareFigures& figures);
 // Returns name and value for people, one metric a line.
 std::vector<std::pair<std::string, std::string>> figure_lines(const CompareOptions& options, const CompareFigures& figures);
 
-// A page: verdict and further HTML above the pictures.
+// A page: verdict and further HTML above the pictures. live: scripts that draw the test anew, under the key "0"; may be empty.
 struct ComparePage {
-    std::string title, top;
+    std::string title, top, live{};
 };
 
 // Returns a self-contained page: REFERENCE, TEST and the error map side by side, without other files or network.

@@ -71,6 +71,11 @@ std::vector<Option> output_rows(CompareOptions& to)
         {"--csv", "FILE", "Write the figures as a line of names, then a line of values for each picture", file(to.csv)},
         {"--junit", "FILE", "Write the verdict as JUnit XML; of folders: a case for each picture", file(to.junit)},
         {"--html", "FILE", "Write a page with both pictures, the error map and the figures", file(to.html)},
+        {"--live", "WORDS",
+         "With --html: options of burnish render that drew TEST, as one word. The page then draws it anew: see burnish export page",
+         text(to.live), ""},
+        {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),
+         "build/wasm/package"},
         {"--error-map", "FILE", "Write FLIP's errors: in the magma colour map, or as floats (exr, hdr, pfm)", file(to.error_map)},
         quiet_option(to.quiet),
         verbose_option(to.verbosity),
@@ -135,6 +140,10 @@ Result<CompareOptions> check_compare_options(const CompareArguments& in, const O
     BN_TRY(check_metrics(in.metrics, out));
     if (out.flip.start_ev && out.flip.stop_ev && *out.flip.start_ev > *out.flip.stop_ev)
         return usage_error("--stop-exposure", "is below --start-exposure");
+    if (given.given("--live") && (out.html.empty() || out.sequence))
+        return usage_error("--live", out.sequence ? "cannot be combined with --sequence" : "needs --html");
+    if (given.given("--renderer") && !given.given("--live"))
+        return usage_error("--renderer", "needs --live");
     if (out.variances.size() > 2)
         return usage_error("--variance", "is given more than twice: once for REFERENCE, once for TEST");
     for (const char* option : {"--significance", "--fail-z"})

@@ -26,8 +26,9 @@ struct CompareOptions {
     std::string second_reference;       // takes the reference's noise out of `pattern`; may be empty
     std::vector<std::string> variances; // the reference's, the test's
     double significance = 0.01, fail_z = 0.0;
-    bool sequence = false; // reference and test are patterns of file sequences
-    bool folders = false;  // reference and test are folders
+    bool sequence = false;      // reference and test are patterns of file sequences
+    bool folders = false;       // reference and test are folders
+    std::string live, renderer; // options of `burnish render` that drew the test, for the page; the renderer's folder
     std::optional<double> fail_flicker;
     int threads = 0;
     Limits limits;

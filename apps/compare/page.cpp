@@ -107,8 +107,8 @@ Result<std::string> compare_page(const ComparePage& page, const CompareOptions& 
                 svg_of(plot_histogram(figures.flip.error, *figures.errors)) + "</figure>\n";
     return text + fmt::format(
                       "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
-                      "<script>\n{}</script>\n</body>\n</html>\n",
-                      script_json(wall_data(figures)), kChartPageScript.bytes);
+                      "{}<script>\n{}</script>\n</body>\n</html>\n",
+                      script_json(wall_data(figures)), page.live, kChartPageScript.bytes);
 }
 
 } // namespace burnish

@@ -226,7 +226,7 @@ Status add_row(const std::string& key, const DrawRequest& request, Drawings& dra
     Result<std::string> picture = out.picture.empty() ? encode_png(shown_picture(**drawn)) : Result<std::string>(std::string());
     BN_TRY(picture);
     if (out.picture.empty())
-        out.picture = std::move(*picture);
+        out.picture = std::move(*picture), out.hash = (*drawn)->rendered.figures.hash;
     for (const std::string& warning : (*drawn)->warnings)
         if (std::find(out.warnings.begin(), out.warnings.end(), warning) == out.warnings.end())
             out.warnings.push_back(warning);

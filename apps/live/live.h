@@ -1,5 +1,6 @@
 // Pages with the renderer inside: their scripts, scenes and files.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,8 +30,9 @@ struct LiveWish {
 };
 
 struct LiveParts {
-    std::string html;    // scripts, for the end of the page: renderer, scenes, window.burnish_live
-    std::string picture; // the first row's, as PNG
+    std::string html;       // scripts, for the end of the page: renderer, scenes, window.burnish_live
+    std::string picture;    // the first row's, as PNG
+    std::uint64_t hash = 0; // of the first row's pixels
     std::vector<std::string> warnings{};
     std::vector<std::pair<std::string, Error>> left_out{}; // keys of rows that a page cannot draw, and why
 };

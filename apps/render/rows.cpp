@@ -5,6 +5,8 @@
 
 #include "apps/cli/outputs.h"
 #include "apps/render/picture.h"
+#include "core/image/io/image_io.h"
+#include "core/jobs/jobs.h"
 #include "raster/frame/upload.h"
 
 namespace burnish {

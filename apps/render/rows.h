@@ -1,5 +1,6 @@
 // Rows of a picture, drawn through windows. Their pixels have the bits of the whole picture.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>

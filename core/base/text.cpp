@@ -105,4 +105,30 @@ std::vector<std::string> split(const std::string& text, char at)
     return parts;
 }
 
+std::optional<std::vector<std::string>> split_words(const std::string& text)
+{
+    std::vector<std::string> words;
+    bool within = false; // a word
+    char quote = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote == 0 && (c == ' ' || c == '\t' || c == '\n')) {
+            within = false;
+            continue;
+        }
+        if (!within)
+            words.emplace_back();
+        within = true;
+        if (c == quote)
+            quote = 0;
+        else if (quote == 0 && (c == '"' || c == '\''))
+            quote = c;
+        else if (c == '\\' && quote != '\'' && i + 1 < text.size())
+            words.back() += text[++i];
+        else
+            words.back() += c;
+    }
+    return quote == 0 ? std::optional(words) : std::nullopt;
+}
+
 } // namespace burnish

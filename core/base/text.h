@@ -1,5 +1,6 @@
 // Makes text from files and file names safe for a terminal, a page or a log; splits texts.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ inline std::string first_line(const std::string& text)
 }
 
 std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
+
+// Returns the words between blanks, as a shell reads them: single or double quotes keep blanks, and a backslash keeps the next character,
+// except within single quotes. Returns nothing for a quote that does not end.
+std::optional<std::vector<std::string>> split_words(const std::string& text);
 
 // Returns the number with the float's shortest decimal: 0.4 for 0.4f, where a conversion gives 0.4000000059604645.
 double shortest_decimal(float value);

@@ -184,7 +184,7 @@ std::size_t blocks_in_slice(std::uint32_t passes, int threads)
 {
     constexpr std::size_t kFewest = 64, kOfThread = 8;
     return std::max({kFewest, kOfThread * static_cast<std::size_t>(threads),
-                     kRoundSamples / (kPassSamples * kBlockSide * kBlockSide * std::max<std::size_t>(passes, 1))});
+                     static_cast<std::size_t>(kRoundSamples / (kPassSamples * kBlockSide * kBlockSide * std::max(passes, 1u)))});
 }
 
 // Returns the checkpoint's file for a picture with this key.

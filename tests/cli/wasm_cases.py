@@ -114,7 +114,7 @@ def browser_hashes(bench):
     build = package(bench).parent / "tests/cross/burnish_page_hashes.js"
     native = pathlib.Path(bench.program).parent / "tests/cross/burnish_hashes"
     if not build.exists() or not native.exists():
-        raise Skipped("no burnish_page_hashes: cmake --preset wasm -DBN_BUILD_TESTS=ON && cmake --build --preset wasm")
+        raise Skipped("no burnish_page_hashes: cmake --preset wasm && cmake --build --preset wasm --target burnish_page_hashes")
     own = subprocess.run([native, "scalar"], capture_output=True, text=True, timeout=300, check=True).stdout.splitlines()
     (bench.folder / "page.html").write_text(f"""<!doctype html><script>{build.read_text()}</script><script>
 window.lines = [];
@@ -486,6 +486,14 @@ def wrong_pages(bench):
                                 ((bench.data_file("models/AnisotropyStrengthTest_meshopt.glb"),), 4, "EXT_meshopt_compression"),
                                 (("builtin:sphere", "--light", "quad:points=-1,2,-1;1,2,-1;1,2,1;-1,2,1:texture=t.png"), 2, "texture=")):
         bench.run("export", "page", *words, "--env-size", "16", "-o", "x.html", "--renderer", ".").expect(code).expect_one_line(needle)
+    # Of a comparison's test
+    bench.run("render", "builtin:sphere", "--size", "20x10", "--env-size", "16", "-o", "a.png").expect(0)
+    for words, code, needle in (((), 2, "--html"), (("--html", "x.html", "--live", "builtin:sphere 'a"), 2, "quote"), (("--html", "x.html", "--live", "builtin:sphere --no-such"), 2, "--no-such"),
+                                (("--html", "x.html", "--live", "builtin:sphere --as-table t.exr"), 2, "cannot follow"), (("--html", "x.html", "--live", "gone.glb"), 4, "gone.glb")):
+        bench.run("compare", "a.png", "a.png", *(words or ("--live", "builtin:sphere")), "--renderer", ".").expect(code).expect_one_line(needle)
+    bench.run("compare", "a.png", "a.png", "--html", "x.html", "--renderer", ".").expect(2).expect_one_line("--renderer", "--live")
+    done = bench.run("compare", "a.png", "a.png", "--html", "y.html", "--live", "builtin:sphere --size 32x10 --env-size 16", "--renderer", ".").expect(0)
+    check("draws another picture than a.png" in done.err, done.err)
     # Before the work, not after it
     (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": "a", "scene": "builtin:sphere"}]}))
     bench.run("golden", "check", "m.json", "--live", "--renderer", "none").expect(77).expect_one_line("cmake --preset wasm")
@@ -558,6 +566,25 @@ def live_golden(bench):
     check(files["scenes/" + page["rows"]["model"]["scene"]] == model.read_bytes(), str(list(files)))
     for name, path in (("model", "set/light.hdr"), ("night", "set/night/light.hdr")):  # two lights of one name
         check(files["scenes/" + page["rows"][name]["environment"]] == (bench.folder / path).read_bytes(), f"{name}: {list(files)}")
+
+
+@case("wasm.a_comparison_draws_its_test_anew", "of_wasm", tier="nightly", budget=100)
+def compared(bench):
+    words = ("builtin:sphere", "--size", "160x90", "--env-size", "32", "--floor", "off")
+    for name, technique in (("a", "mc"), ("b", "bent_normal")):
+        bench.run("render", *words, "--technique", technique, "-o", f"{name}.exr").expect(0)
+    done = bench.run("compare", "a.exr", "b.exr", "--html", "c.html", "--live", " ".join((*words, "--technique bent_normal")), "--renderer", package(bench)).expect(0)
+    check("another picture" not in done.err, done.err)
+    with Browser(bench.folder) as browser:
+        browser.size(1000, 800)
+        browser.open(bench.folder / "c.html")
+        browser.value("document.querySelector('.burnish-open').click()")
+        inside = "document.querySelector('dialog.burnish-live iframe')?.contentDocument"
+        browser.until(f"{inside}?.body?.dataset.proof", 120)
+        check(browser.value(f"{inside}.body.dataset.proof") == "same", browser.value(f"{inside}.getElementById('proof').textContent"))
+        check(not browser.faults, str(browser.faults))
+    done = bench.run("compare", "a.exr", "a.exr", "--html", "d.html", "--live", " ".join((*words, "--technique bent_normal")), "--renderer", package(bench)).expect(0)
+    check("draws another picture than a.exr" in done.err, done.err)
 
 
 @case("wasm.worst_places_of_the_atlas_are_drawn_anew", "of_wasm", tier="nightly", budget=150)

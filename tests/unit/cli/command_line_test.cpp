@@ -4,6 +4,7 @@
 #include "apps/cli/command_line.h"
 #include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
@@ -31,6 +32,17 @@ struct Sample {
         return status ? "" : status.error().line();
     }
 };
+
+TEST(cli_words, of_one_text_are_those_that_a_shell_reads)
+{
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(split_words("  a  b\tc\n"), (Words{"a", "b", "c"}));
+    EXPECT_EQ(split_words("'a b' \"c 'd'\" e\\ f"), (Words{"a b", "c 'd'", "e f"}));
+    EXPECT_EQ(split_words("--light=\"x y\"z '' 'a\\b'"), (Words{"--light=x yz", "", "a\\b"}));
+    EXPECT_EQ(split_words(""), Words());
+    EXPECT_EQ(split_words("a 'b"), std::nullopt);
+    EXPECT_EQ(split_words("a \"b\\\""), std::nullopt);
+}
 
 TEST(cli_words, options_take_values_as_shells_users_write_them)
 {
