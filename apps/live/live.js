@@ -50,12 +50,12 @@
   }
 
   // Small phones keep the picture that the page was made with until their reader asks for more.
-  const small = (navigator.deviceMemory || 8) <= 1 || matchMedia('(pointer: coarse) and (max-width: 480px)').matches;
+  const small = (navigator.deviceMemory || 8) <= 1 || (matchMedia('(pointer: coarse)').matches && Math.min(screen.width, screen.height) <= 480);
   let wanted = !small;
   function until_wanted() {
     return wanted || new Promise(resolve => {
       const button = Object.assign(document.createElement('button'), { id: 'burnish-begin', textContent: 'Draw here' });
-      button.style.cssText = 'position: fixed; z-index: 9; left: 50%; bottom: 4em; transform: translateX(-50%); padding: .6em 1.2em; font: inherit';
+      button.style.cssText = 'position: fixed; z-index: 9; left: 50%; bottom: 1em; transform: translateX(-50%); padding: .6em 1.2em; font: inherit';
       button.addEventListener('click', () => { wanted = true; button.remove(); resolve(); });
       document.body.append(button);
     });

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "shading/lang/tables.h"
+
 namespace burnish {
 namespace {
 

@@ -263,7 +263,7 @@ def glass_as_a_whole(bench):
         browser.send("Emulation.setTouchEmulationEnabled", enabled=True)
         browser.size(400, 700)
         browser.open(bench.folder / "glass.html")
-        browser.until("document.getElementById('burnish-begin')")
+        browser.until("!!document.getElementById('burnish-begin')")
         check(browser.value("document.getElementById('a').naturalWidth") > 0, "the picture that the page was made with is gone")
         browser.screenshot(bench.folder / "phone.png", whole=False)
         browser.value("document.getElementById('burnish-begin').click()")
