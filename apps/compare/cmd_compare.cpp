@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "apps/cli/command.h"
-#include "apps/cli/command_line.h"
 #include "apps/cli/field_options.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
@@ -17,11 +16,10 @@
 #include "apps/compare/options.h"
 #include "apps/compare/verdict.h"
 #include "apps/live/live.h"
-#include "apps/options/options.h"
+#include "apps/render/rows.h"
 #include "core/base/text.h"
 #include "core/image/io/image_io.h"
 #include "core/image/magma.h"
-#include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
@@ -83,29 +81,41 @@ Status write_error_map(const std::string& path, const Image& error)
     return write_image(path, stores_floats(path) ? error : magma_map(error));
 }
 
+// Returns false where the picture cannot be what the page draws: another size, other pixels.
+bool shows(const LiveParts& parts, const Image& picture, const DrawRequest& request)
+{
+    if (picture.width != request.width || picture.height != request.height)
+        return false;
+    if (picture.type == PixelType::f32) {
+        BandHash hash(picture.width, picture.height);
+        if (picture.channels >= 3)
+            hash.add(picture);
+        return picture.channels >= 3 && hash.value() == parts.hash;
+    }
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(parts.picture.data());
+    const Result<Image> drawn = decode_image(bytes, parts.picture.size(), "picture", Limits());
+    return drawn && drawn->channels == picture.channels && drawn->bytes == picture.bytes;
+}
+
 // Returns the scripts that draw TEST anew in the page. Warns if they draw another picture.
 Result<std::string> live_html(const CompareOptions& options, const Pictures& pictures, Report& report)
 {
     if (options.live.empty())
         return std::string();
-    RenderArguments arguments;
-    Command render{"render", "", render_option_table(arguments), "", {}};
     const std::optional<std::vector<std::string>> words = split_words(options.live);
     if (!words)
         return usage_error("--live", "a quote does not end");
-    if (const Status read = read_command_line(render, *words); !read)
-        return usage_error("--live", line_of(read.error()));
-    const std::optional<DrawRequest> request = live_request(render.options);
+    const Result<std::optional<DrawRequest>> request = live_request(*words);
     if (!request)
-        return usage_error("--live", "has an option that a page cannot follow");
-    LiveWish wish{{{"0", *request}}, options.renderer, options.limits, options.threads};
+        return usage_error("--live", line_of(request.error()));
+    if (!*request)
+        return usage_error("--live", "has an option that reads or writes a file, or that is none of a page's");
+    LiveWish wish{{{"0", **request}}, options.renderer, options.limits, options.threads};
     Result<LiveParts> parts = live_parts(wish);
     BN_TRY(parts);
     if (!parts->left_out.empty())
         return parts->left_out.front().second;
-    const Image& test = pictures.test;
-    const bool same_size = test.width == request->width && test.height == request->height;
-    if (!same_size || (test.type == PixelType::f32 && test.channels == 3 && pixel_hash(test) != parts->hash))
+    if (!shows(*parts, pictures.test, **request))
         report.warning(fmt::format("--live draws another picture than {}", options.test));
     return std::move(parts->html);
 }

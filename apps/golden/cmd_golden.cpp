@@ -112,12 +112,13 @@ void sort_by_name(std::vector<GoldenResult>& results)
 // Returns the request of a scene's row, with its paths seen from here. Returns nothing where no page could draw the row.
 std::optional<DrawRequest> request_of(const GoldenRow& row, const std::string& folder)
 {
-    RenderArguments arguments;
-    Command render{"render", "", render_option_table(arguments), "", {}};
-    if (row.kind != GoldenKind::scene || !row.environment.empty() ||
-        !read_command_line(render, {row.command.begin() + 1, row.command.end()}))
+    if (row.kind != GoldenKind::scene || !row.environment.empty())
         return std::nullopt;
-    std::optional<DrawRequest> request = live_request(render.options);
+    const std::vector<std::string> words(row.command.begin() + 1, row.command.end());
+    Result<std::optional<DrawRequest>> read = live_request(words);
+    if (!read)
+        return std::nullopt;
+    std::optional<DrawRequest> request = std::move(*read);
     for (std::string* path : {request ? &request->scene : nullptr, request ? &request->environment : nullptr})
         if (path && !path->empty() && path->rfind("builtin:", 0) != 0)
             *path = (fs::path(folder) / *path).string();

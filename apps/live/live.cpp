@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/command_line.h"
 #include "apps/cli/report.h"
 #include "apps/live/assets.h"
 #include "apps/live/page_files.h"
@@ -193,6 +194,14 @@ std::optional<DrawRequest> live_request(const OptionTable& given)
     }
     add_served(given, request);
     return request;
+}
+
+Result<std::optional<DrawRequest>> live_request(const std::vector<std::string>& words)
+{
+    RenderArguments arguments;
+    Command render{"render", "", render_option_table(arguments), "", {}};
+    BN_TRY(read_command_line(render, words));
+    return live_request(render.options);
 }
 
 namespace {

@@ -16,6 +16,8 @@ void add_served(const OptionTable& given, DrawRequest& to);
 
 // Returns the request of options of `burnish render`. Returns nothing where one of them reads or writes a further file, or is no page's.
 std::optional<DrawRequest> live_request(const OptionTable& given);
+// The same, of words of a command line. Errors: those of reading the words.
+Result<std::optional<DrawRequest>> live_request(const std::vector<std::string>& words);
 
 struct LiveRow {
     std::string key;     // of the page

@@ -46,7 +46,8 @@
     const files = {};
     for (const element of document.querySelectorAll('script.burnish-file')) files[element.dataset.name] = await bytes_of(element);
     const wasm = await bytes_of(document.getElementById('burnish-wasm'));
-    return { files, module: await WebAssembly.compile(wasm).catch(() => { throw new Error(kTooOld); }), target: data.target };
+    const module = await WebAssembly.compile(wasm).catch(fault => { throw fault instanceof WebAssembly.CompileError ? new Error(kTooOld) : fault; });
+    return { files, module, target: data.target };
   }
 
   // Small phones keep the picture that the page was made with until their reader asks for more.
@@ -73,34 +74,40 @@
   function end_forgotten() {
     if (!running || !running.signal || !running.signal.aborted || performance.now() - running.since < kPatience) return;
     running = null;
-    for (const renderer of [lead, ...helpers]) renderer.end(new DOMException('', 'AbortError'));
+    for (const renderer of [lead, ...starting, ...helpers]) renderer.end(new DOMException('', 'AbortError'));
     begun = begin();
   }
 
   // --- Several workers draw bands of one picture. Bits do not depend on the bands.
 
-  const kMostWorkers = 4, kMostShared = 1 << 22;      // kMostShared: pixels, whose floats the workers exchange
+  const kMostWorkers = 4, kMostShared = 1 << 22;     // kMostShared: pixels, whose floats the workers exchange
   const kMostBytes = 1 << 30, kWorkerBytes = 100e6;  // of all workers; of one without the scene
-  const helpers = [], wholes = new Set(), drawn = new Set();  // wholes: keys of pictures that have no bands; drawn: pictures that the lead keeps
-  let hired = false, in_bands = 0, ends = [0, 1];  // in_bands: pictures so far; ends: shares of the height where bands begin and end
+  const starting = new Set(), helpers = new Set(), wholes = new Set();  // wholes: keys of pictures that have no bands
+  let in_bands = 0, ends = [0, 1];  // in_bands: pictures so far; ends: shares of the height where bands begin and end
 
   const key_of = ({ scene, options }) => JSON.stringify([scene, Object.entries(options || {}).filter(([name]) => !['--eye', '--target', '--fov', '--orbit', '--zoom'].includes(name))]);
   const pixels_of = body => body.width * body.height / (body.reduction || 1) ** 2;
+  const may_share = body => pixels_of(body) <= kMostShared && !wholes.has(key_of(body));
+  const ask_part = (renderer, picture, from, to) => renderer.ask({ path: '/part', body: JSON.stringify({ picture, from, to }) });
 
-  // Starts the helpers after a first picture, which they prepare too.
+  // Starts the helpers after a first picture that has bands. They prepare that picture's scene.
   async function hire(body) {
-    const contents = await kept, bytes = Object.values(contents.files).reduce((sum, file) => sum + file.byteLength, 0);
-    const count = Math.min(kMostWorkers, navigator.hardwareConcurrency || 1, Math.floor(kMostBytes / (kWorkerBytes + 4 * bytes))) - 1;
-    if (hired || count < 1) return;
-    hired = true;
-    await Promise.all(Array.from({ length: count }, async () => {
-      const helper = new Renderer(() => { helpers.splice(helpers.indexOf(helper) >>> 0, 1); hired = helpers.length > 0; });
-      try {
-        await helper.ask(contents);
-        await helper.ask({ path: '/part', body: JSON.stringify({ picture: body, from: 0, to: 0.01 }) });
-        helpers.push(helper);
-      } catch { helper.worker.terminate(); }  // a page of fewer workers
-    }));
+    const mine = lead, { files } = await kept, bytes = Object.values(files).reduce((sum, file) => sum + file.byteLength, 0);
+    const most = Math.min(kMostWorkers, navigator.hardwareConcurrency || 1, Math.floor(kMostBytes / (kWorkerBytes + 4 * bytes)));
+    if (1 + starting.size + helpers.size >= most || !may_share(body)) return;
+    const first = await ask_part(mine, body, 0, 0.01);
+    if (first.status === 409) wholes.add(key_of(body));
+    while (first.status === 200 && mine === lead && 1 + starting.size + helpers.size < most) start_helper(body);
+  }
+
+  async function start_helper(body) {
+    const helper = new Renderer(() => { starting.delete(helper), helpers.delete(helper); });
+    starting.add(helper);
+    try {
+      await helper.ask(await kept);
+      await ask_part(helper, body, 0, 0.01);
+      if (starting.delete(helper)) helpers.add(helper);
+    } catch (fault) { helper.end(fault); }  // a page of fewer workers
   }
 
   // Moves the ends of bands so that each would have taken equally long.
@@ -114,28 +121,35 @@
     ends = [...moved.map((end, k) => 0.5 * (end + ends[k])), 1];
   }
 
-  // Returns the answer of /draw, or nothing where the picture has no bands.
-  async function draw_in_bands(body) {
-    const workers = [lead, ...helpers], since = performance.now();
+  // Returns the answer of /draw, or nothing where the picture has no bands, or a helper ended. mine: the lead, which must stay the same.
+  async function draw_in_bands(mine, body) {
+    const workers = [mine, ...helpers], since = performance.now();
     if (ends.length !== workers.length + 1) ends = Array.from({ length: workers.length + 1 }, (_, k) => k / workers.length);
-    const parts = await Promise.all(workers.map((worker, k) => worker.ask({ path: '/part', body: JSON.stringify({ picture: body, from: ends[k], to: ends[k + 1] }) }).catch(fault => { if (worker === lead) throw fault; worker.end(fault); return {}; })));
+    const used = ends;
+    const parts = await Promise.all(workers.map((worker, k) => ask_part(worker, body, used[k], used[k + 1]).catch(fault => {
+      if (worker === mine || fault.name === 'AbortError') throw fault;
+      worker.end(fault);
+      return {};
+    })));
     if (parts.some(part => part.status === 409)) wholes.add(key_of(body));
     if (parts.some(part => part.status !== 200)) return null;
-    drawn.add(JSON.stringify(body)), ++in_bands;
-    if (drawn.size > 8) drawn.delete(drawn.values().next().value);
     const pixels = parts.map(part => part.body), bands = parts.map(part => JSON.parse(part.info));
-    const joined = await lead.ask({ path: '/join', body: JSON.stringify({ picture: body, bands, ms: performance.now() - since }), pixels }, pixels);
-    balance(parts.map(part => part.ms));
+    const joined = await mine.ask({ path: '/join', body: JSON.stringify({ picture: body, bands, ms: performance.now() - since }), pixels }, pixels);
+    if (joined.status !== 200) return null;
+    ++in_bands;
+    if (body.reduction === 1) balance(parts.map(part => part.ms));
     return joined;
   }
 
   async function answer_to(path, body) {
-    if (path === '/draw' && helpers.length && pixels_of(body) <= kMostShared && !wholes.has(key_of(body)) && !drawn.has(JSON.stringify(body))) {
-      const joined = await draw_in_bands(body);
+    const mine = lead;
+    if (path === '/draw' && helpers.size && may_share(body) && (await mine.ask({ path: '/kept', body: JSON.stringify(body) })).status !== 200) {
+      const joined = await draw_in_bands(mine, body);
       if (joined) return joined;
     }
-    const answer = await lead.ask({ path, body: body && JSON.stringify(body) });
-    if (path === '/draw' && answer.status === 200 && body.reduction === 1) hire(body);
+    if (mine !== lead) throw new DOMException('', 'AbortError');
+    const answer = await mine.ask({ path, body: body && JSON.stringify(body) });
+    if (path === '/draw' && answer.status === 200 && body.reduction === 1) hire(body).catch(() => {});
     return answer;
   }
 
@@ -223,5 +237,5 @@
     return made;
   }
 
-  window.burnish_live = { ask, prove, button, get page() { return data.rows[names.page]; }, get workers() { return 1 + helpers.length; }, get in_bands() { return in_bands; } };
+  window.burnish_live = { ask, prove, button, get page() { return data.rows[names.page]; }, get workers() { return 1 + helpers.size; }, get in_bands() { return in_bands; } };
 })();

@@ -14,8 +14,10 @@
   };
 
   async function begin({ module, files, target }) {
-    const instantiateWasm = (imports, done) => { WebAssembly.instantiate(module, imports).then(instance => done(instance, module)); return {}; };
-    core = await Module({ instantiateWasm, printErr: line => console.warn(line) });
+    core = await new Promise((resolve, reject) => {
+      const instantiateWasm = (imports, done) => { WebAssembly.instantiate(module, imports).then(instance => done(instance, module)).catch(reject); return {}; };
+      Module({ instantiateWasm, printErr: line => console.warn(line) }).then(resolve, reject);
+    });
     for (const [name, bytes] of Object.entries(files)) {
       const path = '/' + name;
       core.FS.mkdirTree(path.slice(0, path.lastIndexOf('/')) || '/');
@@ -36,8 +38,8 @@
   }
 
   function answer({ path, body, pixels }) {
-    const begin = performance.now(), status = pixels ? join(body, pixels) : with_text([path, body], core._burnish_page_ask), at = core._burnish_page_body() >>> 0, size = core._burnish_page_size() >>> 0;
-    return { status, info: core.UTF8ToString(core._burnish_page_info()), body: core.HEAPU8.slice(at, at + size).buffer, type: 'image/bmp', ms: performance.now() - begin };
+    const since = performance.now(), status = pixels ? join(body, pixels) : with_text([path, body], core._burnish_page_ask), at = core._burnish_page_body() >>> 0, size = core._burnish_page_size() >>> 0;
+    return { status, info: core.UTF8ToString(core._burnish_page_info()), body: core.HEAPU8.slice(at, at + size).buffer, type: 'image/bmp', ms: performance.now() - since };
   }
 
   let lost = false;  // after a trap, what the module holds can no longer be trusted

@@ -1,6 +1,5 @@
 #include "apps/render/bands.h"
 
-#include <algorithm>
 #include <cstring>
 #include <fmt/core.h>
 #include <functional>

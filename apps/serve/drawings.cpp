@@ -201,7 +201,13 @@ Result<Band> Drawings::draw_part(const DrawRequest& request, double from, double
     return guarded(request.scene, [&] { return draw_rows(bands, top, rows); });
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, const std::vector<Band>& bands, double ms)
+bool Drawings::keeps(const DrawRequest& request)
+{
+    const std::lock_guard lock(kept_);
+    return std::any_of(pictures_.begin(), pictures_.end(), [&](const auto& kept) { return kept.first == request; });
+}
+
+Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, std::vector<Band> bands, double ms)
 {
     const std::lock_guard drawing(tile_);
     Result<Opened> opened = open(request);
@@ -212,10 +218,12 @@ Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, 
     BandHash hash(width, height);
     int rows = 0;
     // Append the bands
-    for (const Band& band : bands) {
+    for (Band& band : bands) {
         const auto append = [&](const Image& from, Image& to) {
-            if (to.empty())
+            if (to.empty()) {
                 to = Image{from.width, 0, from.channels, from.type, {}};
+                to.bytes.reserve(from.bytes.size() / static_cast<std::size_t>(from.height) * static_cast<std::size_t>(height));
+            }
             to.bytes.insert(to.bytes.end(), from.bytes.begin(), from.bytes.end()), to.height += from.height;
             return from.width == width && from.channels == to.channels && from.type == to.type;
         };
@@ -229,6 +237,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, 
         out.figures.nan_pixels += band.nan_pixels;
         for (std::size_t i = 0; i < kFrameStages; ++i)
             out.profile.stage_ns[i] += band.stage_ns[i];
+        band = {}; // frees its memory
     }
     if (rows != height)
         return usage_error("bands", fmt::format("have {} of {} rows", rows, height));
@@ -304,6 +313,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
 
 void Drawings::keep(const DrawRequest& request, const std::shared_ptr<const Drawn>& drawn)
 {
+    pictures_.remove_if([&](const auto& kept) { return kept.first == request; });
     pictures_.emplace_front(request, drawn);
     std::int64_t pixels = 0;
     std::size_t kept = 0;

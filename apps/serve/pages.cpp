@@ -79,11 +79,12 @@ Result<std::vector<Band>> bands_of(const Json& json, std::span<const std::uint8_
         const int width = figures.at("width"), rows = figures.at("rows");
         const std::pair<Image*, int> images[] = {{&band.linear, figures.at("linear")}, {&band.shown, figures.at("shown")}};
         for (const auto& [image, channels] : images) {
-            if (width < 0 || width > kMostSide || rows < 0 || rows > kMostSide || channels < 0 || channels > 4)
+            if (width < 0 || width > kMostSide || rows < 0 || rows > kMostSide || (channels != 0 && channels != 3 && channels != 4))
                 return usage_error("bands", "are no bands");
-            *image = make_image(width, rows, channels, image == &band.linear ? PixelType::f32 : PixelType::u8);
-            if (image->bytes.size() > pixels.size())
+            const PixelType type = image == &band.linear ? PixelType::f32 : PixelType::u8;
+            if (std::uint64_t(width) * std::uint64_t(rows) * std::uint64_t(channels) * pixel_type_bytes(type) > pixels.size())
                 return usage_error("bands", "have too few pixels");
+            *image = make_image(width, rows, channels, type);
             std::memcpy(image->bytes.data(), pixels.data(), image->bytes.size());
             pixels = pixels.subspan(image->bytes.size());
         }
@@ -129,6 +130,18 @@ class Pages::Answers {
         });
     }
 
+    void kept(const HttpRequest& request, HttpResponse& response)
+    {
+        guard(response, [&]() -> Status {
+            const Result<Json> json = request_json(request.body);
+            BN_TRY(json);
+            const Result<DrawRequest> picture = draw_request_of(*json, *lists());
+            BN_TRY(picture);
+            response.status = drawings_.keeps(*picture) ? 200 : 404;
+            return {};
+        });
+    }
+
     void join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response)
     {
         guard(response, [&]() -> Status {
@@ -138,7 +151,7 @@ class Pages::Answers {
             BN_TRY(picture);
             Result<std::vector<Band>> bands = bands_of(json->value("bands", Json::array()), pixels);
             BN_TRY(bands);
-            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.join(*picture, *bands, json->value("ms", 0.0));
+            const Result<std::shared_ptr<const Drawn>> drawn = drawings_.join(*picture, std::move(*bands), json->value("ms", 0.0));
             BN_TRY(drawn);
             return this->picture(response, shown_picture(**drawn), info_of(*picture, **drawn, setting_.limit_words));
         });
@@ -334,6 +347,11 @@ void Pages::answer(const HttpRequest& request, HttpResponse& response)
 void Pages::draw_part(const HttpRequest& request, HttpResponse& response)
 {
     answers_->draw_part(request, response);
+}
+
+void Pages::kept(const HttpRequest& request, HttpResponse& response)
+{
+    answers_->kept(request, response);
 }
 
 void Pages::join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response)

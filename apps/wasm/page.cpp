@@ -92,13 +92,13 @@ extern "C" EMSCRIPTEN_KEEPALIVE const char* burnish_page_open(const char* target
     }
 }
 
-// Answers a question, or draws a part of a picture at /part (Pages::draw_part). Returns the answer's status. burnish_page_body, _size and
-// _info then hold the answer until the next question.
+// Answers a question, or draws a part of a picture at /part, or looks for one at /kept. Returns the answer's status. burnish_page_body,
+// _size and _info then hold the answer until the next question.
 extern "C" EMSCRIPTEN_KEEPALIVE int burnish_page_ask(const char* path, const char* body)
 {
-    const bool part = std::strcmp(path, "/part") == 0;
+    const bool part = std::strcmp(path, "/part") == 0, kept = std::strcmp(path, "/kept") == 0;
     return burnish::answered(path, body, [&](burnish::Pages& pages, const burnish::HttpRequest& request, burnish::HttpResponse& response) {
-        part ? pages.draw_part(request, response) : pages.answer(request, response);
+        part ? pages.draw_part(request, response) : kept ? pages.kept(request, response) : pages.answer(request, response);
     });
 }
 

@@ -25,8 +25,8 @@ inline std::string first_line(const std::string& text)
 
 std::vector<std::string> split(const std::string& text, char at); // n separators give n + 1 parts
 
-// Returns the words between blanks, as a shell reads them: single or double quotes keep blanks, and a backslash keeps the next character,
-// except within single quotes. Returns nothing for a quote that does not end.
+// Returns the words between blanks. Single or double quotes keep blanks. A backslash keeps the next character, except within single quotes.
+// Returns nothing for a quote that does not end.
 std::optional<std::vector<std::string>> split_words(const std::string& text);
 
 // Returns the number with the float's shortest decimal: 0.4 for 0.4f, where a conversion gives 0.4000000059604645.

@@ -279,6 +279,31 @@ def glass_as_a_whole(bench):
         check(not browser.faults, str(browser.faults))
 
 
+@case("wasm.pictures_that_nobody_waits_for_end_with_their_workers", "of_wasm", tier="nightly", budget=150)
+def ended(bench):
+    export_page(bench, "page.html", "builtin:teapot", "--technique", "mc", "--samples", "64", "--env-size", "32", "--floor", "off")
+    text = (bench.folder / "page.html").read_text()
+    hasty = {"const kPatience = 3000;": "const kPatience = 20;", "(_, k) => k / workers.length": "(_, k) => k ? 0.04 + 0.96 * (k - 1) / (workers.length - 1) : 0",
+             "if (body.reduction === 1) balance": "if (false) balance"}  # the first worker waits for the others
+    for before, after in hasty.items():
+        check(text.count(before) == 1, f"the page has not one '{before}'")
+        text = text.replace(before, after)
+    (bench.folder / "hasty.html").write_text(text)
+    with Browser(bench.folder) as browser:
+        browser.size(900, 600)
+        browser.open(bench.folder / "hasty.html")
+        browser.until(PROOF, 120)
+        helped(browser)
+        set_roughness = "(() => { const o = document.querySelector('[data-name=\"--roughness\"] input'); o.value = '%s'; o.dispatchEvent(new Event('change')); })()"
+        for turn in range(12):  # each picture is forgotten a moment after it began
+            browser.value(set_roughness % (0.2 + 0.05 * turn))
+            time.sleep(0.5 if turn == 0 else 0.1 + 0.03 * turn)
+        browser.value("document.body.dataset.done = ''")
+        shown(bench, browser)
+        check(not browser.faults and not browser.value("document.getElementById('message').textContent"), str(browser.faults))
+        helped(browser)
+
+
 @case("wasm.a_page_draws_from_disk_with_the_program_s_bits", "of_wasm", tier="nightly", budget=150)
 def page_from_disk(bench):
     export_page(bench, "page.html", "builtin:teapot", "--technique", "bent_normal", "--env-size", "64")
@@ -489,11 +514,16 @@ def wrong_pages(bench):
     # Of a comparison's test
     bench.run("render", "builtin:sphere", "--size", "20x10", "--env-size", "16", "-o", "a.png").expect(0)
     for words, code, needle in (((), 2, "--html"), (("--html", "x.html", "--live", "builtin:sphere 'a"), 2, "quote"), (("--html", "x.html", "--live", "builtin:sphere --no-such"), 2, "--no-such"),
-                                (("--html", "x.html", "--live", "builtin:sphere --as-table t.exr"), 2, "cannot follow"), (("--html", "x.html", "--live", "gone.glb"), 4, "gone.glb")):
+                                (("--html", "x.html", "--live", "builtin:sphere --as-table t.exr"), 2, "reads or writes a file"), (("--html", "x.html", "--live", "gone.glb"), 4, "gone.glb")):
         bench.run("compare", "a.png", "a.png", *(words or ("--live", "builtin:sphere")), "--renderer", ".").expect(code).expect_one_line(needle)
     bench.run("compare", "a.png", "a.png", "--html", "x.html", "--renderer", ".").expect(2).expect_one_line("--renderer", "--live")
     done = bench.run("compare", "a.png", "a.png", "--html", "y.html", "--live", "builtin:sphere --size 32x10 --env-size 16", "--renderer", ".").expect(0)
     check("draws another picture than a.png" in done.err, done.err)
+    for words, same in ((("--no-background",), True), ((), True), (("--roughness", "0.9"), False)):
+        bench.run("render", "builtin:sphere", "--size", "20x10", "--env-size", "16", *words[:1] * same, "-o", "b.png", "-o", "b.exr").expect(0)
+        for name in ("b.png", "b.exr"):
+            done = bench.run("compare", name, name, "--html", "y.html", "--live", " ".join(("builtin:sphere --size 20x10 --env-size 16", *words)), "--renderer", ".").expect(0)
+            check(("draws another picture than" in done.err) != same, f"{words} {name}: {done.err}")
     # Before the work, not after it
     (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": "a", "scene": "builtin:sphere"}]}))
     bench.run("golden", "check", "m.json", "--live", "--renderer", "none").expect(77).expect_one_line("cmake --preset wasm")

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "shading/bake/ltc/npy.h"
 #include "shading/bake/ltc/table.h"
 #include "tests/fuzz/sealed.h"
 
@@ -29,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         BN_CHECK(!table.error().reason.empty());
         return 0;
     }
-    BN_CHECK(sealed && table->entries.size() == table->grid.nodes() * ltc::kChannels);
+    BN_CHECK((sealed || ltc::is_npy(bytes.data(), bytes.size())) && table->entries.size() == table->grid.nodes() * ltc::kChannels);
     for (const double theta : {0.0, 0.7, 1.5})
         for (const double alpha : {0.001, 0.3, 1.0}) {
             const ltc::Looked looked = ltc::lookup(*table, {theta, 0.4, alpha, 0.5});

@@ -1,7 +1,7 @@
 #include "shading/bake/ltc/npy.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -32,19 +32,28 @@ std::string_view text_of(std::string_view header, std::string_view key)
     return first == header.npos ? std::string_view() : header.substr(first);
 }
 
-// Reads "(8, 8, 3)".
+// Reads "(8, 8, 3)": numbers of at most three digits. Returns nothing for other texts.
 std::vector<std::size_t> shape_of(std::string_view text)
 {
+    constexpr std::size_t kMostNumbers = 8, kMostNumber = 999;
     std::vector<std::size_t> shape;
-    const char *at = text.data(), *const end = at + std::min(text.find(')'), text.size());
-    while (at < end) {
-        std::size_t number = 0;
-        const auto read = std::from_chars(at, end, number);
-        if (read.ec == std::errc())
-            shape.push_back(number);
-        at = read.ec == std::errc() ? read.ptr : at + 1;
+    bool open = false; // a number goes on
+    for (std::size_t i = 1; i < text.size() && text.front() == '('; ++i) {
+        const char c = text[i];
+        if (c == ')')
+            return shape;
+        if (c >= '0' && c <= '9') {
+            if (!open)
+                shape.push_back(0);
+            shape.back() = 10 * shape.back() + static_cast<std::size_t>(c - '0');
+            if (shape.size() > kMostNumbers || shape.back() > kMostNumber)
+                return {};
+        } else if (c != ',' && c != ' ') {
+            return {};
+        }
+        open = c >= '0' && c <= '9';
     }
-    return shape;
+    return {};
 }
 
 Result<NpyHeader> header_of(const std::uint8_t* data, std::size_t bytes, const std::string& path)
@@ -55,6 +64,8 @@ Result<NpyHeader> header_of(const std::uint8_t* data, std::size_t bytes, const s
     constexpr std::size_t kAhead = 12; // magic, version, length of the header
     if (bytes < kAhead)
         return refuse(fmt::format("byte {}", bytes), "ends within the header");
+    if (data[6] < 1 || data[6] > 3)
+        return refuse("byte 6", fmt::format("has version {} of NumPy's format; versions 1 to 3 are read", data[6]));
     const bool wide = data[6] >= 2;
     const std::size_t first = wide ? 12 : 10;
     std::size_t length = data[8] | std::size_t{data[9]} << 8;
@@ -73,6 +84,15 @@ Result<NpyHeader> header_of(const std::uint8_t* data, std::size_t bytes, const s
         return refuse("fortran_order", "must be False");
     out.shape = shape_of(text_of(header, "shape"));
     return out;
+}
+
+// Returns the matrix as a table stores it: the third column unit, rounded to floats.
+Matrix stored_form(const Matrix& m)
+{
+    Matrix r = with_unit_axis(m);
+    for (double& element : r)
+        element = static_cast<double>(static_cast<float>(element));
+    return r;
 }
 
 } // namespace
@@ -121,21 +141,29 @@ Result<Table> parse_npy(const std::uint8_t* data, std::size_t bytes, const std::
         for (std::size_t e = 0; e < 9; ++e)
             m[e] = number(9 * stored + e);
         const std::string place = fmt::format("[alpha {}][lambda {}][theta {}][phi {}]", at[2], at[3], at[0], at[1]);
-        for (const double element : m)
-            if (!(std::abs(element) < 1e30))
-                return refuse(place, "is not finite");
-        if (!(m[2] * m[2] + m[5] * m[5] + m[8] * m[8] > 0.0))
+        const double axis2 = m[2] * m[2] + m[5] * m[5] + m[8] * m[8];
+        if (!(axis2 > 0.0))
             return refuse(place, "has a third column without length");
+        for (const double element : m)
+            if (!(std::abs(element) < 1e6 * std::sqrt(axis2)))
+                return refuse(place, "holds an element that is no number, or too large for the third column");
         if (determinant(m) < 0.0)
             m[1] = -m[1], m[4] = -m[4], m[7] = -m[7];
         const Place lobe = grid.place(node);
-        entries[node] = with_unit_axis(m);
-        if (const Matrix& kept = entries[node]; !(determinant(kept) > 0.0) || !(static_cast<float>(determinant(kept)) > 0.0f))
-            entries[node] = with_unit_axis(natural_matrix(lobe));
+        entries[node] = stored_form(m);
+        if (!(determinant(entries[node]) > 0.0))
+            entries[node] = stored_form(natural_matrix(lobe));
         const Looked built_in = lookup(shipped_table(), lobe);
         albedos[node] = {built_in.all, built_in.grazing};
         if (at[1] == 0)
             lean += entries[node][2];
+    }
+    // Seen along the normal, a round lobe has equal columns
+    for (int alpha = 1; alpha < grid.size; ++alpha) {
+        const Matrix& round = entries[grid.node(0, 0, alpha, grid.size - 1)];
+        if (!(std::abs(round[0] - round[4]) < 0.1 * std::abs(round[4])))
+            return refuse(fmt::format("[alpha {}][lambda {}][theta 0][phi 0]", alpha, grid.size - 1),
+                          "is no round lobe: matrices by both widths are not read, but by the greater width and the ratio");
     }
     if (lean > 0.0)
         return refuse("", "holds lobes that lean to the eye's side, not to the mirrored side");

@@ -175,7 +175,7 @@ Result<Table> parse_table(const std::uint8_t* data, std::size_t bytes, const std
 
 Result<Table> read_table(const std::string& path, int size)
 {
-    constexpr std::uint64_t kMostBytes = 64u << 20; // 32 nodes along an axis
+    constexpr std::uint64_t kMostBytes = 80u << 20; // 32 nodes along an axis
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
     BN_TRY(bytes);
     return parse_table(bytes->data(), bytes->size(), path, size);

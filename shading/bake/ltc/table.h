@@ -47,8 +47,8 @@ std::vector<std::uint16_t> table_texels(const Table& table);
 
 std::vector<std::uint8_t> table_bytes(const Table& table, bool half = false);
 
-// Parses a table, or an array of NumPy (npy.h). size: required number of nodes along an axis, 0: any. Refuses damage, values that are not
-// finite, and matrices without positive determinant.
+// Parses a table, or an array of NumPy (npy.h). size: required number of nodes along an axis, 0: any. Of tables, refuses damage, values
+// that are not finite, and matrices without positive determinant.
 Result<Table> parse_table(const std::uint8_t* data, std::size_t bytes, const std::string& path, int size);
 Result<Table> read_table(const std::string& path, int size);
 Status write_table(const std::string& path, const Table& table, bool half = false);

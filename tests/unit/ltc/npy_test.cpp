@@ -88,6 +88,12 @@ TEST(npy, a_mirrored_or_flat_matrix_becomes_usable)
         numbers[mirrored + e] = -numbers[mirrored + e];
     for (const std::size_t e : {0, 1, 3, 4, 6, 7})
         numbers[flat + e] = 0.0f;
+    const std::size_t thin = 9 * (((2 * 8 + 2) * 8 + 4) * 8 + 6); // a determinant that floats lose
+    for (const std::size_t e : {0, 1, 3, 8})
+        numbers[thin + e] = 1.0f;
+    for (const std::size_t e : {2, 5, 6, 7})
+        numbers[thin + e] = 0.0f;
+    numbers[thin + 4] = 1.0f;
     const Result<Table> table = parsed(file_of(header_of(), numbers)), whole = parsed(file_of(header_of(), published<float>()));
     ASSERT_TRUE(table && whole);
     const auto entry = [&](const Table& of, int alpha) {
@@ -98,6 +104,8 @@ TEST(npy, a_mirrored_or_flat_matrix_becomes_usable)
     const Matrix first_order = with_unit_axis(natural_matrix(table->grid.place(table->grid.node(4, 5, 2, 2))));
     for (std::size_t e = 0; e < 9; ++e)
         EXPECT_FLOAT_EQ(entry(*table, 2)[e], static_cast<float>(first_order[e]));
+    const std::vector<std::uint8_t> bytes = table_bytes(*table);
+    EXPECT_TRUE(parse_table(bytes.data(), bytes.size(), "t", 8));
 }
 
 TEST(npy, wrong_files_are_refused_by_their_place)
@@ -116,6 +124,15 @@ TEST(npy, wrong_files_are_refused_by_their_place)
     EXPECT_EQ(place_of(file_of(header_of("'<f4'", "False", "(99999999999999999999, 8"), numbers)), "shape");
     EXPECT_EQ(place_of(file_of(header_of(), numbers), 16), "shape");
     EXPECT_EQ(place_of(file_of("", numbers)), "descr");
+    for (const char* shape :
+         {"(-8, 8, 8, 8, 3, 3)", "(8.8, 8, 8, 3, 3)", "(100000000000000000008, 8, 8, 8, 3, 3)", "(8, 8, 8, 8, 3, 3, 1)", "8"})
+        EXPECT_EQ(place_of(file_of(header_of("'<f4'", "False", shape), numbers)), "shape") << shape;
+    EXPECT_EQ(place_of(file_of(header_of("'<f4'", "False", "(" + std::string(60000, '7')), numbers)), "shape");
+    for (const int version : {0, 4}) {
+        std::vector<std::uint8_t> other = file_of(header_of(), numbers);
+        other[6] = static_cast<std::uint8_t>(version);
+        EXPECT_EQ(place_of(other), "byte 6");
+    }
     std::vector<std::uint8_t> bytes = file_of(header_of(), numbers);
     EXPECT_EQ(place_of({bytes.begin(), bytes.end() - 1}), fmt::format("byte {}", bytes.size() - 1));
     EXPECT_EQ(place_of({bytes.begin(), bytes.begin() + 9}), "byte 9");
@@ -125,6 +142,15 @@ TEST(npy, wrong_files_are_refused_by_their_place)
     std::vector<float> changed = numbers;
     changed[9 * (7 * 512 + 64 + 8 * 3 + 2) + 4] = std::numeric_limits<float>::infinity();
     EXPECT_EQ(place_of(file_of(header_of(), changed)), "[alpha 7][lambda 1][theta 3][phi 2]");
+    changed = numbers; // infinite once the third column is unit
+    changed[9 * 100] = 1e30f, changed[9 * 100 + 2] = changed[9 * 100 + 5] = 0.0f, changed[9 * 100 + 8] = 1e-9f;
+    EXPECT_NE(place_of(file_of(header_of(), changed)), "none");
+    changed = numbers; // by both widths: at the last ratio, the lobe's other width is 1
+    for (int alpha = 0; alpha < 8; ++alpha)
+        for (std::size_t k = 0; k < 64 * 9; ++k)
+            if (k % 9 == 4)
+                changed[9 * 64 * static_cast<std::size_t>(8 * alpha + 7) + k] = 2.0f;
+    EXPECT_EQ(place_of(file_of(header_of(), changed)), "[alpha 1][lambda 7][theta 0][phi 0]");
     changed = numbers;
     changed[2] = changed[5] = changed[8] = 0.0f;
     EXPECT_EQ(place_of(file_of(header_of(), changed)), "[alpha 0][lambda 0][theta 0][phi 0]");
