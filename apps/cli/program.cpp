@@ -175,7 +175,7 @@ int run_program(int argc, char** argv)
     std::signal(SIGXFSZ, SIG_IGN);
     std::set_terminate(terminate);
     try {
-        bound_memory_by_cgroup(usable_cores());
+        bound_memory(usable_cores());
         const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
         const int code = flush_stdout(run(words));
         warn_of_missing_threads(code, words);

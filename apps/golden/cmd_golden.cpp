@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,7 +16,7 @@
 #include <system_error>
 
 #include "apps/cli/command.h"
-#include "apps/cli/command_line.h"
+#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
@@ -25,6 +26,7 @@
 #include "apps/golden/result_folder.h"
 #include "apps/live/live.h"
 #include "apps/options/options.h"
+#include "apps/pieces/words.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
@@ -167,6 +169,21 @@ int conclude(std::vector<GoldenResult> results, const std::string& live, NewResu
     return exit_code_of(counts);
 }
 
+// Returns this command without its shard, its folder and its number of jobs, for a shell.
+std::string command_of_shard()
+{
+    const std::vector<std::string> words = without_pieces(kept_words());
+    std::vector<std::string> kept = {"burnish"};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool apart = words[i] == "-o" || words[i] == "--output" || words[i] == "--jobs";
+        if (apart)
+            ++i;
+        else if (!words[i].starts_with("-o") && !words[i].starts_with("--output=") && !words[i].starts_with("--jobs="))
+            kept.push_back(words[i]);
+    }
+    return shell_words(kept);
+}
+
 int check(const GoldenArguments& arguments, Report& report)
 {
     const Result<Share> shard = arguments.shard.empty() ? Result<Share>(Share()) : parse_share(arguments.shard);
@@ -188,7 +205,7 @@ int check(const GoldenArguments& arguments, Report& report)
             if (!path.empty())
                 inputs.push_back((fs::path(manifest->folder) / path).string());
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(inputs, {*shard, manifest_hash(*manifest)}); !made)
+    if (const Status made = fresh.make(inputs, {*shard, manifest_hash(*manifest), shard->count > 1 ? command_of_shard() : ""}); !made)
         return fail(made.error());
     report.release();
     std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
@@ -342,7 +359,7 @@ int merge(const GoldenArguments& arguments, Report& report)
     std::set<std::string> names;
     std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
     std::set<std::size_t> indices;
-    std::string manifest;
+    std::string manifest, command;
     for (const std::string& folder : arguments.paths) {
         if (same_file(folder, arguments.results))
             return fail(usage_error("-o", "is one of the folders to merge"));
@@ -353,7 +370,7 @@ int merge(const GoldenArguments& arguments, Report& report)
         if (!origin)
             return fail(origin.error());
         if (shards.empty())
-            manifest = origin->manifest;
+            manifest = origin->manifest, command = origin->command;
         if (origin->manifest != manifest)
             return fail(Error{ExitCode::bad_input, folder, "", "is made from other rows than " + arguments.paths.front()});
         if (!indices.insert(origin->shard.index).second)
@@ -366,11 +383,19 @@ int merge(const GoldenArguments& arguments, Report& report)
             all.push_back(r);
         }
     }
-    if (shards.size() != 1 || shards.begin()->first != shards.begin()->second)
+    const std::size_t count = shards.rbegin()->first;
+    if (shards.size() != 1)
         return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
-                          fmt::format("{} of {} shards are given", arguments.paths.size(), shards.rbegin()->first)});
+                          fmt::format("{} of {} shards are given", arguments.paths.size(), count)});
+    if (indices.size() < count) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (!indices.contains(i))
+                std::puts(fmt::format("{0} --shard {1}/{2} -o shard-{1}-of-{2}", command, i + 1, count).c_str());
+        return fail(Error{ExitCode::golden_missing, arguments.paths.front(), "",
+                          fmt::format("{} of {} shards are given; standard output has the commands of the others", indices.size(), count)});
+    }
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest}); !made)
+    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest, ""}); !made)
         return fail(made.error());
     for (const std::string& folder : arguments.paths)
         for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {

@@ -15,6 +15,7 @@
 #include "apps/cli/report.h"
 #include "apps/golden/check.h"
 #include "core/base/file.h"
+#include "core/base/text.h"
 
 namespace burnish {
 namespace {
@@ -56,14 +57,16 @@ Status move_into(const std::string& from, const std::string& to, const char* nam
 
 Result<ResultOrigin> origin_of_results(const std::string& folder)
 {
-    constexpr std::uint64_t kMostMarkerBytes = 4096;
+    constexpr std::uint64_t kMostMarkerBytes = 1 << 20;
     const Result<std::vector<std::uint8_t>> bytes = read_file(folder + "/" + kMarker, kMostMarkerBytes);
     BN_TRY(bytes);
-    const std::string text(bytes->begin(), bytes->end()), line = text.substr(0, text.find('\n'));
+    const std::string text(bytes->begin(), bytes->end());
+    const std::vector<std::string> lines = split(text, '\n');
+    const std::string& line = lines.front();
     const std::size_t blank = std::min(line.find(' '), line.size());
     const Result<Share> shard = parse_share(line.substr(0, blank));
     BN_TRY(shard);
-    return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size()))};
+    return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size())), lines.size() > 2 ? lines[2] : ""};
 }
 
 NewResults::~NewResults()
@@ -91,8 +94,9 @@ Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrig
         return Error{ExitCode::output_failed, results_, "", std::strerror(errno)};
     if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) // file systems without locks take both runs
         return Error{ExitCode::output_failed, results_, "", "another run of burnish golden writes here"};
-    const std::string text = fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n", origin.shard.index + 1,
-                                         origin.shard.count, origin.manifest);
+    const std::string text =
+        fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n{}", origin.shard.index + 1, origin.shard.count,
+                    origin.manifest, origin.command.empty() ? "" : printable(origin.command) + "\n");
     if (!ours)
         BN_TRY(write_text(marker, text));
     made_ = true;

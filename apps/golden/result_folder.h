@@ -14,6 +14,7 @@ namespace burnish {
 struct ResultOrigin {
     Share shard;
     std::string manifest; // manifest_hash() of its rows
+    std::string command;  // of a shard, for a shell, without the shard and its folder; else empty
 };
 Result<ResultOrigin> origin_of_results(const std::string& folder);
 

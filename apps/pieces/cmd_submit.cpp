@@ -1,6 +1,8 @@
 // `burnish submit`: prints a script that runs a job's pieces under a cluster's engine.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <memory>
 
 #include "apps/cli/command.h"
@@ -20,7 +22,21 @@ Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
   burnish submit --for parallel --at-once 2 -- render lamp.glb --backend reference --samples 4096 -o lamp.exr)";
 
-// True if a command has pieces: a reference, a row of pictures, a chart of frames, an atlas, or truths for engines.
+// True for a size that is drawn in bands.
+bool is_large(const std::vector<std::string>& words)
+{
+    constexpr int kMostSide = 16384; // of a frame
+    const auto at =
+        std::find_if(words.begin(), words.end(), [](const std::string& w) { return w == "--size" || w.starts_with("--size="); });
+    if (at == words.end() || (*at == "--size" && at + 1 == words.end()))
+        return false;
+    const std::string size = *at == "--size" ? at[1] : at->substr(std::strlen("--size="));
+    const std::size_t cross = size.find('x');
+    return std::atoi(size.c_str()) > kMostSide || (cross != size.npos && std::atoi(size.c_str() + cross + 1) > kMostSide);
+}
+
+// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table, or
+// figures of nets.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {
@@ -30,7 +46,11 @@ bool has_pieces(const std::vector<std::string>& words)
     const bool reference =
         (backend != words.end() && backend + 1 != words.end() && backend[1] == "reference") || has("--backend=reference");
     if (words[0] == "render")
-        return reference || has("--animate") || has("--turntable");
+        return reference || has("--animate") || has("--turntable") || has("--band-rows") || is_large(words);
+    if (words[0] == "bake" && words.size() > 1)
+        return words[1] == "mip" || (words[1] == "ltc" && !has("--report"));
+    if (words[0] == "train")
+        return has("--evaluate");
     return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));
 }
 
@@ -42,7 +62,9 @@ int run_submit(const SubmitOptions& given)
         return fail(usage_error("COMMAND", "has options of pieces, which the script brings"));
     if (!has_pieces(options.words))
         return fail(usage_error(
-            "COMMAND", "has no pieces: render --backend reference, --animate and --turntable, chart, atlas and conform --write have"));
+            "COMMAND",
+            "has no pieces: render --backend reference, --animate, --turntable and --band-rows, chart, atlas, conform --write, bake mip, "
+            "bake ltc and train mip --evaluate have; golden check takes --shard alone"));
     if (const Status taken = check_submit(options); !taken)
         return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);

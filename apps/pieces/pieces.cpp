@@ -373,6 +373,19 @@ int run_pieces(const PieceOptions& options, const std::vector<std::string>& word
     return stopped() ? 128 + stop_signal() : 0; // as a shell reports a process ended by a signal
 }
 
+namespace {
+
+bool holds_pieces(const std::string& folder)
+{
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        if (at->path().extension() == ".piece")
+            return true;
+    return false;
+}
+
+} // namespace
+
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces)
 {
@@ -400,6 +413,8 @@ Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, co
         return files;
     }
     std::fputs(missing.c_str(), stdout);
+    if (absent == pieces.size() && refused.empty() && std::any_of(folders.begin(), folders.end(), holds_pieces))
+        refused = " (those that are there are of another scene, job or program)";
     return Error{ExitCode::golden_missing, join(folders), "",
                  fmt::format("{} of {} pieces are missing{}; standard output has their commands", absent, pieces.size(), refused)};
 }

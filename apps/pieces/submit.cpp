@@ -35,8 +35,8 @@ array=$(sbatch --parsable --array=0-@LAST@%@MOST@ --requeue --wrap @TAKE@)
 sbatch --dependency="afterany:$array" --wrap @MERGEWORD@
 )"},
     {"mpi", R"(#!/bin/sh
-# Needs OpenMPI's mpirun; burnish itself uses no MPI. A rank that fails does not end the others: the merge finds what is missing.
-mpirun -n @SHARDS@ --mca orte_abort_on_non_zero_status 0 @COMMAND@ --shard auto --work @WORK@ || true
+# Needs OpenMPI's mpirun; burnish itself uses no MPI. A rank that fails or is killed does not end the others: the merge finds what is missing.
+mpirun -n @SHARDS@ --enable-recovery --mca orte_abort_on_non_zero_status 0 @COMMAND@ --shard auto --work @WORK@ || true
 @MERGE@
 )",
      false},

@@ -1,6 +1,7 @@
 #include "core/base/cgroup.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -54,13 +55,21 @@ std::uint64_t cgroup_memory_limit(const std::string& proc, const std::string& sy
     return least;
 }
 
-void bound_memory_by_cgroup(int threads)
+std::uint64_t usable_memory(const std::string& proc, const std::string& sys)
+{
+    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+    const std::uint64_t machine = pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : 0;
+    const std::uint64_t group = cgroup_memory_limit(proc, sys);
+    return machine && group ? std::min(machine, group) : machine + group;
+}
+
+void bound_memory(int threads)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     static_cast<void>(threads);
 #else
     constexpr std::uint64_t kStackBytes = 16ull << 20; // reserved by each thread, hardly used
-    const std::uint64_t limit = cgroup_memory_limit();
+    const std::uint64_t limit = usable_memory();
     struct rlimit now {};
     if (limit == 0 || ::getrlimit(RLIMIT_DATA, &now) != 0)
         return;

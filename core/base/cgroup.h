@@ -15,9 +15,12 @@ std::vector<std::string> cgroup_folders(const std::string& controller, const std
 // Returns the smallest memory limit in bytes, or 0 for no limit.
 std::uint64_t cgroup_memory_limit(const std::string& proc = "/proc/self/cgroup", const std::string& sys = "/sys/fs/cgroup");
 
-// Lets allocations fail where the group's limit would kill the process without a message. Bounds the process's data
-// (RLIMIT_DATA) by the limit plus the stacks that `threads` threads reserve. Does nothing where there is no limit, or
-// where sanitizers keep shadows of all memory.
-void bound_memory_by_cgroup(int threads);
+// Returns the memory that the process may use without swapping or being killed: the groups' limit or the machine's memory, the smaller.
+std::uint64_t usable_memory(const std::string& proc = "/proc/self/cgroup", const std::string& sys = "/sys/fs/cgroup");
+
+// Lets allocations fail where the process would swap, or be killed without a message. Bounds the process's data
+// (RLIMIT_DATA) by usable_memory() plus the stacks that `threads` threads reserve. Does nothing where sanitizers keep
+// shadows of all memory.
+void bound_memory(int threads);
 
 } // namespace burnish

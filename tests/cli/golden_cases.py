@@ -151,7 +151,12 @@ def shards(bench):
     files = lambda folder: {str(p.relative_to(bench.folder / folder)): p.read_bytes() for p in (bench.folder / folder).rglob("*") if p.is_file()}
     check(files("merged") == files("whole"), "other files")
     bench.run("golden", "merge", "s1", "s1", "-o", "twice").expect(4).expect_one_line("s1", "earlier folder")
-    bench.run("golden", "merge", "s1", "s3", "-o", "twice").expect(4).expect_one_line("2 of 3 shards")
+    left = bench.run("golden", "merge", "s1", "s3", "-o", "twice").expect(5)
+    left.expect_one_line("2 of 3 shards")
+    check(left.out == "burnish golden check m.json --shard 2/3 -o shard-2-of-3\n", left.out)
+    bench.run(*left.out.split()[1:]).expect(5)
+    bench.run("golden", "merge", "s1", "s3", "shard-2-of-3", "-o", "later").expect(5)
+    check(files("later") == files("whole"), "other files by the command that was printed")
     bench.run("golden", "merge", "s1", "-o", "s1").expect(2).expect_one_line("-o")
     for bad in ("0/3", "4/3", "1/", "1/3x", "a"):
         bench.run("golden", "check", "m.json", "--shard", bad).expect(2).expect_one_line("--shard")

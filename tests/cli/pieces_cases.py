@@ -14,7 +14,7 @@ import subprocess
 import time
 
 import gltf_files
-from fault_cases import REFERENCE, needs_embree, preloaded
+from fault_cases import REFERENCE, needs_embree
 from harness import Skipped, case, check
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -227,6 +227,9 @@ def wrong(bench):
                           ((*ROW, "-o", "\udcff_%d.png", "--take"), "UTF-8"),
                           (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
+                          (("submit", "--for", "slurm", "--", "golden", "check", "m.json"), "--shard alone"),
+                          (("submit", "--for", "slurm", "--", "bake", "ltc", "--report", "quality"), "no pieces"),
+                          (("submit", "--for", "slurm", "--", "train", "mip", "-o", "n"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
                           (("submit", "--for", "lsf", "--", *row), "slurm")):
         if "reference" in words:
@@ -282,7 +285,30 @@ def full_disk(bench):
     bench.run("merge", "w", file_size=2048).expect(7)
     check(not list(bench.folder.glob("o_*.exr")), "a picture is there")
     bench.run("merge", "w").expect(0)
-    check(len(list(bench.folder.glob("o_*.exr"))) == 5, "pictures are missing")
+    bench.run(*ROW, "-o", "one_%d.exr").expect(0)
+    for i in range(5):
+        check((bench.folder / f"o_{i}.exr").read_bytes() == (bench.folder / f"one_{i}.exr").read_bytes(), f"other bytes of picture {i}")
+
+
+@case("pieces.of_a_worker_without_the_scene_are_made_by_others")
+def no_scene(bench):
+    shutil.copy(bench.data_file("models/AnisotropyStrengthTest.glb"), bench.folder / "s.glb")
+    row = ("render", "s.glb", "--env", "builtin:studio", "--animate", "roughness=0.1:0.6", "--steps", "4", "--size", "24x16", "--env-size", "16", "-q")
+    bench.run(*row, "-o", "one_%d.png").expect(0)
+    job = (*row, "-o", "two_%d.png", "--work", bench.folder / "w")
+    bench.run(*job, "--shard", "1/2").expect(0)
+    (bench.folder / "elsewhere").mkdir()
+    lost = subprocess.run([bench.program, *map(str, job), "--take"], cwd=bench.folder / "elsewhere", env=bench.environment({}), stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    check(lost.returncode == 4 and "s.glb" in lost.stderr, lost.stderr)
+    bench.run(*job, "--take").expect(0)
+    bench.run("merge", "w").expect(0)
+    for i in range(4):
+        check((bench.folder / f"one_{i}.png").read_bytes() == (bench.folder / f"two_{i}.png").read_bytes(), f"other bytes of picture {i}")
+    # Another scene under the same path
+    shutil.copy(bench.data_file("models/ClearCoatTest.glb"), bench.folder / "s.glb")
+    other = bench.run(*job, "--merge").expect(5)
+    other.expect_one_line("of another scene, job or program")
+    check(len(other.out.splitlines()) == 4, other.out)
 
 
 @case("pieces.merge_twice_at_once")
@@ -391,6 +417,9 @@ def scripts(bench):
     words = ("chart", "my #1: it's.glb", "--runs", "0", "-o", "r")
     text = {engine: bench.run("submit", "--for", engine, "--shards", "3", "--work", "my, pieces", "--", *words).expect(0).out
             for engine in ("slurm", "mpi", "parallel", "k8s", "openjd", "github")}
+    for job in (("render", "a.glb", "--size", "20000x300", "-o", "a.png"), ("render", "a.glb", "--size=300x20000", "-o", "a.png"), ("render", "a.glb", "--band-rows", "64", "-o", "a.png"),
+                ("bake", "ltc", "-o", "t.ltc"), ("bake", "mip", "maps", "-o", "m.mip"), ("train", "mip", "--evaluate", "nets", "-o", "r")):
+        check("--merge" in bench.run("submit", "--for", "slurm", "--", *job).expect(0).out, f"{job} has no script")
     for engine in ("slurm", "mpi", "parallel"):
         done = subprocess.run(["sh", "-n"], input=text[engine], capture_output=True, text=True)
         check(done.returncode == 0, done.stderr)
@@ -402,6 +431,19 @@ def scripts(bench):
     check(shlex.split(shell_line)[1:7] == list(words) and "auto/3" in shell_line and k8s["spec"]["completions"] == 3, text["k8s"])
     openjd = yaml.safe_load(text["openjd"])
     check(openjd["steps"][0]["script"]["actions"]["onRun"]["args"][:6] == list(words) and openjd["steps"][1]["dependencies"] == [{"dependsOn": "pieces"}], text["openjd"])
+
+
+def kill_one(bench, word):
+    """Kills one process in the bench's folder whose command holds a word. Returns true if there was one."""
+    for folder in pathlib.Path("/proc").iterdir():
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            if words[0].endswith(b"burnish") and word.encode() in words and (folder / "cwd").samefile(bench.folder):
+                os.kill(int(folder.name), signal.SIGKILL)
+                return True
+        except (OSError, ValueError):
+            pass  # no process, or one that ended
+    return False
 
 
 def tool(name):
@@ -433,10 +475,31 @@ def by_parallel(bench):
     by_script(bench, "parallel", None, "--at-once", "2")()
 
 
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+
+
 @case("pieces.run_by_mpirun", tier="nightly")
 def by_mpirun(bench):
     tool("mpirun")
-    by_script(bench, "mpi", {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}, "--shards", "3")()
+    by_script(bench, "mpi", MPI, "--shards", "3")()
+
+
+@case("pieces.survive_a_killed_rank_of_mpirun", tier="nightly")
+def killed_rank(bench):
+    tool("mpirun")
+    needs_embree(bench)
+    words = (*PICTURE, "--samples", "65536", "--threads", "1")
+    bench.run(*words, "-o", "one.exr", timeout=300).expect(0)
+    script(bench, "mpi", (*words, "-o", "two.exr"), "--shards", "3")
+    env = bench.environment({"PATH": f"{bench.folder}:/usr/sbin:/usr/bin:/bin", **MPI})
+    running = subprocess.Popen(["sh", "run.sh"], cwd=bench.folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    until, killed = time.monotonic() + 60, False
+    while not killed and running.poll() is None and time.monotonic() < until:
+        killed = bool(list(bench.folder.glob("w/*.piece"))) and kill_one(bench, "--shard")
+        time.sleep(0.02)
+    out = running.communicate(timeout=300)[0]
+    check(killed, f"no rank was there to be killed: {out}")
+    check(running.returncode == 0 and (bench.folder / "one.exr").read_bytes() == (bench.folder / "two.exr").read_bytes(), out)
 
 
 SLURM = """ClusterName=here
@@ -498,7 +561,7 @@ def by_slurm(bench):
         while output_of(["squeue", "-h"], env):
             check(time.monotonic() < until, "the jobs do not end")
             if not killed:
-                killed = subprocess.run(["pkill", "-9", "-n", "-f", "burnish .*--take"], stdin=subprocess.DEVNULL).returncode == 0
+                killed = kill_one(bench, "--take")
             time.sleep(0.2)
         check(killed, "no task was there to be killed")
         logs = "".join(path.read_text() for path in bench.folder.glob("slurm-*.out"))

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <string>
+#include <unistd.h>
 
 #include "core/base/cgroup.h"
 
@@ -37,6 +39,18 @@ TEST_F(cgroup, without_files_there_is_no_limit)
     put("proc", "nonsense\n::\n0::/\n");
     put("sys/memory.max", "max\n");
     EXPECT_EQ(limit(), 0u);
+}
+
+TEST_F(cgroup, memory_is_the_machine_s_or_the_group_s)
+{
+    const std::string proc = (root_ / "proc").string(), sys = (root_ / "sys").string();
+    const std::uint64_t machine = usable_memory(proc, sys);
+    EXPECT_EQ(machine, static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
+    put("proc", "0::/\n");
+    put("sys/memory.max", "3000000\n");
+    EXPECT_EQ(usable_memory(proc, sys), 3000000u);
+    put("sys/memory.max", std::to_string(4 * machine) + "\n");
+    EXPECT_EQ(usable_memory(proc, sys), machine);
 }
 
 TEST_F(cgroup, of_version_2_the_tightest_around_counts)
