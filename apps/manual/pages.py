@@ -9,7 +9,7 @@ ROOT = HERE.parent.parent
 STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr",
              "goldens.json": "goldens.json", "brushed.mtlx": "materials/brushed.mtlx"}  # placeholder: file below tests/data
 BY_BROWSER = ("serve.png", "engines.png")  # pictures that no command writes: a page in a browser
-LAB = ("atlas", "race", "plot", "train")  # run by burnish-lab
+LAB = ("atlas", "conform", "race", "plot", "train")  # run by burnish-lab
 
 
 def pages():

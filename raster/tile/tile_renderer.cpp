@@ -433,8 +433,7 @@ Status TileRenderer::draw_bodies(const FrameDesc& desc, Frame& frame, Profiler* 
 {
     const std::vector<TileCounts> by_tile = by_tile_;
     Result<Frame> behind = render(behind_frame(desc), std::move(behind_));
-    if (!behind)
-        return behind.error();
+    BN_TRY(behind);
     behind_ = std::move(*behind);
     maker_.take_behind(behind_);
     by_tile_ = by_tile;
