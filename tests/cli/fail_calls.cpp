@@ -147,10 +147,10 @@ ssize_t read(int fd, void* to, size_t size)
     static auto* const real = next<ssize_t(int, void*, size_t)>("read");
     return fails("read", EIO) ? -1 : real(fd, to, size);
 }
-ssize_t getrandom(void* to, size_t size, unsigned flags)
+int getentropy(void* to, size_t size)
 {
-    static auto* const real = next<ssize_t(void*, size_t, unsigned)>("getrandom");
-    return fails("getrandom", ENOSYS) ? -1 : real(to, size, flags);
+    static auto* const real = next<int(void*, size_t)>("getentropy");
+    return fails("getentropy", ENOSYS) ? -1 : real(to, size);
 }
 int open(const char* path, int flags, ...)
 {

@@ -102,7 +102,7 @@ def fail_in_turn(bench, job, calls, steps, every=1, fail_bytes=65536, always="")
     print(f"{fired} failed calls, exit codes {codes}")
 
 
-FILE_CALLS = ("write", "fsync", "fsync_folder", "rename", "linkat", "flock", "tmpfile", "getrandom")
+FILE_CALLS = ("write", "fsync", "fsync_folder", "rename", "linkat", "flock", "tmpfile", "getentropy")
 WRITES = ("write", "fsync", "rename", "linkat")
 ALL = range(1, 20000)
 
@@ -110,7 +110,7 @@ ALL = range(1, 20000)
 @case("fault.calls_on_files", tier="nightly")
 def file_calls(bench):
     fail_in_turn(bench, RENDER, FILE_CALLS, ALL, every=4)
-    fail_in_turn(bench, RENDER, ("create", "write", "fsync", "fsync_folder", "rename", "flock", "getrandom"), ALL, every=4, always="tmpfile")
+    fail_in_turn(bench, RENDER, ("create", "write", "fsync", "fsync_folder", "rename", "flock", "getentropy"), ALL, every=4, always="tmpfile")
 
 
 @case("fault.calls_of_a_bake", tier="nightly")
