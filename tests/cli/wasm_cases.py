@@ -197,6 +197,36 @@ console.log(await late, await scene.render().catch((error) => error.code));
     check(lines[1].split() == ["true", same, str(32 * 18 * 4), "3", lines[1].split()[4], "true"] and int(lines[1].split()[4]) > 1 and lines[2:] == ["2", "130 130"], str(lines))
 
 
+@case("wasm.the_library_draws_in_a_browser", "of_wasm", tier="nightly", budget=60)
+def library_in_browser(bench):
+    """As modules from a host: in the page's thread, and in a worker."""
+    shutil.copytree(package(bench), bench.folder / "burnish")
+    (bench.folder / "page.html").write_text("""<!doctype html><script type="module">
+import { load } from "./burnish/burnish.mjs";
+import { connect } from "./burnish/remote.mjs";
+const opening = { env_size: 32, env_samples: 32 }, drawing = { width: 64, height: 40, technique: "bent_normal", msaa: 4 };
+try {
+  const scene = (await load()).open("builtin:plate", opening), remote = await connect(), other = await remote.open("builtin:plate", opening);
+  window.hashes = [scene.render(drawing).hash, (await other.render(drawing)).hash];
+  await remote.end();
+} catch (fault) { window.hashes = [String(fault)]; }
+</script>""")
+
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        extensions_map = {".html": "text/html", ".mjs": "text/javascript", ".wasm": "application/wasm"}
+
+        def log_message(self, *_):
+            pass
+
+    same = program_hash(bench, "builtin:plate", "--floor", "off", "--env-size", "32", "--env-samples", "32", "--size", "64x40", "--technique", "bent_normal", "--msaa", "4")
+    with Browser(bench.folder) as browser, http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=bench.folder)) as host:
+        threading.Thread(target=host.serve_forever, daemon=True).start()
+        browser.visit(f"http://127.0.0.1:{host.server_address[1]}/page.html")
+        browser.until("!!window.hashes", 60)
+        check(browser.value("hashes") == [same, same], f"{browser.value('hashes')}, the program {same}; {browser.faults}")
+        host.shutdown()
+
+
 @case("wasm.the_package_is_small_and_whole", "of_wasm", tier="nightly", budget=30)
 def small_package(bench):
     if not shutil.which("npm"):
