@@ -167,11 +167,15 @@ const calls = {
 };
 for (const [name, call] of Object.entries(calls))
     try { call(); console.log(name, 0); } catch (error) { console.log(name, error instanceof burnish.BurnishError ? error.code : error); }
+for (const [name, wasm] of [["gone", new URL("gone.wasm", import.meta.url)], ["broken", new Uint8Array([0, 97, 115, 109, 9])]])
+    console.log(name, await burnish.load({ wasm }).then(() => 0, (error) => (error instanceof burnish.BurnishError ? error.code : error)));
+const copy = scene.render({ width: 8, height: 8, roughness: 0.9 }), { flip_mean } = library.compare(picture, picture);
+console.log("equal", flip_mean === 0 && library.compare(picture, copy).flip_mean > 0.01 ? 0 : 1);
 console.log("after", scene.render({ width: 8, height: 8 }).hash === picture.hash ? 0 : 1);
 """
     found = dict(line.split(" ", 1) for line in node(bench, script).splitlines())
     wanted = {"size": "2", "name": "2", "model": "4", "builtin": "4", "path": "4", "outside": "4", "light": "4", "material": "2", "sizes": "3", "stopped": "130",
-              "kind": "2", "matrix": "2", "pixels": "3", "empty": "2", "thrown": "99", "large": "2", "after": "0"}
+              "kind": "2", "matrix": "2", "pixels": "3", "empty": "2", "thrown": "99", "large": "2", "gone": "4", "broken": "4", "equal": "0", "after": "0"}
     check(found == wanted, str({name: (found.get(name), code) for name, code in wanted.items() if found.get(name) != code}))
 
 

@@ -26,9 +26,9 @@ async function bytesOf(source) {
     const url = new URL(source, import.meta.url);
     if (url.protocol === "file:" && typeof process === "object") {
         const { readFile } = await import("node:fs/promises");
-        return readFile(url);
+        return readFile(url).catch((fault) => { throw new BurnishError(`${url}: ${fault.code}`, 4); });
     }
-    const answer = await fetch(url);
+    const answer = await fetch(url).catch((fault) => { throw new BurnishError(`${url}: ${fault.message}`, 4); });
     if (!answer.ok)
         throw new BurnishError(`${url}: ${answer.status} ${answer.statusText}`, 4);
     return answer.arrayBuffer();
@@ -36,7 +36,12 @@ async function bytesOf(source) {
 
 /** Starts the library. wasm: the bytes of burnish_core.wasm, or its address; without it the file beside this one. */
 export async function load({ wasm = new URL("burnish_core.wasm", import.meta.url) } = {}) {
-    return new Burnish(await makeCore({ wasmBinary: await bytesOf(wasm), printErr: (line) => console.warn(line) }));
+    const wasmBinary = await bytesOf(wasm);
+    try {
+        return new Burnish(await makeCore({ wasmBinary, printErr: (line) => console.warn(line) }));
+    } catch (fault) {
+        throw fault instanceof BurnishError ? fault : new BurnishError(`${wasm instanceof URL ? wasm : "wasm"}: ${fault.message ?? fault}`, 4);
+    }
 }
 
 const isBytes = (value) => value instanceof Uint8Array || value instanceof ArrayBuffer;
