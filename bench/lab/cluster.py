@@ -1,10 +1,10 @@
 """What many workers make of a job in pieces: time, efficiency and requests to the shared folder, by simulation.
 
     burnish render lamp.glb --backend reference --samples 4096 --size 1920x1080 --pieces > pieces.txt
-    python3 bench/lab/cluster.py pieces.txt --start 0.4 --merge 0.002 --bytes 24000 -o cluster.svg
+    python3 bench/lab/cluster.py pieces.txt --start 0.4 --merge 0.002 --bytes 24000 --memory 120 -o cluster.svg
 
 pieces.txt: the list of --pieces, whose seconds are measured. --start: a worker's time until its first piece (s). --merge: time of the merge
-for a piece (s). --bytes: of a piece. --requests: what the folder's server answers a second. Workers take pieces by lease, each from another
+for a piece (s). --bytes: of a piece. --memory: of a worker (MB). --requests: what the folder's server answers a second. Workers take pieces by lease, each from another
 place of the list on, as apps/pieces does, or have shares of their own. Prints a line for each number of workers, for both ways.
 """
 import argparse
@@ -67,6 +67,7 @@ def main():
     parser.add_argument("--start", type=float, default=0.5)
     parser.add_argument("--merge", type=float, default=0.002)
     parser.add_argument("--bytes", type=int, default=24000)
+    parser.add_argument("--memory", type=float, default=0.0)
     parser.add_argument("--requests", type=float, default=5000.0)
     parser.add_argument("--workers", default="1,3,10,30,100,300,1000")
     parser.add_argument("-o", "--output")
@@ -74,12 +75,12 @@ def main():
     seconds = [float(line.split()[1]) for line in open(given.pieces) if line.strip()]
     total, merge, rows = sum(seconds), given.merge * len(seconds), []
     print(f"{len(seconds)} pieces, {total:.0f} s, the longest {max(seconds):.1f} s, {given.bytes * len(seconds) / 1e6:.0f} MB; merge {merge:.1f} s")
-    print("workers  way       pieces s  with merge s  efficiency  requests  a second")
+    print("workers  way       pieces s  with merge s  efficiency  requests  a second  memory GB")
     for workers in map(int, given.workers.split(",")):
         for name, way in (("take", taken), ("shard", dealt)):
             last, requests = way(seconds, workers, given.start, given.requests)
             row = (workers, last, total / (workers * last), requests, requests / last)
-            print(f"{workers:7d}  {name:6s} {last:11.1f} {last + merge:13.1f} {row[2]:11.3f} {requests:9d} {row[4]:9.0f}")
+            print(f"{workers:7d}  {name:6s} {last:11.1f} {last + merge:13.1f} {row[2]:11.3f} {requests:9d} {row[4]:9.0f} {workers * given.memory / 1e3:10.1f}")
             if way == taken:
                 rows.append(row)
     if given.output:

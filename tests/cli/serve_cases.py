@@ -291,6 +291,11 @@ def page(bench):
         for mode in ("split", "error"):
             browser.value(f"(() => {{ document.body.dataset.done = ''; document.querySelector('[data-show={mode}]').click(); }})()")
             done(mode)
+            if mode == "split":  # the line moves by keys, too
+                browser.value("document.getElementById('line').focus()")
+                browser.press("ArrowRight")
+                line = browser.value("[document.getElementById('line').getAttribute('aria-valuenow'), document.getElementById('view').style.getPropertyValue('--split')]")
+                check(line == ["52", "52%"], str(line))
             browser.screenshot(bench.folder / f"{mode}.png")
             # Read what belongs together at once: a delayed frame may begin another picture
             read = f"document.body.dataset.done === '{mode}' && [shown.a.hash, shown.b.hash, ...['command', 'command_b'].map(id => document.getElementById(id).textContent)]"
