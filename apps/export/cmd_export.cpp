@@ -102,6 +102,7 @@ std::vector<std::string> technique_names()
     std::vector<std::string> names;
     for (const TechniqueInfo& technique : techniques())
         names.push_back(technique.name);
+    names.push_back("auto");
     return names;
 }
 
@@ -140,7 +141,7 @@ OptionTable export_option_table(ExportArguments& to)
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
     table.add(
         "The technique",
-        {{"--technique", "NAME", "Technique to export, or that draws the page: {}", choice(to.technique, technique_names()),
+        {{"--technique", "NAME", "Technique to export, or that draws the page, which alone takes auto: {}", choice(to.technique, technique_names()),
           "a page: auto"},
          {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
           "the technique's default; three, babylon: where pixels would share samples, the most"},
@@ -261,6 +262,8 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
         return usage_error("--technique", "is missing");
     if (!arguments.scene.empty())
         return usage_error("SCENE", "is for a page");
+    if (arguments.technique == "auto")
+        return usage_error("--technique", "auto is for a page: a file holds one technique");
     if (arguments.ltc && is_module(arguments.what))
         return usage_error("--ltc", "is for languages; three brings area lights, the other modules do not");
     const TechniqueInfo& technique = *find_technique(arguments.technique);

@@ -24,12 +24,12 @@ def no_renderer(bench, name, script="var Module = 1;\nexport default Module;", v
 def pages_hold(bench):
     """With a renderer that cannot run: what is in the file."""
     no_renderer(bench, "renderer")
-    words = ("--roughness", "0.3", "--no-background", "--env", "builtin:sky", "--env-size", "16", "--size", "32x24")
+    words = ("--roughness", "0.3", "--technique", "auto", "--no-background", "--env", "builtin:sky", "--env-size", "16", "--size", "32x24")
     bench.run("export", "page", "builtin:sphere", *words, "--renderer", "renderer", "-o", "page.html").expect(0)
     page, files = parts_of((bench.folder / "page.html").read_text())
     check(not files and page["target"] == "builtin:sphere" and page["rows"]["page"]["environment"] == "builtin:sky", str(page))
     row = page["rows"]["page"]
-    check(row["options"] == {"--roughness": "0.3", "--no-background": "", "--env-size": "16"}, str(row["options"]))
+    check(row["options"] == {"--roughness": "0.3", "--technique": "auto", "--no-background": "", "--env-size": "16"}, str(row["options"]))
     check(row["hash"] == program_hash(bench, "builtin:sphere", *words) == hash_of_command(bench, row["command"]), str(row))
     # Several lights, and numbers as they are given
     words = ("--light", "sphere:points=0,1,0:radius=0.1:radiance=9,9,9", "--light", "sphere:points=1,1,0:radius=0.1:radiance=9,2,2", "--roughness", "0.123456789",
@@ -82,6 +82,7 @@ def wrong_pages(bench):
     bench.run("export", "page", "builtin:none", "-o", "x.html", "--renderer", ".").expect(2).expect_one_line("none")
     bench.run("export", "glsl", "builtin:sphere", "--technique", "mc", "-o", "x.glsl").expect(2).expect_one_line("SCENE")
     bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
+    bench.run("export", "glsl", "--technique", "auto", "-o", "x.glsl").expect(2).expect_one_line("--technique", "auto")
     bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
     # What a page cannot hold
     for words, code, needle in ((("builtin:sphere", "--size", "5000x20"), 2, "--size"), (("builtin:sphere", "--size", "1920x1200", "--msaa", "16"), 2, "--size"),
