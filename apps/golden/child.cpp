@@ -13,6 +13,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "core/base/cgroup.h"
 #include "core/base/descriptor.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
@@ -183,7 +184,10 @@ Status run_child(const ChildRun& run)
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
     pid_t child = 0;
-    const int error = posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environment.data());
+    const int error = [&] {
+        const UnboundMemory unbound;
+        return posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environment.data());
+    }();
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error != 0)

@@ -59,7 +59,7 @@ The results' folder gets index.html with the differences, results.jsonl, junit.x
 GitHub, annotations and the step's summary are written too.
 
 Exit codes, the gravest first: 4 a picture could not be made or the manifest is wrong, 6 a picture holds NaN or Inf, 1 a picture differs,
-5 a golden is missing, 0 all passed.
+5 a golden is missing, or a shard to merge, 0 all passed.
 
 Examples:
   burnish golden check goldens.json
@@ -169,11 +169,11 @@ int conclude(std::vector<GoldenResult> results, const std::string& live, NewResu
     return exit_code_of(counts);
 }
 
-// Returns this command without its shard, its folder and its number of jobs, for a shell.
-std::string command_of_shard()
+// Returns this command without its shard, its folder and its number of jobs.
+std::vector<std::string> words_of_shard()
 {
     const std::vector<std::string> words = without_pieces(kept_words());
-    std::vector<std::string> kept = {"burnish"};
+    std::vector<std::string> kept;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const bool apart = words[i] == "-o" || words[i] == "--output" || words[i] == "--jobs";
         if (apart)
@@ -181,7 +181,7 @@ std::string command_of_shard()
         else if (!words[i].starts_with("-o") && !words[i].starts_with("--output=") && !words[i].starts_with("--jobs="))
             kept.push_back(words[i]);
     }
-    return shell_words(kept);
+    return kept;
 }
 
 int check(const GoldenArguments& arguments, Report& report)
@@ -205,7 +205,9 @@ int check(const GoldenArguments& arguments, Report& report)
             if (!path.empty())
                 inputs.push_back((fs::path(manifest->folder) / path).string());
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(inputs, {*shard, manifest_hash(*manifest), shard->count > 1 ? command_of_shard() : ""}); !made)
+    if (const Status made =
+            fresh.make(inputs, {*shard, manifest_hash(*manifest), shard->count > 1 ? words_of_shard() : std::vector<std::string>()});
+        !made)
         return fail(made.error());
     report.release();
     std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
@@ -353,16 +355,30 @@ int bless(const GoldenArguments& arguments, Report& report)
     return code;
 }
 
+// Returns a line for a shell that makes a shard. words: as words_of_shard() returns them; none: an empty text.
+std::string command_of_shard(const std::vector<std::string>& words, std::size_t shard, std::size_t count)
+{
+    if (words.empty())
+        return "";
+    std::vector<std::string> all = {
+        "burnish", words[0], words[1], "--shard", fmt::format("{}/{}", shard, count), "-o", fmt::format("shard-{}-of-{}", shard, count)};
+    all.insert(all.end(), words.begin() + 2, words.end());
+    return shell_words(all) + "\n";
+}
+
 int merge(const GoldenArguments& arguments, Report& report)
 {
     std::vector<GoldenResult> all;
     std::set<std::string> names;
     std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
     std::set<std::size_t> indices;
-    std::string manifest, command;
+    std::string manifest;
+    std::vector<std::string> words; // of the shards' command
     for (const std::string& folder : arguments.paths) {
         if (same_file(folder, arguments.results))
             return fail(usage_error("-o", "is one of the folders to merge"));
+        if (!is_folder(folder)) // of a shard that died
+            continue;
         const Result<std::vector<GoldenResult>> results = read_results(folder);
         if (!results)
             return fail(results.error());
@@ -370,7 +386,8 @@ int merge(const GoldenArguments& arguments, Report& report)
         if (!origin)
             return fail(origin.error());
         if (shards.empty())
-            manifest = origin->manifest, command = origin->command;
+            manifest = origin->manifest;
+        words = words.empty() ? origin->words : words;
         if (origin->manifest != manifest)
             return fail(Error{ExitCode::bad_input, folder, "", "is made from other rows than " + arguments.paths.front()});
         if (!indices.insert(origin->shard.index).second)
@@ -383,6 +400,8 @@ int merge(const GoldenArguments& arguments, Report& report)
             all.push_back(r);
         }
     }
+    if (shards.empty())
+        return fail(Error{ExitCode::bad_input, arguments.paths.front(), "", "is no folder"});
     const std::size_t count = shards.rbegin()->first;
     if (shards.size() != 1)
         return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
@@ -390,12 +409,13 @@ int merge(const GoldenArguments& arguments, Report& report)
     if (indices.size() < count) {
         for (std::size_t i = 0; i < count; ++i)
             if (!indices.contains(i))
-                std::puts(fmt::format("{0} --shard {1}/{2} -o shard-{1}-of-{2}", command, i + 1, count).c_str());
+                std::fputs(command_of_shard(words, i + 1, count).c_str(), stdout);
         return fail(Error{ExitCode::golden_missing, arguments.paths.front(), "",
-                          fmt::format("{} of {} shards are given; standard output has the commands of the others", indices.size(), count)});
+                          fmt::format("{} of {} shards are given{}", indices.size(), count,
+                                      words.empty() ? "" : "; standard output has the commands of the others")});
     }
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest, ""}); !made)
+    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest}); !made)
         return fail(made.error());
     for (const std::string& folder : arguments.paths)
         for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {

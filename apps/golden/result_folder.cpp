@@ -8,12 +8,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <system_error>
 
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/golden/check.h"
+#include "apps/report/json.h"
 #include "core/base/file.h"
 #include "core/base/text.h"
 
@@ -53,6 +55,16 @@ Status move_into(const std::string& from, const std::string& to, const char* nam
     return {};
 }
 
+// Reads a command's words. Returns none for a text that holds no command of a check.
+std::vector<std::string> words_of(const std::string& text)
+{
+    const Json json = Json::parse(text, nullptr, false);
+    std::vector<std::string> words;
+    for (const Json& word : json.is_array() ? json : Json::array())
+        words.push_back(word.is_string() ? word.get<std::string>() : "");
+    return words.size() > 2 && words[0] == "golden" && words[1] == "check" ? words : std::vector<std::string>();
+}
+
 } // namespace
 
 Result<ResultOrigin> origin_of_results(const std::string& folder)
@@ -66,7 +78,7 @@ Result<ResultOrigin> origin_of_results(const std::string& folder)
     const std::size_t blank = std::min(line.find(' '), line.size());
     const Result<Share> shard = parse_share(line.substr(0, blank));
     BN_TRY(shard);
-    return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size())), lines.size() > 2 ? lines[2] : ""};
+    return ResultOrigin{*shard, line.substr(std::min(blank + 1, line.size())), words_of(lines.size() > 2 ? lines[2] : "")};
 }
 
 NewResults::~NewResults()
@@ -96,7 +108,7 @@ Status NewResults::make(const std::vector<std::string>& inputs, const ResultOrig
         return Error{ExitCode::output_failed, results_, "", "another run of burnish golden writes here"};
     const std::string text =
         fmt::format("{}/{} {}\nmade by burnish golden, which replaces these files\n{}", origin.shard.index + 1, origin.shard.count,
-                    origin.manifest, origin.command.empty() ? "" : printable(origin.command) + "\n");
+                    origin.manifest, origin.words.empty() ? "" : json_text(Json(origin.words), -1) + "\n");
     if (!ours)
         BN_TRY(write_text(marker, text));
     made_ = true;

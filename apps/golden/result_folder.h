@@ -13,8 +13,8 @@ namespace burnish {
 // What a folder of results says of itself.
 struct ResultOrigin {
     Share shard;
-    std::string manifest; // manifest_hash() of its rows
-    std::string command;  // of a shard, for a shell, without the shard and its folder; else empty
+    std::string manifest;             // manifest_hash() of its rows
+    std::vector<std::string> words{}; // of a shard's command, without the shard and its folder; else empty
 };
 Result<ResultOrigin> origin_of_results(const std::string& folder);
 

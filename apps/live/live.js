@@ -6,7 +6,7 @@
   const names = { page: Object.keys(data.rows)[0] };  // of the row that is shown
 
   const kTooOld = 'This browser is too old to draw: the picture is the one that the page was made with.';
-  const kPatience = 3000;  // milliseconds that a picture may go on which nobody waits for
+  const kPatience = 3000;  // milliseconds: a picture under way for longer ends once nobody waits for it
 
   async function bytes_of(element) {
     const text = atob(element.textContent.trim()), packed = new Uint8Array(text.length);
@@ -15,6 +15,7 @@
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
   }
 
+  let opening = 0;  // dialogs that were closed so far
   let lost = null, begun = null, kept = null, running = null, asked = 0, lead = null;
 
   // A worker with a renderer of its own. ask(message) returns a promise of its answer.
@@ -75,7 +76,7 @@
     if (!running || !running.signal || !running.signal.aborted || performance.now() - running.since < kPatience) return;
     running = null;
     for (const renderer of [lead, ...starting, ...helpers]) renderer.end(new DOMException('', 'AbortError'));
-    begun = begin();
+    begun = null;
   }
 
   // --- Several workers draw bands of one picture. Bits do not depend on the bands.
@@ -153,17 +154,19 @@
     return answer;
   }
 
+  const ready = () => begun ||= begin().catch(fault => { begun = null; throw fault; });
+
   // One question is with the workers; of the others, those that are still wanted wait.
   let last = Promise.resolve();
   function ask(path, body, signal) {
-    begun ||= begin();
     asked = performance.now();
     end_forgotten();
+    const own = opening;
     setTimeout(end_forgotten, kPatience);
     const mine = last.catch(() => {}).then(async () => {
-      await begun;
+      await ready();
       if (lost) throw lost;
-      if (signal && signal.aborted) throw new DOMException('', 'AbortError');
+      if ((signal && signal.aborted) || own !== opening) throw new DOMException('', 'AbortError');
       running = { signal, since: performance.now() };
       try {
         return await answer_to(path, body);
@@ -212,7 +215,9 @@
     close.addEventListener('click', () => dialog.close());
     dialog.addEventListener('close', () => {
       dialog.remove();
-      if (running) running.signal = { aborted: true };  // nobody waits for its picture
+      ++opening;  // nobody waits for its pictures
+      if (running) running.signal = { aborted: true };
+      setTimeout(end_forgotten, kPatience);
     });
     frame.style.cssText = 'width: 100%; height: 100%; border: 0';
     frame.title = 'The picture, drawn here';

@@ -10,6 +10,7 @@
 #include "apps/cli/values.h"
 #include "apps/pieces/submit.h"
 #include "apps/pieces/words.h"
+#include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
@@ -25,14 +26,19 @@ Examples:
 // True for a size that is drawn in bands.
 bool is_large(const std::vector<std::string>& words)
 {
-    constexpr int kMostSide = 16384; // of a frame
     const auto at =
         std::find_if(words.begin(), words.end(), [](const std::string& w) { return w == "--size" || w.starts_with("--size="); });
     if (at == words.end() || (*at == "--size" && at + 1 == words.end()))
         return false;
     const std::string size = *at == "--size" ? at[1] : at->substr(std::strlen("--size="));
     const std::size_t cross = size.find('x');
-    return std::atoi(size.c_str()) > kMostSide || (cross != size.npos && std::atoi(size.c_str() + cross + 1) > kMostSide);
+    const std::int64_t width = std::atoll(size.c_str()), height = cross == size.npos ? 0 : std::atoll(size.c_str() + cross + 1);
+    std::int64_t samples = FrameDesc().msaa;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (words[i].starts_with("--msaa"))
+            samples = std::atoll(words[i] == "--msaa" ? i + 1 < words.size() ? words[i + 1].c_str() : ""
+                                                      : words[i].c_str() + std::strlen("--msaa="));
+    return width > kMaxPictureSide || height > kMaxPictureSide || width * height * samples > kMaxPictureSamples;
 }
 
 // True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table, or
@@ -48,7 +54,7 @@ bool has_pieces(const std::vector<std::string>& words)
     if (words[0] == "render")
         return reference || has("--animate") || has("--turntable") || has("--band-rows") || is_large(words);
     if (words[0] == "bake" && words.size() > 1)
-        return words[1] == "mip" || (words[1] == "ltc" && !has("--report"));
+        return words[1] == "mip" || (words[1] == "ltc" && !has("--table"));
     if (words[0] == "train")
         return has("--evaluate");
     return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));

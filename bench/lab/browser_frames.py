@@ -20,6 +20,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests/cli"))
 from browser import Browser  # noqa: E402
+from harness import Failed, Skipped  # noqa: E402
 
 SIZE = (640, 360)
 SCENES = (("builtin:teapot", "auto", 1), ("builtin:teapot", "auto", 4), ("builtin:spheres", "lobe_line", 4), ("builtin:lights", "bent_normal", 4),
@@ -87,7 +88,7 @@ def main():
         words = (scene, "--technique", technique, "--msaa", str(msaa), "--size", f"{SIZE[0]}x{SIZE[1]}", "--floor", "off", *ENVIRONMENT)
         try:
             own, there = native(program, words, given.frames), in_browser(program, renderer, words, given.frames)
-        except (OSError, subprocess.CalledProcessError) as fault:
+        except (OSError, subprocess.CalledProcessError, Failed, Skipped) as fault:
             print(fault, file=sys.stderr)
             return 2
         ratios.append(there / own)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 
 namespace burnish {
@@ -18,6 +19,19 @@ void add_folders(const std::string& mount, std::string path, std::vector<std::st
         path.erase(path.find_last_of('/'));
     }
     folders.push_back(mount);
+}
+
+std::mutex bound_mutex;
+rlim_t found_limit = 0, own_limit = 0; // under bound_mutex; own_limit 0: none was set
+int unbound = 0;                       // objects of UnboundMemory, under bound_mutex
+
+void set_data_limit(rlim_t limit)
+{
+    struct rlimit now {};
+    if (::getrlimit(RLIMIT_DATA, &now) != 0)
+        return;
+    now.rlim_cur = limit;
+    static_cast<void>(::setrlimit(RLIMIT_DATA, &now));
 }
 
 } // namespace
@@ -76,9 +90,24 @@ void bound_memory(int threads)
     const std::uint64_t bound = limit + kStackBytes * static_cast<std::uint64_t>(std::max(1, threads));
     if (now.rlim_cur != RLIM_INFINITY && now.rlim_cur <= bound)
         return;
-    now.rlim_cur = bound;
-    static_cast<void>(::setrlimit(RLIMIT_DATA, &now)); // a failure leaves the old bound
+    const std::lock_guard lock(bound_mutex);
+    found_limit = now.rlim_cur, own_limit = bound;
+    set_data_limit(bound); // a failure leaves the old bound
 #endif
+}
+
+UnboundMemory::UnboundMemory()
+{
+    const std::lock_guard lock(bound_mutex);
+    if (unbound++ == 0 && own_limit != 0)
+        set_data_limit(found_limit);
+}
+
+UnboundMemory::~UnboundMemory()
+{
+    const std::lock_guard lock(bound_mutex);
+    if (--unbound == 0 && own_limit != 0)
+        set_data_limit(own_limit);
 }
 
 } // namespace burnish

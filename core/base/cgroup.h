@@ -15,12 +15,21 @@ std::vector<std::string> cgroup_folders(const std::string& controller, const std
 // Returns the smallest memory limit in bytes, or 0 for no limit.
 std::uint64_t cgroup_memory_limit(const std::string& proc = "/proc/self/cgroup", const std::string& sys = "/sys/fs/cgroup");
 
-// Returns the memory that the process may use without swapping or being killed: the groups' limit or the machine's memory, the smaller.
+// Returns the groups' limit or the machine's memory in bytes, the smaller.
 std::uint64_t usable_memory(const std::string& proc = "/proc/self/cgroup", const std::string& sys = "/sys/fs/cgroup");
 
-// Lets allocations fail where the process would swap, or be killed without a message. Bounds the process's data
-// (RLIMIT_DATA) by usable_memory() plus the stacks that `threads` threads reserve. Does nothing where sanitizers keep
+// Lets allocations fail that exceed usable_memory(), in place of swapping or being killed without a message. Bounds the
+// process's data (RLIMIT_DATA) by it plus the stacks that `threads` threads reserve. Does nothing where sanitizers keep
 // shadows of all memory.
 void bound_memory(int threads);
+
+// Restores the limit that bound_memory() found, as long as an object lives: children inherit limits where they start. Any thread.
+class UnboundMemory {
+  public:
+    UnboundMemory();
+    ~UnboundMemory();
+    UnboundMemory(const UnboundMemory&) = delete;
+    UnboundMemory& operator=(const UnboundMemory&) = delete;
+};
 
 } // namespace burnish

@@ -151,9 +151,11 @@ def shards(bench):
     files = lambda folder: {str(p.relative_to(bench.folder / folder)): p.read_bytes() for p in (bench.folder / folder).rglob("*") if p.is_file()}
     check(files("merged") == files("whole"), "other files")
     bench.run("golden", "merge", "s1", "s1", "-o", "twice").expect(4).expect_one_line("s1", "earlier folder")
+    check(bench.run("golden", "merge", "s1", "gone", "s3", "-o", "twice").expect(5).out, "a folder that is not there")
+    bench.run("golden", "merge", "gone", "-o", "twice").expect(4).expect_one_line("gone")
     left = bench.run("golden", "merge", "s1", "s3", "-o", "twice").expect(5)
     left.expect_one_line("2 of 3 shards")
-    check(left.out == "burnish golden check m.json --shard 2/3 -o shard-2-of-3\n", left.out)
+    check(left.out == "burnish golden check --shard 2/3 -o shard-2-of-3 m.json\n", left.out)
     bench.run(*left.out.split()[1:]).expect(5)
     bench.run("golden", "merge", "s1", "s3", "shard-2-of-3", "-o", "later").expect(5)
     check(files("later") == files("whole"), "other files by the command that was printed")

@@ -219,7 +219,7 @@ def wrong(bench):
                           ((*row, "--take", "--stats", "s.json"), "--stats"), (("render", "builtin:plate", "--pieces"), "--backend"),
                           ((*REFERENCE, "--checkpoint", "c.part", "--pieces"), "--checkpoint"),
                           ((*REFERENCE, "--target-error", "0.1", "--take"), "--target-error"), ((*row, "--budget-ms", "20", "--take"), "--budget-ms"),
-                          (("submit", "--for", "mpi", "--", "render", "builtin:plate"), "no pieces"),
+                          (("submit", "--for", "mpi", "--", "render", "builtin:plate"), "no pieces"), (("submit", "--for", "mpi", "--", "render", "a.glb", "--size", "8192x8192", "--msaa", "1"), "no pieces"),
                           (("submit", "--for", "mpi", "--", "chart", "--mip", "-o", "r"), "no pieces"),
                           (("submit", "--for", "mpi", "--at-once", "2", "--", *row), "--at-once"),
                           (("submit", "--for", "github", "--shards", "257", "--", *row), "256"),
@@ -228,7 +228,7 @@ def wrong(bench):
                           (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
                           (("submit", "--for", "slurm", "--", "golden", "check", "m.json"), "--shard alone"),
-                          (("submit", "--for", "slurm", "--", "bake", "ltc", "--report", "quality"), "no pieces"),
+                          (("submit", "--for", "slurm", "--", "bake", "ltc", "--table", "t.ltc", "--preview", "p"), "no pieces"),
                           (("submit", "--for", "slurm", "--", "train", "mip", "-o", "n"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
                           (("submit", "--for", "lsf", "--", *row), "slurm")):
@@ -417,7 +417,8 @@ def scripts(bench):
     words = ("chart", "my #1: it's.glb", "--runs", "0", "-o", "r")
     text = {engine: bench.run("submit", "--for", engine, "--shards", "3", "--work", "my, pieces", "--", *words).expect(0).out
             for engine in ("slurm", "mpi", "parallel", "k8s", "openjd", "github")}
-    for job in (("render", "a.glb", "--size", "20000x300", "-o", "a.png"), ("render", "a.glb", "--size=300x20000", "-o", "a.png"), ("render", "a.glb", "--band-rows", "64", "-o", "a.png"),
+    for job in (("render", "a.glb", "--size", "20000x300", "-o", "a.png"), ("render", "a.glb", "--size=300x20000", "-o", "a.png"), ("render", "a.glb", "--band-rows", "64", "-o", "a.png"), ("render", "a.glb", "--size", "8192x8192", "-o", "a.png"),
+                ("render", "a.glb", "--size", "8192x8192", "--msaa=16", "-o", "a.png"), ("bake", "ltc", "-o", "t.ltc", "--report", "quality"),
                 ("bake", "ltc", "-o", "t.ltc"), ("bake", "mip", "maps", "-o", "m.mip"), ("train", "mip", "--evaluate", "nets", "-o", "r")):
         check("--merge" in bench.run("submit", "--for", "slurm", "--", *job).expect(0).out, f"{job} has no script")
     for engine in ("slurm", "mpi", "parallel"):

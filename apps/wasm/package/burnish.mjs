@@ -31,7 +31,7 @@ async function bytesOf(source) {
     const answer = await fetch(url).catch((fault) => { throw new BurnishError(`${url}: ${fault.message}`, 4); });
     if (!answer.ok)
         throw new BurnishError(`${url}: ${answer.status} ${answer.statusText}`, 4);
-    return answer.arrayBuffer();
+    return answer.arrayBuffer().catch((fault) => { throw new BurnishError(`${url}: ${fault.message}`, 4); });
 }
 
 /** Starts the library. wasm: the bytes of burnish_core.wasm, or its address; without it the file beside this one. */
@@ -40,7 +40,7 @@ export async function load({ wasm = new URL("burnish_core.wasm", import.meta.url
     try {
         return new Burnish(await makeCore({ wasmBinary, printErr: (line) => console.warn(line) }));
     } catch (fault) {
-        throw fault instanceof BurnishError ? fault : new BurnishError(`${wasm instanceof URL ? wasm : "wasm"}: ${fault.message ?? fault}`, 4);
+        throw fault instanceof BurnishError ? fault : new BurnishError(`${isBytes(wasm) ? "wasm" : wasm}: ${fault.message ?? fault}`, 4);
     }
 }
 
