@@ -7,6 +7,7 @@ import re
 import shutil
 import stat
 import struct
+import subprocess
 import xml.etree.ElementTree
 
 from browser import Browser
@@ -139,6 +140,15 @@ def outputs(bench):
     left = int(re.search(r"\.\.\. (\d+) bytes", text)[1])
     whole = sum(len(str(n)) + 1 for n in range(1, 1000001)) + len("last\n")
     check(left == whole - (1 << 20), f"{left} of {whole} bytes")
+
+
+@case("golden.programs_have_the_memory_that_they_had_without_it")
+def memory_of_programs(bench):
+    before = subprocess.run(["sh", "-c", "ulimit -d"], capture_output=True, text=True, check=True).stdout.strip()
+    write(bench, [{"name": f"bound {i}", "command": ["sh", "-c", "echo memory $(ulimit -d); exit 3"], "picture": f"{i}.png"} for i in range(4)])
+    bench.run("golden", "check", "m.json", "--jobs", "4").expect(4)
+    said = (bench.folder / "golden-results/results.jsonl").read_text()
+    check(said.count(f"memory {before}") == 4, said)
 
 
 @case("golden.shards_merge_to_the_files_of_one_run", budget=20)
