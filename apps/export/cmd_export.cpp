@@ -141,8 +141,8 @@ OptionTable export_option_table(ExportArguments& to)
                    {"SCENE", "", "A .gltf, .glb or .obj file, or builtin:NAME, for a page", text(to.scene), "none"}});
     table.add(
         "The technique",
-        {{"--technique", "NAME", "Technique to export, or that draws the page, which alone takes auto: {}", choice(to.technique, technique_names()),
-          "a page: auto"},
+        {{"--technique", "NAME", "Technique to export, or that draws the page, which alone takes auto: {}",
+          choice(to.technique, technique_names()), "a page: auto"},
          {"--samples", "N", "Samples in the file's default settings, or of the page, {}", integer(to.samples, 1, 65536),
           "the technique's default; three, babylon: where pixels would share samples, the most"},
          {"--ltc", "", "Add burnish_quad_light() to glsl, essl, hlsl, msl or wgsl: area lights by transformed cosines", flag(to.ltc)}});

@@ -144,7 +144,7 @@ Frame Stage::render(const FrameDesc& desc, Isa isa) const
     SessionOptions options;
     options.isa = isa;
     Result<Session> session = Session::make(parts(), options);
-    EXPECT_TRUE(session);
+    EXPECT_TRUE(session) << (session ? "" : session.error().line());
     Result<Frame> frame = session->render(desc);
     EXPECT_TRUE(frame) << (frame ? "" : frame.error().line());
     return *frame;
