@@ -69,11 +69,11 @@ LONG = {"chart": [(("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips
         "plot": [(("ltc", "-o", "ltc.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,))]}
 
 
-def run_each(bench, name, runs):
+def run_each(bench, name, runs, timeout=120.0):
     for words, codes in runs:
         if bench.sanitized and "--mip" in words:  # minutes of searches under sanitizers; render has a small search
             continue
-        done = bench.run(name, *words, env=NO_DEVICE)
+        done = bench.run(name, *words, env=NO_DEVICE, timeout=timeout)
         check(done.code in codes, done.describe())
         check("Sanitizer" not in done.err and "runtime error" not in done.err, done.describe())
         for word in words:
@@ -84,7 +84,7 @@ def run_each(bench, name, runs):
 @case("subcommand.each_that_takes_seconds_runs", "input", tier="nightly")
 def long(bench):
     for name, runs in LONG.items():
-        run_each(bench, name, runs)
+        run_each(bench, name, runs, timeout=400.0)
 
 
 @case("subcommand.each_runs_small", "input", budget=15)
