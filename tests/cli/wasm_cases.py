@@ -449,10 +449,12 @@ def page_says(bench):
     (bench.folder / "other.html").write_text(text.replace('"hash":"', '"hash":"f', 1))
     worker = text.split('id="burnish-worker">', 1)[1].split("</script>", 1)[0]
     (bench.folder / "ends.html").write_text(text.replace(worker, "throw new Error('no worker');"))
-    (bench.folder / "large.html").write_text(text.replace(worker, worker.replace("core = await Module", "throw new RangeError('out of memory'); core = await Module")))
+    check(worker.count("core = await") == 1, "the worker begins in another way")
+    (bench.folder / "large.html").write_text(text.replace(worker, worker.replace("core = await", "throw new RangeError('out of memory'); core = await")))
+    (bench.folder / "later.html").write_text(text.replace(worker, worker.replace("const instantiateWasm =", "return reject(new RangeError('out of memory')); const instantiateWasm =")))
     message = "document.getElementById('message').textContent"
     with Browser(bench.folder) as browser:
-        for name, words in (("broken", "AnisotropyStrengthTest.glb"), ("ends", "The renderer ended"), ("large", "too large for the memory of a page")):
+        for name, words in (("broken", "AnisotropyStrengthTest.glb"), ("ends", "The renderer ended"), ("large", "too large for the memory of a page"), ("later", "too large for the memory of a page")):
             browser.open(bench.folder / f"{name}.html")
             browser.until(message, 60)
             check(words in browser.value(message), f"{name}: {browser.value(message)}")
