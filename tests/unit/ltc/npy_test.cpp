@@ -84,14 +84,14 @@ TEST(npy, a_mirrored_or_flat_matrix_becomes_usable)
     std::vector<float> numbers = published<float>();
     const std::size_t mirrored = 9 * (((3 * 8 + 2) * 8 + 4) * 8 + 5),
                       flat = 9 * (((2 * 8 + 2) * 8 + 4) * 8 + 5); // alpha, ratio, theta, phi
-    for (const std::size_t e : {1, 4, 7})
+    for (const std::size_t e : {1u, 4u, 7u})
         numbers[mirrored + e] = -numbers[mirrored + e];
-    for (const std::size_t e : {0, 1, 3, 4, 6, 7})
+    for (const std::size_t e : {0u, 1u, 3u, 4u, 6u, 7u})
         numbers[flat + e] = 0.0f;
     const std::size_t thin = 9 * (((2 * 8 + 2) * 8 + 4) * 8 + 6); // a determinant that floats lose
-    for (const std::size_t e : {0, 1, 3, 8})
+    for (const std::size_t e : {0u, 1u, 3u, 8u})
         numbers[thin + e] = 1.0f;
-    for (const std::size_t e : {2, 5, 6, 7})
+    for (const std::size_t e : {2u, 5u, 6u, 7u})
         numbers[thin + e] = 0.0f;
     numbers[thin + 4] = 1.0f;
     const Result<Table> table = parsed(file_of(header_of(), numbers)), whole = parsed(file_of(header_of(), published<float>()));
@@ -155,7 +155,7 @@ TEST(npy, wrong_files_are_refused_by_their_place)
     changed[2] = changed[5] = changed[8] = 0.0f;
     EXPECT_EQ(place_of(file_of(header_of(), changed)), "[alpha 0][lambda 0][theta 0][phi 0]");
     for (std::size_t i = 0; i < numbers.size(); i += 9) // seen from the other side
-        for (const std::size_t e : {2, 5, 6, 7})
+        for (const std::size_t e : {2u, 5u, 6u, 7u})
             changed[i + e] = -numbers[i + e];
     changed[8] = numbers[8];
     const Result<Table> turned = parsed(file_of(header_of(), changed));
