@@ -96,7 +96,7 @@
     const mine = lead, { files } = await kept, bytes = Object.values(files).reduce((sum, file) => sum + file.byteLength, 0);
     const most = Math.min(kMostWorkers, navigator.hardwareConcurrency || 1, Math.floor(kMostBytes / (kWorkerBytes + 4 * bytes)));
     if (1 + starting.size + helpers.size >= most || !may_share(body)) return;
-    const first = await ask_part(mine, body, 0, 0.01);
+    const first = await ask_part(mine, body, 0, 0.1);  // a band without rows is never refused
     if (first.status === 409) wholes.add(key_of(body));
     while (first.status === 200 && mine === lead && 1 + starting.size + helpers.size < most) start_helper(body);
   }

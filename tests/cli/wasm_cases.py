@@ -304,12 +304,13 @@ def glass_as_a_whole(bench):
         browser.until(PROOF, 120)
         check(browser.value(PROOF) == "same", browser.value("document.getElementById('proof').textContent"))
         first = shown(bench, browser)
-        helped(browser)
         browser.value("document.getElementById('view').focus()")
         browser.value("document.body.dataset.done = ''")
         browser.press("ArrowLeft")
         browser.until("document.body.dataset.done === 'A' && !document.getElementById('command').textContent.includes('--msaa 1')", 120)
         check(shown(bench, browser) != first and browser.value("burnish_live.in_bands") == 0, "glass has bands")
+        time.sleep(3)
+        check(browser.value("burnish_live.workers") == 1, "workers start for glass")
         check(not browser.faults, str(browser.faults))
 
 

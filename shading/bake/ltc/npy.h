@@ -1,5 +1,5 @@
-// Tables of transformed cosines as arrays of NumPy (.npy), as "Bringing Linearly Transformed Cosines to Anisotropic GGX" (KT, Heitz, Dupuy,
-// Narayanan 2022) ships them: matrices by [alpha][lambda][theta][phi], row by row, from the cosine's space to the lobe's.
+// Tables of transformed cosines as arrays of NumPy (.npy): matrices by [alpha][lambda][theta][phi], row by row, from the cosine's space to
+// the lobe's. Source: KT, Heitz, Dupuy, Narayanan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX".
 #pragma once
 #include <cstdint>
 #include <string>
