@@ -25,7 +25,7 @@ constexpr std::uint64_t kMostPictureBytes = 1ull << 30, kMostHashBytes = 1024, k
 
 std::string in_folder(const std::string& folder, const std::string& path)
 {
-    return fs::path(path).is_absolute() ? path : (fs::path(folder) / path).string();
+    return (fs::path(folder) / path).string();
 }
 
 std::string absolute(const std::string& path)
@@ -136,6 +136,11 @@ void judge_operations(const std::string& stats, double limit, GoldenResult& resu
 
 } // namespace
 
+std::string golden_path(const GoldenManifest& manifest, const GoldenRow& row)
+{
+    return in_folder(manifest.folder, row.golden);
+}
+
 bool file_exists(const std::string& path)
 {
     std::error_code ignored;
@@ -161,7 +166,7 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
 {
     const std::string stem = file_stem(row.name), results = setting.results + "/";
     GoldenResult result;
-    result.name = row.name, result.golden = in_folder(manifest.folder, row.golden), result.hash_alone = row.hash_alone;
+    result.name = row.name, result.golden = golden_path(manifest, row), result.hash_alone = row.hash_alone;
     result.picture = "pictures/" + stem + row.extension;
     if (row.kind != GoldenKind::picture)
         result.log = "logs/" + stem + ".txt";

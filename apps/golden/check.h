@@ -42,6 +42,9 @@ struct GoldenSetting {
 // unless the row passed. For the page it writes shown/STEM.png, and the files of judge() where values differ.
 GoldenResult check_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs);
 
+// Returns the golden as bless writes it.
+std::string golden_path(const GoldenManifest& manifest, const GoldenRow& row);
+
 bool file_exists(const std::string& path);
 
 // Returns 16 hexadecimal digits over a picture's size, type and values, as goldens hold that are a hash alone.

@@ -1,38 +1,24 @@
 // `burnish golden`: makes pictures, compares them with golden ones, and lets people bless changes.
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
-#include <fstream>
-#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 #include <system_error>
+#include <utility>
 
 #include "apps/cli/command.h"
 #include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
-#include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
-#include "apps/golden/golden_report.h"
-#include "apps/golden/result_folder.h"
+#include "apps/golden/golden_pieces.h"
+#include "apps/golden/tasks.h"
 #include "apps/live/live.h"
-#include "apps/options/options.h"
 #include "apps/pieces/words.h"
-#include "apps/report/json.h"
-#include "core/base/file.h"
-#include "core/base/text.h"
-#include "core/image/io/image_io.h"
-#include "core/image/metrics/metrics.h"
 #include "core/jobs/cores.h"
+#include "core/jobs/jobs.h"
 
 namespace burnish {
 namespace {
@@ -44,6 +30,8 @@ constexpr const char* kFooter =
 or the files of two quoted patterns with one * in the file name.
 bless: takes over new pictures of the last check that differ or have no golden; with --from, only those of the list.
 merge FOLDER...: joins the results of shards; the files are those of one run.
+With --shard and --work, --take or --piece, a row is a piece in a folder that processes share, and `burnish merge` writes the results. A row
+that failed is a piece too: take another folder to try again. A program's row counts by its words and the files that they name.
 
 A manifest is a JSON object. "rows" lists pictures:
   {"name": "pot", "scene": "builtin:teapot", "options": ["--size", "320x180"]}      drawn by burnish render
@@ -65,109 +53,10 @@ Examples:
   burnish golden check goldens.json
   burnish golden check goldens.json --jobs 4 --shard 2/3 -o shard-2
   burnish golden merge shard-1 shard-2 shard-3 -o golden-results
+  burnish golden check goldens.json --take --work pieces
   burnish golden bless goldens.json --from bless.txt
   burnish golden check expected actual --flip 0.01
   burnish golden check 'out/*_golden.png' 'out/*_now.png' --mask mask.png)~";
-
-enum class What { check, bless, merge };
-
-struct GoldenArguments {
-    What what = What::check;
-    std::vector<std::string> paths;
-    std::string results = "golden-results", from, shard, mask;
-    GoldenLimits limits; // of folders and patterns, as is the mask
-    int jobs = 0;
-    bool live = false;    // the page draws rows that differ anew
-    std::string renderer; // for the page; empty: beside the program
-    Limits input;
-    bool quiet = false;
-    int verbosity = 0;
-};
-
-bool is_folder(const std::string& path)
-{
-    std::error_code ignored;
-    return fs::is_directory(path, ignored);
-}
-
-// Reads the manifest, or the names in two folders or by two patterns.
-Result<GoldenManifest> manifest_at(const GoldenArguments& arguments)
-{
-    if (arguments.paths.size() == 2)
-        return manifest_of_pairs(arguments.paths[0], arguments.paths[1], arguments.limits, arguments.mask);
-    if (arguments.paths.size() != 1)
-        return usage_error("PATH", "is one manifest, or two folders or patterns: the expected pictures and the actual ones");
-    for (const auto& [option, is_given] : {std::pair{"--flip", arguments.limits.flip.has_value()},
-                                           {"--flip-p99", arguments.limits.flip_p99.has_value()},
-                                           {"--pattern", arguments.limits.pattern.has_value()},
-                                           {"--mask", !arguments.mask.empty()}})
-        if (is_given)
-            return usage_error(option, "belongs to folders and patterns; rows of a manifest have their own \"hold\" and \"mask\"");
-    return read_manifest(arguments.paths[0]);
-}
-
-void sort_by_name(std::vector<GoldenResult>& results)
-{
-    std::sort(results.begin(), results.end(), [](const GoldenResult& a, const GoldenResult& b) { return a.name < b.name; });
-}
-
-// Returns the request of a scene's row, with its paths seen from here. Returns nothing where no page could draw the row.
-std::optional<DrawRequest> request_of(const GoldenRow& row, const std::string& folder)
-{
-    if (row.kind != GoldenKind::scene || !row.environment.empty())
-        return std::nullopt;
-    const std::vector<std::string> words(row.command.begin() + 1, row.command.end());
-    Result<std::optional<DrawRequest>> read = live_request(words);
-    if (!read)
-        return std::nullopt;
-    std::optional<DrawRequest> request = std::move(*read);
-    for (std::string* path : {request ? &request->scene : nullptr, request ? &request->environment : nullptr})
-        if (path && !path->empty() && path->rfind("builtin:", 0) != 0)
-            *path = (fs::path(folder) / *path).string();
-    return request;
-}
-
-// Returns the scripts that draw anew the rows that differ.
-std::string live_html(const std::vector<GoldenResult>& results, const GoldenManifest& manifest, const GoldenArguments& arguments,
-                      Report& report)
-{
-    constexpr std::size_t kMostRows = 100; // as many as have sliders
-    LiveWish wish;
-    wish.renderer_folder = arguments.renderer, wish.limits = arguments.input;
-    for (const GoldenRow& row : manifest.rows)
-        for (const GoldenResult& result : results)
-            if (result.name == row.name && result.verdict == GoldenVerdict::differs && wish.rows.size() < kMostRows)
-                if (std::optional<DrawRequest> request = request_of(row, manifest.folder))
-                    wish.rows.push_back({row.name, std::move(*request)});
-    const Result<LiveParts> parts = live_parts(wish);
-    if (!parts)
-        report.warning("--live: " + parts.error().line());
-    for (const auto& [name, error] : parts ? parts->left_out : decltype(parts->left_out)())
-        report.warning(fmt::format("--live: the page cannot draw '{}': {}", printable(name), error.line()));
-    return parts ? parts->html : "";
-}
-
-// Writes the reports, also for GitHub, and puts all files into place. Returns the exit code. live: as golden_page() takes it.
-int conclude(std::vector<GoldenResult> results, const std::string& live, NewResults& fresh, const GoldenArguments& arguments,
-             Report& report)
-{
-    sort_by_name(results);
-    if (const Status written = write_reports(results, fresh.folder(), live); !written)
-        return fail(written.error());
-    if (const Status moved = fresh.take_over(); !moved)
-        return fail(moved.error());
-    if (on_github())
-        report.commands(golden_annotations(results));
-    if (const char* summary = std::getenv("GITHUB_STEP_SUMMARY"); summary && *summary)
-        if (std::ofstream out(summary, std::ios::app); !(out << golden_summary(results) << std::flush))
-            report.warning(fmt::format("the step's summary is not written: {}: {}", summary, std::strerror(errno)));
-    for (const GoldenResult& r : results)
-        if (r.verdict != GoldenVerdict::passed)
-            report.figure(verdict_name(r.verdict), printable(r.name + ": " + r.reason));
-    const GoldenCounts counts = count_of(results);
-    report.figure("golden", fmt::format("{}; {}/index.html", counts_in_words(counts), arguments.results));
-    return exit_code_of(counts);
-}
 
 // Returns this command without its shard, its folder and its number of jobs.
 std::vector<std::string> words_of_shard()
@@ -184,9 +73,51 @@ std::vector<std::string> words_of_shard()
     return kept;
 }
 
+// Returns true if the command deals in pieces: --shard alone makes a folder of results.
+bool wants_pieces(const PieceOptions& pieces)
+{
+    return any_pieces(pieces) && (pieces.shard.empty() || !pieces.folders.empty());
+}
+
+GoldenSetting setting_of(const GoldenArguments& arguments, const std::string& results)
+{
+    GoldenSetting setting;
+    setting.results = results, setting.limits = arguments.input, setting.stop = &watch_stop_signals();
+    std::error_code ignored;
+    setting.program = fs::read_symlink("/proc/self/exe", ignored).string();
+    std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
+    return setting;
+}
+
+// Makes some rows, or puts finished ones together.
+int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& manifest, Report& report)
+{
+    if (arguments.jobs > 0)
+        return fail(usage_error("--jobs", "a process makes its pieces one after the other; several processes may use --take"));
+    const GoldenSetting setting = setting_of(arguments, "");
+    const Jobs jobs(1);
+    const std::vector<JobPiece> pieces = golden_pieces(manifest, setting, jobs);
+    if (!arguments.pieces.merge)
+        return run_pieces(arguments.pieces, kept_words(), pieces, report);
+    const auto files = finished_pieces(arguments.pieces, kept_words(), pieces);
+    if (!files)
+        return fail(files.error());
+    NewResults fresh(arguments.results);
+    if (const Status made = fresh.make(inputs_of(arguments, manifest), {Share(), manifest_hash(manifest)}); !made)
+        return fail(made.error());
+    Result<std::vector<GoldenResult>> results = take_golden_pieces(manifest, *files, pieces, fresh.folder());
+    if (!results)
+        return fail(results.error());
+    report.promise_stdout({"-"}); // to the commands of missing pieces
+    report.release();
+    return conclude_golden(std::move(*results), &manifest, fresh, arguments, report);
+}
+
 int check(const GoldenArguments& arguments, Report& report)
 {
-    const Result<Share> shard = arguments.shard.empty() ? Result<Share>(Share()) : parse_share(arguments.shard);
+    if (const Status pieces = check_piece_options(arguments.pieces); !pieces)
+        return fail(pieces.error());
+    const Result<Share> shard = arguments.pieces.shard.empty() ? Result<Share>(Share()) : parse_share(arguments.pieces.shard);
     if (!shard)
         return fail(shard.error());
     if (arguments.live)
@@ -195,27 +126,20 @@ int check(const GoldenArguments& arguments, Report& report)
     Result<GoldenManifest> manifest = manifest_at(arguments);
     if (!manifest)
         return fail(manifest.error());
+    if (wants_pieces(arguments.pieces))
+        return check_in_pieces(arguments, *manifest, report);
     std::vector<GoldenRow> rows;
     for (std::size_t i = 0; i < manifest->rows.size(); ++i)
         if (shard->holds(i))
             rows.push_back(manifest->rows[i]);
-    std::vector<std::string> inputs = arguments.paths;
-    for (const GoldenRow& row : manifest->rows)
-        for (const std::string& path : {row.golden, row.mask, row.kind == GoldenKind::picture ? row.picture : std::string()})
-            if (!path.empty())
-                inputs.push_back((fs::path(manifest->folder) / path).string());
     NewResults fresh(arguments.results);
-    if (const Status made =
-            fresh.make(inputs, {*shard, manifest_hash(*manifest), shard->count > 1 ? words_of_shard() : std::vector<std::string>()});
+    if (const Status made = fresh.make(inputs_of(arguments, *manifest), {*shard, manifest_hash(*manifest),
+                                                                         shard->count > 1 ? words_of_shard() : std::vector<std::string>()});
         !made)
         return fail(made.error());
     report.release();
-    std::signal(SIGCHLD, SIG_DFL); // an ignored signal would hide how programs end
     // Make and judge the rows
-    GoldenSetting setting;
-    setting.results = fresh.folder(), setting.limits = arguments.input, setting.stop = &watch_stop_signals();
-    std::error_code ignored;
-    setting.program = fs::read_symlink("/proc/self/exe", ignored).string();
+    const GoldenSetting setting = setting_of(arguments, fresh.folder());
     const int wanted = arguments.jobs > 0 ? arguments.jobs : usable_cores();
     const Jobs side_by_side(std::max(1, std::min(wanted, static_cast<int>(rows.size()))));
     std::vector<GoldenResult> results(rows.size());
@@ -227,243 +151,60 @@ int check(const GoldenArguments& arguments, Report& report)
     });
     if (*setting.stop)
         return 128 + stop_signal();
-    const std::string live = arguments.live ? live_html(results, *manifest, arguments, report) : "";
-    return conclude(std::move(results), live, fresh, arguments, report);
-}
-
-// Reads names, one a line, as they are or as JSON texts.
-Result<std::set<std::string>> read_list(const std::string& path)
-{
-    constexpr std::uint64_t kMostListBytes = 64ull << 20;
-    const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostListBytes);
-    BN_TRY(bytes);
-    std::set<std::string> names;
-    const std::string text(bytes->begin(), bytes->end());
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        std::string line = text.substr(begin, end - begin);
-        if (!line.empty() && line.back() == '\r')
-            line.pop_back();
-        const Json json = line.starts_with('"') ? Json::parse(line, nullptr, false) : Json();
-        if (!line.empty())
-            names.insert(json.is_string() ? json.get<std::string>() : line);
-        begin = end + 1;
-    }
-    return names;
-}
-
-// Writes bytes unless the file holds them already. Sets `changed`.
-Status replace(const std::string& path, const std::vector<std::uint8_t>& bytes, bool& changed)
-{
-    constexpr std::uint64_t kMostBytes = 1ull << 30;
-    if (const Result<std::vector<std::uint8_t>> before = read_file(path, kMostBytes); before && *before == bytes)
-        return {};
-    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) {
-        std::error_code failed;
-        fs::create_directories(folder, failed);
-        if (failed)
-            return Error{ExitCode::output_failed, folder.string(), "", failed.message()};
-    }
-    changed = true;
-    return write_file_atomic(path, bytes.data(), bytes.size());
-}
-
-// Makes a row's new picture golden. All paths are the manifest's: results may come from somebody else.
-Status bless_row(const GoldenRow& row, const std::string& golden, const GoldenArguments& arguments, bool& changed)
-{
-    constexpr std::uint64_t kMostBytes = 1ull << 30;
-    const std::string picture = arguments.results + "/pictures/" + file_stem(row.name) + row.extension;
-    PictureNotes notes; // results may come from somebody else
-    const Result<Image> image = read_colours(picture, arguments.input, notes);
-    BN_TRY(image);
-    if (const std::int64_t bad = not_finite_pixels(*image, *image))
-        return Error{ExitCode::not_finite, picture, "", fmt::format("{} pixels are NaN or Inf", bad)};
-    if (row.hash_alone) {
-        const std::string text = golden_hash(*image) + "\n";
-        return replace(golden, {text.begin(), text.end()}, changed);
-    }
-    for (const char* end : {"", ".variance.exr"}) {
-        const Result<std::vector<std::uint8_t>> bytes = read_file(picture + end, kMostBytes);
-        if (!bytes && *end)
-            continue; // there is no variance
-        BN_TRY(bytes);
-        BN_TRY(replace(golden + end, *bytes, changed));
-    }
-    return {};
-}
-
-std::string not_blessed(const GoldenResult& result)
-{
-    return printable(fmt::format("'{}' is not blessed: {}", result.name, result.reason));
-}
-
-int bless(const GoldenArguments& arguments, Report& report)
-{
-    const Result<GoldenManifest> manifest = manifest_at(arguments);
-    if (!manifest)
-        return fail(manifest.error());
-    const Result<std::vector<GoldenResult>> results = read_results(arguments.results);
-    if (!results)
-        return fail(results.error());
-    std::map<std::string, const GoldenResult*> by_name;
-    for (const GoldenResult& r : *results)
-        by_name[r.name] = &r;
-    std::set<std::string> chosen;
-    std::map<std::string, const GoldenRow*> rows;
-    for (const GoldenRow& row : manifest->rows)
-        rows[row.name] = &row;
-    if (!arguments.from.empty()) {
-        const Result<std::set<std::string>> list = read_list(arguments.from);
-        if (!list)
-            return fail(list.error());
-        chosen = *list;
-    } else
-        for (const GoldenResult& r : *results)
-            if (can_bless(r))
-                chosen.insert(r.name);
-    if (!results->empty() && std::none_of(results->begin(), results->end(), [&](const GoldenResult& r) { return rows.contains(r.name); }))
-        return fail(Error{ExitCode::bad_input, arguments.results, "", "holds no row of the manifest: -o names the folder of its check"});
-    // Check every name before the first golden changes
-    const std::string source = arguments.from.empty() ? arguments.results : arguments.from;
-    for (const std::string& name : chosen)
-        if (!rows.contains(name))
-            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' is no row of the manifest"});
-        else if (by_name.contains(name) && by_name[name]->not_finite)
-            return fail(Error{ExitCode::not_finite, source, "", not_blessed(*by_name[name])});
-        else if (!by_name.contains(name) || by_name[name]->verdict == GoldenVerdict::failed)
-            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' has no new picture in the last check"});
-        else if (by_name[name]->by_operations)
-            return fail(Error{ExitCode::bad_input, source, "", "'" + name + "' takes too many operations: the limit is in the manifest"});
-    report.release();
-    std::size_t count = 0;
-    for (const std::string& name : chosen) {
-        bool changed = false;
-        const GoldenResult& r = *by_name[name];
-        const std::string golden = (fs::path(manifest->folder) / rows[name]->golden).string();
-        if (const Status done = bless_row(*rows[name], golden, arguments, changed); !done)
-            return fail(done.error());
-        if (changed)
-            report.figure("blessed", printable(fmt::format("{}: {}", golden, r.verdict == GoldenVerdict::missing ? "new" : r.reason)));
-        count += changed;
-    }
-    report.figure("golden", count == 0 ? "nothing to bless" : counted(count, "picture") + " blessed");
-    int code = 0;
-    if (arguments.from.empty())
-        for (const GoldenResult& r : *results)
-            if (r.not_finite && rows.contains(r.name))
-                code = fail(Error{ExitCode::not_finite, arguments.results, "", not_blessed(r)});
-    return code;
-}
-
-// Returns a line for a shell that makes a shard. words: as words_of_shard() returns them; none: an empty text.
-std::string command_of_shard(const std::vector<std::string>& words, std::size_t shard, std::size_t count)
-{
-    if (words.empty())
-        return "";
-    std::vector<std::string> all = {
-        "burnish", words[0], words[1], "--shard", fmt::format("{}/{}", shard, count), "-o", fmt::format("shard-{}-of-{}", shard, count)};
-    all.insert(all.end(), words.begin() + 2, words.end());
-    return shell_words(all) + "\n";
-}
-
-int merge(const GoldenArguments& arguments, Report& report)
-{
-    std::vector<GoldenResult> all;
-    std::set<std::string> names;
-    std::map<std::size_t, std::size_t> shards; // shards found, by the number of all
-    std::set<std::size_t> indices;
-    std::string manifest;
-    std::vector<std::string> words; // of the shards' command
-    for (const std::string& folder : arguments.paths) {
-        if (same_file(folder, arguments.results))
-            return fail(usage_error("-o", "is one of the folders to merge"));
-        if (!is_folder(folder)) // of a shard that died
-            continue;
-        const Result<std::vector<GoldenResult>> results = read_results(folder);
-        if (!results)
-            return fail(results.error());
-        const Result<ResultOrigin> origin = origin_of_results(folder);
-        if (!origin)
-            return fail(origin.error());
-        if (shards.empty())
-            manifest = origin->manifest;
-        words = words.empty() ? origin->words : words;
-        if (origin->manifest != manifest)
-            return fail(Error{ExitCode::bad_input, folder, "", "is made from other rows than " + arguments.paths.front()});
-        if (!indices.insert(origin->shard.index).second)
-            return fail(Error{ExitCode::bad_input, folder, "",
-                              fmt::format("is shard {}/{}, as an earlier folder is", origin->shard.index + 1, origin->shard.count)});
-        ++shards[origin->shard.count];
-        for (const GoldenResult& r : *results) {
-            if (!names.insert(r.name).second)
-                return fail(Error{ExitCode::bad_input, folder, "", "'" + r.name + "' is in an earlier folder too"});
-            all.push_back(r);
-        }
-    }
-    if (shards.empty())
-        return fail(Error{ExitCode::bad_input, arguments.paths.front(), "", "is no folder"});
-    const std::size_t count = shards.rbegin()->first;
-    if (shards.size() != 1)
-        return fail(Error{ExitCode::bad_input, arguments.paths.front(), "",
-                          fmt::format("{} of {} shards are given", arguments.paths.size(), count)});
-    if (indices.size() < count) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (!indices.contains(i))
-                std::fputs(command_of_shard(words, i + 1, count).c_str(), stdout);
-        return fail(Error{ExitCode::golden_missing, arguments.paths.front(), "",
-                          fmt::format("{} of {} shards are given{}", indices.size(), count,
-                                      words.empty() ? "" : "; standard output has the commands of the others")});
-    }
-    NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(arguments.paths, {Share{}, manifest}); !made)
-        return fail(made.error());
-    for (const std::string& folder : arguments.paths)
-        for (const char* name : {"/pictures", "/goldens", "/shown", "/logs"}) {
-            if (!is_folder(folder + name)) // uploads drop empty folders
-                continue;
-            std::error_code failed;
-            fs::copy(folder + name, fresh.folder() + name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
-            if (failed)
-                return fail(Error{ExitCode::output_failed, folder + name, "", failed.message()});
-        }
-    report.release();
-    return conclude(std::move(all), "", fresh, arguments, report);
+    return conclude_golden(std::move(results), &*manifest, fresh, arguments, report);
 }
 
 int run_golden(const GoldenArguments& arguments, const OptionTable& given)
 {
     Report report(arguments.quiet, arguments.verbosity);
-    for (const auto& [option, what] : {std::pair{"--from", What::bless},
-                                       {"--shard", What::check},
-                                       {"--jobs", What::check},
-                                       {"--live", What::check},
-                                       {"--renderer", What::check}})
-        if (given.given(option) && arguments.what != what)
-            return fail(usage_error(option, fmt::format("belongs to `golden {}`", what == What::bless ? "bless" : "check")));
-    switch (arguments.what) {
-    case What::check:
+    using enum GoldenTask;
+    for (const auto& [option, task] : {std::pair{"--from", bless},
+                                       {"--shard", check_rows},
+                                       {"--pieces", check_rows},
+                                       {"--take", check_rows},
+                                       {"--piece", check_rows},
+                                       {"--merge", check_rows},
+                                       {"--work", check_rows},
+                                       {"--jobs", check_rows},
+                                       {"--live", check_rows},
+                                       {"--renderer", check_rows}})
+        if (given.given(option) && arguments.task != task)
+            return fail(usage_error(option, fmt::format("belongs to `golden {}`", task == bless ? "bless" : "check")));
+    switch (arguments.task) {
+    case check_rows:
         return check(arguments, report);
-    case What::bless:
-        return bless(arguments, report);
-    case What::merge:
-        return merge(arguments, report);
+    case bless:
+        return bless_goldens(arguments, report);
+    case merge:
+        report.promise_stdout({"-"}); // to the commands of missing shards
+        return merge_golden_shards(arguments, report);
     }
     return 0;
+}
+
+// Returns the options of pieces. A shard without a folder of pieces makes results for `golden merge`.
+std::vector<Option> golden_piece_options(PieceOptions& to)
+{
+    std::vector<Option> options = piece_options(to);
+    for (Option& option : options)
+        if (option.name == "--shard")
+            option.help = "Makes every N-th row, from the I-th, as a folder of results for golden merge; with --work, as pieces; auto: as "
+                          "the engine's environment says; auto/N: its index, of N";
+        else if (option.name == "--merge")
+            option.help = "Put the pieces together, as one check does";
+    return options;
 }
 
 OptionTable golden_option_table(GoldenArguments& to)
 {
     OptionTable table;
     table.add(
-        "", {{"WHAT", "", "{}", choice(to.what, {"check", "bless", "merge"})},
+        "", {{"WHAT", "", "{}", choice(to.task, {"check", "bless", "merge"})},
              Option("PATH", "", "A manifest, two folders or patterns of expected and actual pictures, or results to merge", files(to.paths))
                  .must_be_given()});
     table.add("Goldens",
               {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
                {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
-               {"--shard", "I/N",
-                "Makes every N-th row alone, from the I-th; auto: as the engine's environment says; merge joins the shards' results",
-                text(to.shard), ""},
                {"--live", "", "check: put the renderer into the page, which then draws scenes that differ anew: see burnish export page",
                 flag(to.live)},
                {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),
@@ -480,6 +221,7 @@ OptionTable golden_option_table(GoldenArguments& to)
                 file(to.mask), ""},
                quiet_option(to.quiet),
                verbose_option(to.verbosity)});
+    table.add("Pieces, for many processes", golden_piece_options(to.pieces));
     table.add("Limits on input", limit_options(to.input));
     return table;
 }

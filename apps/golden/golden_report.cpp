@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "apps/cli/outputs.h"
+#include "apps/golden/result_folder.h"
 #include "apps/report/html.h"
 #include "apps/report/json.h"
 #include "apps/report/junit.h"
@@ -103,8 +104,7 @@ std::string outside_path(const GoldenResult& r)
          {std::tuple<const char*, const std::string&, std::string_view>{"picture", r.picture, "pictures/"},
           {"log", r.log, "logs/"},
           {"golden_copy", r.golden_copy, "goldens/"}}) {
-        const std::string file = path.starts_with(folder) ? path.substr(folder.size()) : "";
-        if (!path.empty() && (file.empty() || file == "." || file == ".." || file.find_first_of("/\\") != std::string::npos))
+        if (!path.empty() && !(path.starts_with(folder) && is_result_file(path)))
             return name;
     }
     return "";
@@ -171,8 +171,12 @@ Result<std::vector<GoldenResult>> read_results(const std::string& folder)
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostResultBytes);
     if (!bytes)
         return Error{ExitCode::bad_input, path, "", bytes.error().reason + "; `burnish golden check` writes it"};
+    return results_of_text({bytes->begin(), bytes->end()}, path);
+}
+
+Result<std::vector<GoldenResult>> results_of_text(const std::string& text, const std::string& path)
+{
     std::vector<GoldenResult> results;
-    const std::string text(bytes->begin(), bytes->end());
     for (std::size_t begin = 0, line = 1; begin < text.size(); ++line) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         try {

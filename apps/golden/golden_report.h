@@ -21,6 +21,8 @@ bool can_bless(const GoldenResult& result); // a new golden would change the pic
 std::string results_text(const std::vector<GoldenResult>& results); // an object a line
 // Reads results.jsonl of a results' folder. Errors: ExitCode::bad_input with the line, also for a path that leaves the folder.
 Result<std::vector<GoldenResult>> read_results(const std::string& folder);
+// Reads results_text(). path: for errors, the text's file.
+Result<std::vector<GoldenResult>> results_of_text(const std::string& text, const std::string& path);
 
 std::string golden_junit(const std::vector<GoldenResult>& results);
 std::string golden_summary(const std::vector<GoldenResult>& results);     // Markdown, for a step's page

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <system_error>
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMarker = ".burnish-golden"; // a file in folders of results, whose files alone are replaced
 constexpr const char* kReports[] = {"index.html", "results.jsonl", "junit.xml", "summary.md"};
-constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown", "logs"};
 
 // Returns true if a path lies in a folder, or is it.
 bool lies_in(const std::string& path, const std::string& folder)
@@ -66,6 +66,14 @@ std::vector<std::string> words_of(const std::string& text)
 }
 
 } // namespace
+
+bool is_result_file(const std::string& path)
+{
+    const std::size_t slash = path.find('/');
+    const std::string name = slash == std::string::npos ? "" : path.substr(slash + 1);
+    return !name.empty() && name != "." && name != ".." && name.find_first_of("/\\") == std::string::npos &&
+           std::find(std::begin(kResultFolders), std::end(kResultFolders), path.substr(0, slash)) != std::end(kResultFolders);
+}
 
 Result<ResultOrigin> origin_of_results(const std::string& folder)
 {

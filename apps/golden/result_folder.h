@@ -10,6 +10,11 @@
 
 namespace burnish {
 
+inline constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown", "logs"}; // within the folder of results
+
+// Returns true for "FOLDER/NAME" with one of these folders.
+bool is_result_file(const std::string& path);
+
 // What a folder of results says of itself.
 struct ResultOrigin {
     Share shard;

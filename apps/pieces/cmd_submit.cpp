@@ -16,8 +16,8 @@ namespace burnish {
 namespace {
 
 constexpr const char* kSubmitFooter =
-    R"(The command stands behind "--". Slurm's tasks take pieces from each other's rest, so a slow or dead one holds nobody. All scripts but that
-of k8s end with a merge, which makes what is missing and judges. The folder of the pieces must be one that all machines see.
+    R"(The command stands behind "--". Slurm's tasks take pieces from each other's rest, so a slow or dead one holds nobody. All scripts
+end with a merge, which judges. It makes what is missing; that of k8s waits for it. The folder of the pieces must be one that all machines see.
 
 Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
@@ -41,8 +41,8 @@ bool is_large(const std::vector<std::string>& words)
     return width > kMaxPictureSide || height > kMaxPictureSide || width * height * samples > kMaxPictureSamples;
 }
 
-// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table, or
-// figures of nets.
+// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table,
+// figures of nets, or goldens.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {
@@ -55,6 +55,8 @@ bool has_pieces(const std::vector<std::string>& words)
         return reference || has("--animate") || has("--turntable") || has("--band-rows") || is_large(words);
     if (words[0] == "bake" && words.size() > 1)
         return words[1] == "mip" || (words[1] == "ltc" && !has("--table"));
+    if (words[0] == "golden")
+        return words.size() > 1 && words[1] == "check";
     if (words[0] == "train")
         return has("--evaluate");
     return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));
@@ -70,7 +72,7 @@ int run_submit(const SubmitOptions& given)
         return fail(usage_error(
             "COMMAND",
             "has no pieces: render --backend reference, --animate, --turntable and --band-rows, chart, atlas, conform --write, bake mip, "
-            "bake ltc and train mip --evaluate have; golden check takes --shard alone"));
+            "bake ltc, train mip --evaluate and golden check have"));
     if (const Status taken = check_submit(options); !taken)
         return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);

@@ -22,6 +22,7 @@ namespace {
 //   @SHARES@                 1, 2, ... with commas
 //   @MOST@                   how many run at once
 //   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes what is missing, and merges again
+//   @AWAITJSON@              a shell line that merges when all pieces are there
 struct Script {
     const char *name, *text;
     bool limits = true;  // how many run at once
@@ -48,7 +49,8 @@ mkdir -p @WORK@
 parallel --jobs @MOST@ --retries 2 --joblog @WORK@/joblog < @WORK@/commands || true
 @MERGE@
 )"},
-    {"k8s", R"(# Put in the image that holds burnish and the scene, and the claim of a volume that all pods can write.
+    {"k8s",
+     R"(# Put in the image that holds burnish, and the claim of a volume with the scene, which all pods can write. The second job waits for the first.
 apiVersion: batch/v1
 kind: Job
 metadata:
@@ -68,7 +70,23 @@ spec:
           command: ["sh", "-c", @SHARD@]
           volumeMounts: [{name: job, mountPath: /job}]
       volumes: [{name: job, persistentVolumeClaim: {claimName: CLAIM}}]
-# When this job is complete, run in the same folder: @MERGE@
+---
+apiVersion: batch/v1
+kind: Job
+metadata:
+  name: burnish-merge
+spec:
+  backoffLimit: 4
+  template:
+    spec:
+      restartPolicy: Never
+      containers:
+        - name: burnish
+          image: IMAGE
+          workingDir: /job
+          command: ["sh", "-c", @AWAITJSON@]
+          volumeMounts: [{name: job, mountPath: /job}]
+      volumes: [{name: job, persistentVolumeClaim: {claimName: CLAIM}}]
 )"},
     {"openjd", R"(specificationVersion: jobtemplate-2023-09
 name: burnish pieces
@@ -187,7 +205,10 @@ std::string submit_script(const SubmitOptions& options)
     const std::string shards = std::to_string(options.shards), work = shell_words({options.work});
     const std::string command = "burnish " + shell_words(options.words);
     const std::string once = command + " --merge --work " + work;
-    const std::string merge = once + " > /dev/null || { " + once + " | sh; " + once + "; }";
+    // Where pieces are missing, a merge prints their commands alone
+    const std::string tried = "left=$(" + once + ") && code=0 || code=$?; case $left in 'burnish '*) ";
+    const std::string merge = tried + "printf '%s\\n' \"$left\" | sh; " + once + " && code=0 || code=$?;; esac; exit $code";
+    const std::string await = "while :; do " + tried + "sleep 20;; *) exit $code;; esac; done";
     std::vector<std::string> args = options.words;
     args.insert(args.end(), {"--shard", "{{Task.Param.Share}}/" + shards, "--work", options.work});
     std::string shares;
@@ -198,6 +219,7 @@ std::string submit_script(const SubmitOptions& options)
                                                           {"@SHARD@", as_json(command + " --shard auto/" + shards + " --work " + work)},
                                                           {"@MERGEWORD@", shell_words({merge})},
                                                           {"@MERGEJSON@", as_json(merge)},
+                                                          {"@AWAITJSON@", as_json(await)},
                                                           {"@MERGE@", merge},
                                                           {"@ARGS@", as_json(args)},
                                                           {"@WORKJSON@", as_json(options.work)},

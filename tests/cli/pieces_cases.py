@@ -227,7 +227,7 @@ def wrong(bench):
                           ((*ROW, "-o", "\udcff_%d.png", "--take"), "UTF-8"),
                           (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
-                          (("submit", "--for", "slurm", "--", "golden", "check", "m.json"), "--shard alone"),
+                          (("submit", "--for", "slurm", "--", "golden", "bless", "m.json"), "golden check have"),
                           (("submit", "--for", "slurm", "--", "bake", "ltc", "--table", "t.ltc", "--preview", "p"), "no pieces"),
                           (("submit", "--for", "slurm", "--", "train", "mip", "-o", "n"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
@@ -427,9 +427,11 @@ def scripts(bench):
     github = yaml.safe_load(text["github"])["jobs"]
     check(github["pieces"]["steps"][1]["run"].startswith("burnish chart 'my #1: it'\\''s.glb' ") and github["pieces"]["steps"][2]["with"]["path"] == "my, pieces", text["github"])
     check(github["merge"]["needs"] == "pieces" and github["pieces"]["strategy"]["matrix"]["share"] == [1, 2, 3], text["github"])
-    k8s = yaml.safe_load(text["k8s"])
+    k8s, waits = yaml.safe_load_all(text["k8s"])
     shell_line = k8s["spec"]["template"]["spec"]["containers"][0]["command"][2]
     check(shlex.split(shell_line)[1:7] == list(words) and "auto/3" in shell_line and k8s["spec"]["completions"] == 3, text["k8s"])
+    waiting = waits["spec"]["template"]["spec"]["containers"][0]["command"][2]
+    check(subprocess.run(["sh", "-n"], input=waiting, text=True).returncode == 0 and "--merge" in waiting, waiting)
     openjd = yaml.safe_load(text["openjd"])
     check(openjd["steps"][0]["script"]["actions"]["onRun"]["args"][:6] == list(words) and openjd["steps"][1]["dependencies"] == [{"dependsOn": "pieces"}], text["openjd"])
 

@@ -1,0 +1,107 @@
+"""burnish golden in pieces: rows of a manifest by processes that share a folder."""
+
+import json
+import shlex
+import shutil
+import subprocess
+
+import gltf_files
+from environment_files import hdr, rgbe
+from golden_cases import ROWS, program, write
+from harness import case, check
+
+
+def pixel(value):
+    return b"P6 1 1 255\n" + bytes([value, 0, 0])
+
+
+def sky(red):
+    return hdr(32, 16, lambda y: 32 * rgbe((red, 0.5, 0.5)))
+
+
+@case("golden.pieces_merge_to_the_files_of_one_run", budget=20)
+def pieces(bench):
+    """Drawn rows, a program's, one that is there, one that fails and one without a golden, by processes that share a folder."""
+    (bench.folder / "there.ppm").write_bytes(pixel(5))
+    (bench.folder / "goldens").mkdir()
+    (bench.folder / "goldens/there.ppm").write_bytes(pixel(9))
+    made = program(bench, "draw.sh", "echo drawn; cp there.ppm out.ppm")
+    write(bench, [*ROWS, {"name": "there", "picture": "there.ppm"}, {"name": "by a program", "command": [made], "picture": "out.ppm"},
+                  {"name": "fails", "command": ["false"], "picture": "none.ppm"}])
+    count = len(ROWS) + 3
+    files = lambda folder: {str(p.relative_to(bench.folder / folder)): p.read_bytes() for p in (bench.folder / folder).rglob("*") if p.is_file()}
+    bench.run("golden", "check", "m.json", "-o", "whole").expect(4)
+    words = ("golden", "check", "m.json", "-o", "merged")
+    listed = [line.split(" ", 2) for line in bench.run(*words, "--pieces", "--work", "w").expect(0).out.splitlines()]
+    check(len({key for key, _, _ in listed}) == count and all(float(seconds) > 0 for _, seconds, _ in listed), f"{listed}")
+    bench.run(*words, "--shard", "2/2", "--work", "w").expect(0)
+    left = bench.run("merge", "w").expect(5).out.splitlines()
+    check(len(left) == (count + 1) // 2 and all(line.startswith("burnish golden check m.json -o merged --piece ") for line in left), f"{left}")
+    check(not (bench.folder / "merged").exists(), "a merge of less than all wrote a folder")
+    bench.run(*left[0].split()[1:]).expect(0)
+    bench.run(*words, "--take", "--work", "w").expect(0)
+    merged = bench.run("merge", "w").expect(4)
+    check(merged.out == "" and "fails" in merged.err, f"standard output is for commands of pieces alone: {merged.out}")
+    check(files("merged") == files("whole"), f"other files: {[n for n in files('whole') if files('whole')[n] != files('merged').get(n)]}")
+    for wrong in (("check", "m.json", "--take", "--work", "w", "--jobs", "2"), ("check", "m.json", "--work", "w"), ("bless", "m.json", "--take")):
+        bench.run("golden", *wrong).expect(2)
+
+
+@case("golden.pieces_have_keys_by_content", budget=20)
+def keys(bench):
+    """Each file that decides a row changes its key, and no other row's. A folder of pieces thus serves the next commit."""
+    scene = gltf_files.textured("colour.png")
+    (bench.folder / "ball.gltf").write_text(gltf_files.text(scene))
+    (bench.folder / "colour.png").write_bytes(gltf_files.png(2, 2, color=lambda x, y: (200, 100, 50)))
+    (bench.folder / "there.ppm").write_bytes(pixel(5))
+    (bench.folder / "mask.ppm").write_bytes(pixel(255))
+    (bench.folder / "light.hdr").write_bytes(sky(0.2))
+    (bench.folder / "goldens").mkdir()
+    made = program(bench, "draw.sh", "cp there.ppm out.ppm")
+    rows = [{"name": "drawn", "scene": "ball.gltf", "options": ["--env", "light.hdr"]}, {"name": "there", "picture": "there.ppm", "mask": "mask.ppm", "hold": {"flip": 0.1}},
+            {"name": "by a program", "command": [made], "picture": "out.ppm"}]
+    write(bench, rows)
+
+    def now():
+        lines = bench.run("golden", "check", "m.json", "--pieces").expect(0).out.splitlines()
+        return [line.split(" ")[0] for line in lines]
+
+    def changed(what):
+        nonlocal before
+        before, old = now(), before
+        return [row["name"] for row, a, b in zip(rows, before, old) if a != b]
+    before = now()
+    check(changed("nothing") == [], "keys change by themselves")
+    for name, content, wanted in (("colour.png", gltf_files.png(2, 2, color=lambda x, y: (200, 100, 51)), ["drawn"]), ("light.hdr", sky(0.3), ["drawn"]), ("there.ppm", pixel(6), ["there"]),
+                                  ("mask.ppm", pixel(254), ["there"]), ("goldens/there.ppm", pixel(6), ["there"]), ("goldens/drawn.png", b"x", ["drawn"]),
+                                  ("draw.sh", b"#!/bin/sh\ncp there.ppm  out.ppm\n", ["by a program"])):
+        (bench.folder / name).write_bytes(content)
+        got = changed(name)
+        check(got == wanted, f"{name} changes {got}")
+    rows[1]["hold"]["flip"] = 0.2
+    write(bench, rows)
+    check(changed("a limit") == ["there"], "a limit")
+
+
+@case("golden.merges_of_scripts_end_with_the_verdict", budget=20)
+def merges_of_scripts(bench):
+    """A merge makes what is missing, and its exit code is that of one process: 0, or the verdict of golden pictures. No word of a picture's
+    name is run. A job that waits ends when the last piece is there."""
+    import yaml
+    name = "$(touch run) `touch run`; touch run"
+    (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": name, "scene": "builtin:plate", "options": ["--size", "48x32", "--env-size", "16", "--env-samples", "16"]}]}))
+    golden = ("golden", "check", "m.json", "-o", "results")
+    (bench.folder / "burnish").symlink_to(bench.program)
+    env = bench.environment({"PATH": f"{bench.folder}:/usr/bin:/bin"})
+    for engine in ("slurm", "mpi", "parallel", "k8s"):
+        text = bench.run("submit", "--for", engine, "--shards", "1", "--work", engine, "--", *golden).expect(0).out
+        line = list(yaml.safe_load_all(text))[1]["spec"]["template"]["spec"]["containers"][0]["command"][2] if engine == "k8s" else text.splitlines()[-1]
+        if engine == "slurm":
+            line = shlex.split(line)[-1]
+        if engine == "k8s":
+            bench.run(*golden, "--take", "--work", engine).expect(0)
+        done = subprocess.run(["sh", "-c", line], cwd=bench.folder, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=100)
+        check(done.returncode == 5 and "1 have no golden" in done.stderr, f"{engine}: {done.returncode} {done.stdout}{done.stderr}")
+        check((bench.folder / "results/index.html").exists(), engine)
+        shutil.rmtree(bench.folder / "results")
+    check(not (bench.folder / "run").exists(), "a name was run")
