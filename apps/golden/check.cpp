@@ -64,12 +64,13 @@ Status make_picture(const GoldenManifest& manifest, const GoldenRow& row, const 
     run.words = row.command, run.folder = manifest.folder, run.environment = row.environment, run.seconds = row.seconds;
     run.output = absolute(log), run.stop = setting.stop;
     if (row.kind == GoldenKind::scene) {
-        run.words.insert(run.words.begin(), setting.program);
+        run.words.insert(run.words.begin(), setting.program), run.name = "burnish";
         run.words.insert(run.words.end(), {"-q", "-o", absolute(to)});
         if (row.limits.z)
             run.words.insert(run.words.end(), {"--variance", absolute(to) + ".variance.exr"});
         if (row.limits.operations)
             run.words.insert(run.words.end(), {"--count-operations", "--stats", absolute(to) + ".stats.json"});
+        run.hidden = absolute(setting.results) + "/";
         return run_child(run);
     }
     // A picture from before the run must not pass for a new one
@@ -178,7 +179,9 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
     std::error_code ignored;
     fs::remove(results + result.picture, ignored);
     if (const Status made = make_picture(manifest, row, setting, results + result.picture, results + "logs/" + stem + ".txt"); !made) {
-        result.not_finite = row.kind == GoldenKind::scene && made.error().code == ExitCode::not_finite;
+        const ExitCode code = made.error().code;
+        result.not_finite = row.kind == GoldenKind::scene && code == ExitCode::not_finite;
+        result.of_machine = code == ExitCode::unavailable || (row.kind == GoldenKind::scene && code == ExitCode::output_failed);
         return fails(made.error().reason);
     }
     const Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
@@ -186,8 +189,10 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
         return fails(picture.error().reason);
     result.width = picture->width, result.height = picture->height, result.linear = picture->type == PixelType::f32;
     const std::string shown = results + "shown/" + stem;
-    if (const Status written = show(*picture, 0.0f, shown + ".png"); !written)
+    if (const Status written = show(*picture, 0.0f, shown + ".png"); !written) {
+        result.of_machine = true;
         return fails(written.error().line());
+    }
     // Judge it, and let no limit, mask or golden allow NaN
     if (const std::int64_t bad_pixels = not_finite_pixels(*picture, *picture)) {
         result.not_finite = true;
@@ -196,6 +201,7 @@ GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, co
     const auto judged = [&] {
         if (row.limits.operations && result.verdict != GoldenVerdict::failed)
             judge_operations(results + result.picture + ".stats.json", *row.limits.operations, result);
+        fs::remove(results + result.picture + ".stats.json", ignored); // its times are of this run
         return result;
     };
     if (!file_exists(result.golden)) {

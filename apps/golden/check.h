@@ -29,6 +29,7 @@ struct GoldenResult {
     bool linear = false;        // values are linear: HDR-FLIP judges
     bool by_operations = false; // operations alone exceed their limit: a new golden changes nothing
     bool not_finite = false;    // the new picture holds NaN or Inf, and fails
+    bool of_machine = false;    // not written: the machine failed, as by a full disk, rather than the row
 };
 
 struct GoldenSetting {

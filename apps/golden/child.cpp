@@ -26,9 +26,18 @@ namespace {
 constexpr std::size_t kKeptPart = std::size_t{512} << 10; // bytes of a program's output, at the beginning and at the end
 constexpr int kMostLastParts = 32;                        // reads after a program's end: a program that left its group may print for ever
 
-Error failed(std::string reason)
+Error failed(std::string reason, ExitCode code = ExitCode::bad_input)
 {
-    return Error{ExitCode::bad_input, "", "", std::move(reason)};
+    return Error{code, "", "", std::move(reason)};
+}
+Error not_here(std::string reason) // but elsewhere, perhaps
+{
+    return failed(std::move(reason), ExitCode::unavailable);
+}
+
+bool is_from_outside(int signal)
+{
+    return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
 }
 
 // Returns the environment's lines, with `changes` in place of variables with these names.
@@ -69,6 +78,20 @@ std::string last_words(const std::string& path)
     const std::size_t before = text.rfind('\n', end);
     const std::string line = text.substr(before == std::string::npos ? 0 : before + 1, kMostCharacters);
     return ": " + printable(line.substr(0, line.find_first_of("\r\n")));
+}
+
+// Takes a text out of a program's output.
+void hide(const std::string& text, const std::string& path)
+{
+    constexpr std::uint64_t kMostBytes = 4 * kKeptPart;
+    const Result<std::vector<std::uint8_t>> bytes = text.empty() ? Error{} : read_file(path, kMostBytes);
+    if (!bytes)
+        return; // it is empty
+    std::string now(bytes->begin(), bytes->end());
+    for (std::size_t at = now.find(text); at != now.npos; at = now.find(text, at))
+        now.erase(at, text.size());
+    if (now.size() < bytes->size())
+        static_cast<void>(write_file_atomic(path, now.data(), now.size())); // a full disk keeps the text
 }
 
 // The file of a program's output: its first and its last part, and a line that tells how much is left out between.
@@ -162,17 +185,18 @@ bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, Descri
 
 Status run_child(const ChildRun& run)
 {
+    const std::string& name = run.name.empty() ? run.words[0] : run.name;
     std::vector<std::string> words = run.words, variables = environment_with(run.environment);
     const std::vector<char*> arguments = pointers_to(words), environment = pointers_to(variables);
     // Print into a pipe, in a process group of its own
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return failed(fmt::format("{} cannot be started: {}", run.words[0], std::strerror(errno)));
+        return not_here(fmt::format("{} cannot be started: {}", name, std::strerror(errno)));
     Descriptor output(ends[0]), input(ends[1]);
     fcntl(output.get(), F_SETFL, O_NONBLOCK);
     Log log(run.output);
     if (!log)
-        return failed(fmt::format("{} cannot be started: {}", run.output, std::strerror(errno)));
+        return not_here(fmt::format("{} cannot be started: {}", run.output, std::strerror(errno)));
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&actions);
@@ -191,7 +215,7 @@ Status run_child(const ChildRun& run)
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error != 0)
-        return failed(fmt::format("{} cannot be started: {}", run.words[0], std::strerror(error)));
+        return not_here(fmt::format("{} cannot be started: {}", name, std::strerror(error)));
     int status = 0;
     input.reset();
     const bool in_time = wait_for(child, run.seconds, run.stop, output, log, status);
@@ -199,18 +223,20 @@ Status run_child(const ChildRun& run)
     for (int part = 0; part < kMostLastParts && read_part(output, log); ++part) {
     }
     log.end();
+    hide(run.hidden, run.output);
     if (!in_time)
-        return failed(run.stop && *run.stop ? run.words[0] + " was stopped"
-                                            : fmt::format("{} was stopped after {:g} s", run.words[0], run.seconds));
+        return not_here(run.stop && *run.stop ? name + " was stopped" : fmt::format("{} was stopped after {:g} s", name, run.seconds));
     if (status == -1)
-        return failed(fmt::format("{} ended, and nobody knows how", run.words[0]));
+        return failed(fmt::format("{} ended, and nobody knows how", name));
     if (WIFSIGNALED(status))
-        return failed(fmt::format("{} was ended by signal {}", run.words[0], WTERMSIG(status)));
+        return failed(fmt::format("{} was ended by signal {}", name, WTERMSIG(status)),
+                      is_from_outside(WTERMSIG(status)) ? ExitCode::unavailable : ExitCode::bad_input);
     if (WEXITSTATUS(status) == 0)
         return {};
-    Error ended = failed(fmt::format("{} ended with exit code {}{}", run.words[0], WEXITSTATUS(status), last_words(run.output)));
-    if (WEXITSTATUS(status) == static_cast<int>(ExitCode::not_finite))
-        ended.code = ExitCode::not_finite;
+    Error ended = failed(fmt::format("{} ended with exit code {}{}", name, WEXITSTATUS(status), last_words(run.output)));
+    for (const ExitCode code : {ExitCode::not_finite, ExitCode::output_failed})
+        if (WEXITSTATUS(status) == static_cast<int>(code))
+            ended.code = code;
     return ended;
 }
 

@@ -11,6 +11,8 @@ namespace burnish {
 
 struct ChildRun {
     std::vector<std::string> words;                 // program and arguments; a name without '/' is looked up in PATH
+    std::string name;                               // of the program in reasons; empty: the first word
+    std::string hidden{};                           // taken out of the output: runs in other folders leave the same texts
     std::string folder;                             // to run in
     std::map<std::string, std::string> environment; // variables besides those of this process
     std::string output;                             // file for the program's output: at most its first and last 512 KiB
@@ -18,7 +20,8 @@ struct ChildRun {
     const std::atomic<bool>* stop = nullptr;        // kills them too
 };
 
-// Returns success if the program ends with 0. Else the Error's reason says how it ended; its code is not_finite for that exit code.
+// Returns success if the program ends with 0. Else the Error's reason says how it ended. Its code is not_finite or output_failed for that
+// exit code, and unavailable where the program did not start, was killed from outside or took too long: another machine may do better.
 // Thread-safe.
 Status run_child(const ChildRun& run);
 

@@ -30,8 +30,9 @@ constexpr const char* kFooter =
 or the files of two quoted patterns with one * in the file name.
 bless: takes over new pictures of the last check that differ or have no golden; with --from, only those of the list.
 merge FOLDER...: joins the results of shards; the files are those of one run.
-With --shard and --work, --take or --piece, a row is a piece in a folder that processes share, and `burnish merge` writes the results. A row
-that failed is a piece too: take another folder to try again. A program's row counts by its words and the files that they name.
+With --shard and --work, --take or --piece, a row is a piece in a folder that processes share, and --merge writes the results. A row that
+failed is a piece too, unless the machine may be the cause: a full disk, a program that is killed or takes too long. A program's row counts by
+its words and the files that they name, but not by folders.
 
 A manifest is a JSON object. "rows" lists pictures:
   {"name": "pot", "scene": "builtin:teapot", "options": ["--size", "320x180"]}      drawn by burnish render
@@ -54,6 +55,7 @@ Examples:
   burnish golden check goldens.json --jobs 4 --shard 2/3 -o shard-2
   burnish golden merge shard-1 shard-2 shard-3 -o golden-results
   burnish golden check goldens.json --take --work pieces
+  burnish golden check goldens.json --merge --work pieces
   burnish golden bless goldens.json --from bless.txt
   burnish golden check expected actual --flip 0.01
   burnish golden check 'out/*_golden.png' 'out/*_now.png' --mask mask.png)~";
@@ -96,16 +98,18 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
         return fail(usage_error("--jobs", "a process makes its pieces one after the other; several processes may use --take"));
     const GoldenSetting setting = setting_of(arguments, "");
     const Jobs jobs(1);
-    const std::vector<JobPiece> pieces = golden_pieces(manifest, setting, jobs);
+    const Result<std::vector<JobPiece>> pieces = golden_pieces(manifest, setting, jobs);
+    if (!pieces)
+        return fail(pieces.error());
     if (!arguments.pieces.merge)
-        return run_pieces(arguments.pieces, kept_words(), pieces, report);
-    const auto files = finished_pieces(arguments.pieces, kept_words(), pieces);
+        return run_pieces(arguments.pieces, kept_words(), *pieces, report);
+    const auto files = finished_pieces(arguments.pieces, kept_words(), *pieces);
     if (!files)
         return fail(files.error());
     NewResults fresh(arguments.results);
     if (const Status made = fresh.make(inputs_of(arguments, manifest), {Share(), manifest_hash(manifest)}); !made)
         return fail(made.error());
-    Result<std::vector<GoldenResult>> results = take_golden_pieces(manifest, *files, pieces, fresh.folder());
+    Result<std::vector<GoldenResult>> results = take_golden_pieces(manifest, *files, *pieces, fresh.folder());
     if (!results)
         return fail(results.error());
     report.promise_stdout({"-"}); // to the commands of missing pieces

@@ -9,14 +9,19 @@
 #include <system_error>
 
 #include "apps/cli/command_line.h"
+#include "apps/cli/shared_options.h"
 #include "apps/golden/golden_report.h"
 #include "apps/golden/result_folder.h"
 #include "apps/options/options.h"
 #include "apps/pieces/given.h"
 #include "apps/pieces/packed.h"
+#include "apps/pieces/words.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/scene/gltf/gltf.h"
+#include "core/scene/image_light.h"
+#include "core/scene/material_overrides.h"
+#include "core/scene/mtlx/mtlx.h"
 
 namespace burnish {
 namespace {
@@ -38,25 +43,56 @@ class InFolder {
     fs::path before_;
 };
 
-// Files that were read for a scene, by its word: many rows draw one scene.
+// Files that were read for a scene, by the words that name them and limit reading: many rows draw one scene.
 using SceneFiles = std::map<std::string, std::vector<std::string>>;
 
-std::string text_of_drawn(const GoldenRow& row, const Limits& limits, SceneFiles& scenes)
+// Returns files that are read for a row's scene, its material and its light. Errors: those of reading them.
+Result<std::vector<std::string>> files_of_drawn(const RenderOptions& options)
+{
+    Result<Scene> scene = load_scene(options.scene, options.limits);
+    BN_TRY(scene);
+    if (options.overrides.material_is_document())
+        BN_TRY(apply_mtlx(*scene, options.overrides.material, options.limits));
+    BN_TRY(apply_material_overrides(*scene, options.overrides, options.limits));
+    std::vector<std::string> files = std::move(scene->files);
+    for (const AreaLight& light : options.lights)
+        if (!light.texture_file.empty())
+            files.push_back(light.texture_file);
+    if (!options.env.starts_with("builtin:") && is_gltf(options.env)) {
+        const Result<ImageLight> light = load_image_light(options.env, options.limits);
+        BN_TRY(light);
+        files.insert(files.end(), light->files.begin(), light->files.end());
+    }
+    return files;
+}
+
+Result<std::string> text_of_drawn(const GoldenRow& row, SceneFiles& scenes)
 {
     RenderArguments arguments;
     Command render{"render", "", render_option_table(arguments), "", {}};
     const std::vector<std::string> words(row.command.begin() + 1, row.command.end());
     if (!read_command_line(render, words))
-        return ""; // the row fails, and its words are in its key
-    const auto [found, is_new] = scenes.try_emplace(arguments.plain.scene);
-    if (is_new) {
-        const Result<Scene> scene = load_scene(arguments.plain.scene, limits);
-        found->second = scene ? scene->files : std::vector<std::string>{arguments.plain.scene}; // a hash of no file, too
+        return std::string(); // the row fails, and its words are in its key
+    std::string names;
+    for (const Option& option : render.options.options())
+        if (option.given && (option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder || option.positional() ||
+                             option.name.starts_with("--limit-") || option.name == "--light"))
+            names += option.name + " " + shell_words(option.texts) + "\n";
+    auto found = scenes.find(names);
+    if (found == scenes.end()) {
+        Result<std::vector<std::string>> files = files_of_drawn(arguments.plain);
+        BN_TRY(files);
+        found = scenes.emplace(names, std::move(*files)).first;
     }
-    std::string text = text_of_given(render.options) + text_of_scene(arguments.plain.scene, found->second);
-    for (const AreaLight& light : arguments.plain.lights)
-        if (!light.texture_file.empty())
-            text += text_of_scene("", {light.texture_file});
+    return text_of_given(render.options) + text_of_scene(arguments.plain.scene, found->second);
+}
+
+// Returns the limits on input, which refuse pictures, goldens and masks.
+std::string text_of_limits(Limits limits)
+{
+    std::string text;
+    for (const Option& option : limit_options(limits))
+        text += option.name + " " + option.value.get() + "\n";
     return text;
 }
 
@@ -72,15 +108,18 @@ std::string text_of_program(const GoldenRow& row)
     return text_of_scene("program", files);
 }
 
-std::string row_key(const GoldenManifest& manifest, const GoldenRow& row, const Limits& limits, SceneFiles& scenes)
+Result<std::string> row_key(const GoldenManifest& manifest, const GoldenRow& row, const Limits& limits, SceneFiles& scenes)
 {
     const InFolder inside(manifest.folder);
-    std::string text = "golden " + manifest_hash({"", {row}});
+    std::string text = "golden " + manifest_hash({"", {row}}) ;
     for (const std::string& path :
          {row.golden, row.limits.z ? row.golden + ".variance.exr" : "", row.mask, row.kind == GoldenKind::picture ? row.picture : ""})
         text += path.empty() ? "\n" : text_of_scene("", {path});
-    if (row.kind == GoldenKind::scene)
-        text += text_of_drawn(row, limits, scenes);
+    if (row.kind == GoldenKind::scene) {
+        const Result<std::string> drawn = text_of_drawn(row, scenes);
+        BN_TRY(drawn);
+        text += *drawn;
+    }
     if (row.kind == GoldenKind::command)
         text += text_of_program(row);
     return piece_key(text);
@@ -121,9 +160,12 @@ Result<std::optional<Packed>> made_row(const GoldenManifest& manifest, const Gol
     BN_TRY(folder.make());
     GoldenSetting own = setting;
     own.results = scratch;
-    Packed packed{results_text({check_row(manifest, row, own, jobs)}), {}};
+    const GoldenResult result = check_row(manifest, row, own, jobs);
     if (setting.stop && *setting.stop)
         return std::optional<Packed>();
+    if (result.of_machine)
+        return Error{ExitCode::output_failed, row.name, "", result.reason};
+    Packed packed{results_text({result}), {}};
     std::vector<std::string> names;
     std::error_code failed;
     for (const char* name : kResultFolders)
@@ -197,13 +239,15 @@ class RowTimes {
 
 } // namespace
 
-std::vector<JobPiece> golden_pieces(const GoldenManifest& manifest, const GoldenSetting& setting, const Jobs& jobs)
+Result<std::vector<JobPiece>> golden_pieces(const GoldenManifest& manifest, const GoldenSetting& setting, const Jobs& jobs)
 {
     SceneFiles scenes;
     const auto times = std::make_shared<RowTimes>(manifest, setting, jobs);
     std::vector<JobPiece> pieces;
     for (const GoldenRow& row : manifest.rows) {
-        const std::string key = row_key(manifest, row, setting.limits, scenes);
+        const Result<std::string> found = row_key(manifest, row, setting.limits, scenes);
+        BN_TRY(found);
+        const std::string key = *found;
         const auto make = [&manifest, &row, &setting, &jobs, key](const std::string& file) -> Status {
             const auto made = made_row(manifest, row, setting, jobs, own_name_beside(file, ".row"));
             BN_TRY(made);

@@ -56,7 +56,7 @@ bool has_pieces(const std::vector<std::string>& words)
     if (words[0] == "bake" && words.size() > 1)
         return words[1] == "mip" || (words[1] == "ltc" && !has("--table"));
     if (words[0] == "golden")
-        return words.size() > 1 && words[1] == "check";
+        return words.size() > 2 && words[1] == "check";
     if (words[0] == "train")
         return has("--evaluate");
     return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));
@@ -73,6 +73,9 @@ int run_submit(const SubmitOptions& given)
             "COMMAND",
             "has no pieces: render --backend reference, --animate, --turntable and --band-rows, chart, atlas, conform --write, bake mip, "
             "bake ltc, train mip --evaluate and golden check have"));
+    if (options.words[0] == "golden" && std::any_of(options.words.begin(), options.words.end(),
+                                                    [](const std::string& w) { return w == "--jobs" || w.starts_with("--jobs="); }))
+        return fail(usage_error("COMMAND", "has --jobs, and a process makes its pieces one after the other"));
     if (const Status taken = check_submit(options); !taken)
         return fail(taken.error());
     std::fputs(submit_script(options).c_str(), stdout);

@@ -476,7 +476,8 @@ Result<std::vector<std::string>> job_of(const std::vector<std::string>& folders)
     for (const std::string& file : files) {
         Result<std::vector<std::string>> words = read_job(file);
         BN_TRY(words);
-        commands.push_back(std::move(*words));
+        if (std::find(commands.begin(), commands.end(), *words) == commands.end()) // one of changed files has other pieces
+            commands.push_back(std::move(*words));
     }
     if (commands.size() == 1)
         return commands.front();

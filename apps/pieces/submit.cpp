@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <utility>
 
 #include "apps/cli/report.h"
@@ -21,6 +22,7 @@ namespace {
 //   @SHARDS@, @LAST@         the number of shares, and one less
 //   @SHARES@                 1, 2, ... with commas
 //   @MOST@                   how many run at once
+//   @OUTPUTS@                lines with the command's outputs
 //   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes what is missing, and merges again
 //   @AWAITJSON@              a shell line that merges when all pieces are there
 struct Script {
@@ -142,7 +144,12 @@ jobs:
           merge-multiple: true
       - run: |
           @MERGE@
-)",
+      - if: always()
+        uses: actions/upload-artifact@v4
+        with:
+          name: merged
+          path: |
+@OUTPUTS@)",
      true, 256}};
 
 // Replaces each place of a template once: what a place holds is not read again.
@@ -172,6 +179,29 @@ std::string as_json(const nlohmann::json& value)
     return value.dump();
 }
 
+// Doubles each $, which Kubernetes takes for the beginning of a variable.
+std::string for_kubernetes(const std::string& line)
+{
+    std::string doubled;
+    for (const char c : line)
+        doubled += c == '$' ? std::string("$$") : std::string(1, c);
+    return as_json(doubled);
+}
+
+// Returns the outputs that the command names, as lines of a text in YAML. A number in a name becomes *.
+std::string output_lines(const std::vector<std::string>& words)
+{
+    std::string lines;
+    static const std::regex number("%[0-9]*d");
+    const auto add = [&](const std::string& path) { lines += "            " + std::regex_replace(path, number, "*") + "\n"; };
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (words[i] == "-o" || words[i] == "--output")
+            add(i + 1 < words.size() ? words[i + 1] : "");
+        else if (words[i].starts_with("--output=") || (words[i].starts_with("-o") && words[i].size() > 2))
+            add(words[i].substr(words[i].starts_with("--") ? std::strlen("--output=") : 2));
+    return lines.empty() ? "            .\n" : lines;
+}
+
 } // namespace
 
 std::vector<std::string> submit_engines()
@@ -190,8 +220,8 @@ Status check_submit(const SubmitOptions& options)
     if (script.most_shards && options.shards > script.most_shards)
         return usage_error("--shards", fmt::format("{} takes at most {}", script.name, script.most_shards));
     const std::string words = shell_words(options.words) + shell_words({options.work});
-    if (words.find("${{") != std::string::npos || words.find('\n') != std::string::npos)
-        return usage_error("COMMAND", "holds a line break or ${{, which a script would read otherwise");
+    if (words.find("{{") != std::string::npos || words.find('\n') != std::string::npos)
+        return usage_error("COMMAND", "holds a line break or {{, which a script would read otherwise");
     try {
         static_cast<void>(as_json(options.words)), static_cast<void>(as_json(options.work));
     } catch (const nlohmann::json::type_error&) {
@@ -207,27 +237,30 @@ std::string submit_script(const SubmitOptions& options)
     const std::string once = command + " --merge --work " + work;
     // Where pieces are missing, a merge prints their commands alone
     const std::string tried = "left=$(" + once + ") && code=0 || code=$?; case $left in 'burnish '*) ";
-    const std::string merge = tried + "printf '%s\\n' \"$left\" | sh; " + once + " && code=0 || code=$?;; esac; exit $code";
-    const std::string await = "while :; do " + tried + "sleep 20;; *) exit $code;; esac; done";
+    const std::string merge = tried + "printf '%s\\n' \"$left\" | sh || true; " + once +
+                              " && code=0 || code=$?;; ?*) printf '%s\\n' \"$left\";; esac; exit $code";
+    const std::string await = "while :; do " + tried + "sleep 20;; *) printf '%s\\n' \"$left\"; exit $code;; esac; done";
     std::vector<std::string> args = options.words;
     args.insert(args.end(), {"--shard", "{{Task.Param.Share}}/" + shards, "--work", options.work});
     std::string shares;
     for (int i = 1; i <= options.shards; ++i)
         shares += (i > 1 ? ", " : "") + std::to_string(i);
-    const std::pair<const char*, std::string> places[] = {{"@COMMAND@", command},
-                                                          {"@TAKE@", shell_words({command + " --take --work " + work})},
-                                                          {"@SHARD@", as_json(command + " --shard auto/" + shards + " --work " + work)},
-                                                          {"@MERGEWORD@", shell_words({merge})},
-                                                          {"@MERGEJSON@", as_json(merge)},
-                                                          {"@AWAITJSON@", as_json(await)},
-                                                          {"@MERGE@", merge},
-                                                          {"@ARGS@", as_json(args)},
-                                                          {"@WORKJSON@", as_json(options.work)},
-                                                          {"@WORK@", work},
-                                                          {"@SHARDS@", shards},
-                                                          {"@SHARES@", shares},
-                                                          {"@LAST@", std::to_string(options.shards - 1)},
-                                                          {"@MOST@", std::to_string(options.at_once ? options.at_once : options.shards)}};
+    const std::pair<const char*, std::string> places[] = {
+        {"@COMMAND@", command},
+        {"@TAKE@", shell_words({command + " --take --work " + work})},
+        {"@SHARD@", for_kubernetes(command + " --shard auto/" + shards + " --work " + work)},
+        {"@MERGEWORD@", shell_words({merge})},
+        {"@MERGEJSON@", as_json(merge)},
+        {"@AWAITJSON@", for_kubernetes(await)},
+        {"@MERGE@", merge},
+        {"@OUTPUTS@", output_lines(options.words)},
+        {"@ARGS@", as_json(args)},
+        {"@WORKJSON@", as_json(options.work)},
+        {"@WORK@", work},
+        {"@SHARDS@", shards},
+        {"@SHARES@", shares},
+        {"@LAST@", std::to_string(options.shards - 1)},
+        {"@MOST@", std::to_string(options.at_once ? options.at_once : options.shards)}};
     return filled(script_of(options.engine).text, places);
 }
 

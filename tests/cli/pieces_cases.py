@@ -223,7 +223,8 @@ def wrong(bench):
                           (("submit", "--for", "mpi", "--", "chart", "--mip", "-o", "r"), "no pieces"),
                           (("submit", "--for", "mpi", "--at-once", "2", "--", *row), "--at-once"),
                           (("submit", "--for", "github", "--shards", "257", "--", *row), "256"),
-                          (("submit", "--for", "github", "--", "chart", "${{ secrets.all }}.glb", "-o", "r"), "${{"),
+                          (("submit", "--for", "github", "--", "chart", "${{ secrets.all }}.glb", "-o", "r"), "{{"),
+                          (("submit", "--for", "slurm", "--", "golden", "check", "m.json", "--jobs", "2"), "--jobs"),
                           ((*ROW, "-o", "\udcff_%d.png", "--take"), "UTF-8"),
                           (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
@@ -428,9 +429,10 @@ def scripts(bench):
     check(github["pieces"]["steps"][1]["run"].startswith("burnish chart 'my #1: it'\\''s.glb' ") and github["pieces"]["steps"][2]["with"]["path"] == "my, pieces", text["github"])
     check(github["merge"]["needs"] == "pieces" and github["pieces"]["strategy"]["matrix"]["share"] == [1, 2, 3], text["github"])
     k8s, waits = yaml.safe_load_all(text["k8s"])
-    shell_line = k8s["spec"]["template"]["spec"]["containers"][0]["command"][2]
+    line_of = lambda job: job["spec"]["template"]["spec"]["containers"][0]["command"][2].replace("$$", "$") # as Kubernetes does
+    shell_line = line_of(k8s)
     check(shlex.split(shell_line)[1:7] == list(words) and "auto/3" in shell_line and k8s["spec"]["completions"] == 3, text["k8s"])
-    waiting = waits["spec"]["template"]["spec"]["containers"][0]["command"][2]
+    waiting = line_of(waits)
     check(subprocess.run(["sh", "-n"], input=waiting, text=True).returncode == 0 and "--merge" in waiting, waiting)
     openjd = yaml.safe_load(text["openjd"])
     check(openjd["steps"][0]["script"]["actions"]["onRun"]["args"][:6] == list(words) and openjd["steps"][1]["dependencies"] == [{"dependsOn": "pieces"}], text["openjd"])
