@@ -413,10 +413,10 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
             best = std::move(judgement);
         return before > 0.0 ? left / before : 0.0;
     };
+    const auto about_as_few = [&](std::size_t at) { return ways[at].far <= ways[order.front()].far + kAboutAsFew; };
     double least = 1.0;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool about_as_few = i > 0 && ways[order[i]].far <= ways[order.front()].far + kAboutAsFew;
-        if (i > 0 && least <= (about_as_few ? kWellExplained : kExplained))
+        if (i > 0 && least <= (about_as_few(order[i]) ? kWellExplained : kExplained))
             break;
         const Result<double> share = look(order[i], false);
         BN_TRY(share);
@@ -425,8 +425,9 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
     // Look for two at once where no single one explains pictures that are mostly wrong
     const auto wrong = std::count_if(best->scenes.begin(), best->scenes.end(),
                                      [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
-    if (best->mistakes.empty() && 2 * wrong > static_cast<std::ptrdiff_t>(best->scenes.size()))
-        BN_TRY(look(order.front(), true));
+    const bool searches = 2 * wrong > static_cast<std::ptrdiff_t>(best->scenes.size());
+    for (std::size_t i = 0; searches && best->mistakes.empty() && i < order.size() && about_as_few(order[i]); ++i)
+        BN_TRY(look(order[i], true));
     drawer_.set_way(*best->way);
     return std::move(*best);
 }
