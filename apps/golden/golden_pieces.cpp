@@ -111,7 +111,7 @@ std::string text_of_program(const GoldenRow& row)
 Result<std::string> row_key(const GoldenManifest& manifest, const GoldenRow& row, const Limits& limits, SceneFiles& scenes)
 {
     const InFolder inside(manifest.folder);
-    std::string text = "golden " + manifest_hash({"", {row}}) ;
+    std::string text = "golden " + manifest_hash({"", {row}}) + "\n" + text_of_limits(limits);
     for (const std::string& path :
          {row.golden, row.limits.z ? row.golden + ".variance.exr" : "", row.mask, row.kind == GoldenKind::picture ? row.picture : ""})
         text += path.empty() ? "\n" : text_of_scene("", {path});
