@@ -33,7 +33,7 @@ Preview preview_of_quaternions(const Image& map);
 Preview preview_of_half_vectors(const Image& table);
 // Draws "albedo": red and green unchanged, linear.
 Preview preview_of_albedo(const Image& table);
-// Draws "radiance_LL", the level for lobes with alpha_lin LL / (levels - 1), "irradiance" and, with extracted lights, "whole". Pictures are
+// Draws "radiance_LL", the level for lobes with roughness LL / (levels - 1), "irradiance" and, with extracted lights, "whole". Pictures are
 // tonemapped panoramas (u grows to the right, up is at the top).
 Preview preview_of_environment(const Environment& environment);
 // Draws "heights" as they repeat, and "normals" for heights scaled by `depth`, in units of texture coordinates.

@@ -117,7 +117,24 @@ std::string markdown_code(const std::string& text)
     return text.empty() ? "" : fmt::format("`{}`", replaced(text, "|", "\\|"));
 }
 
-std::string markdown_option(const Option& option)
+// Returns the pictures beside an option, as a cell's further lines.
+std::string markdown_pictures(const std::string& command, const std::string& option)
+{
+    struct Row {
+        const char *command, *option, *words, *file;
+    };
+    constexpr Row kRows[] = {
+#define BN_PICTURE(command, option, words, file) {command, option, words, file},
+#include "apps/cli/option_pictures.def"
+    };
+    std::string out;
+    for (const Row& row : kRows)
+        if (command == row.command && option == row.option)
+            out += fmt::format("<br>`{}` ![{}](../pictures/{})", row.words, row.words, row.file);
+    return out;
+}
+
+std::string markdown_option(const std::string& command, const Option& option)
 {
     std::string names = markdown_code(option.name);
     if (option.letter)
@@ -125,12 +142,13 @@ std::string markdown_option(const Option& option)
     const std::string value = option.takes_value() && !option.positional() ? markdown_code(option.value_name) : "";
     const std::string at_first = option.required ? "must be given" : markdown_cell(option.default_text());
     const char* again = option.value.repeated && option.takes_value() ? "; may be given several times" : "";
-    const std::string meaning = markdown_cell(option.meaning()) + (option.help.find("several times") == std::string::npos ? again : "");
+    const std::string meaning = markdown_cell(option.meaning()) + (option.help.find("several times") == std::string::npos ? again : "") +
+                                markdown_pictures(command, option.name);
     return fmt::format("| {} | {} | {} | {} |\n", names, value, at_first, meaning);
 }
 
 // Writes one table under each option heading, in table order.
-std::string markdown_options(const OptionTable& table)
+std::string markdown_options(const std::string& command, const OptionTable& table)
 {
     std::string out, heading;
     bool begun = false, places = false;
@@ -142,7 +160,7 @@ std::string markdown_options(const OptionTable& table)
                                places ? "argument" : "option");
             begun = true;
         }
-        out += markdown_option(option);
+        out += markdown_option(command, option);
     }
     return out;
 }
@@ -169,7 +187,7 @@ std::string markdown_page(const Command& command)
 {
     std::string out = fmt::format("# burnish {}\n\n{}.\n\n", command.name, markdown_cell(command.summary));
     out += fmt::format("    burnish {} {}\n", command.name, replaced(usage_of(command.options), "[OPTIONS]", "[options]"));
-    return out + markdown_options(command.options) + markdown_footer(command.footer);
+    return out + markdown_options(command.name, command.options) + markdown_footer(command.footer);
 }
 
 std::string man_page(const std::vector<Command>& commands)

@@ -165,7 +165,7 @@ OptionTable parity_option_table(ParityArguments& to)
                 "--key-lights",
                 "--env-samples",
                 {"--samples", "Samples of the techniques, if they take any", ""},
-                {"--roughness", "Override the roughness alpha_lin of every material, {}"},
+                {"--roughness", "Override the roughness of every material, {}"},
                 {"--anisotropy", "Override the anisotropy eta of every material, {}"},
                 "--light",
                 "--ltc-table",

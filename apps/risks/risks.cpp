@@ -122,7 +122,7 @@ bool shaded(const PixelLayers& at)
     return at.normal[0] != 0.0f || at.normal[1] != 0.0f || at.normal[2] != 0.0f;
 }
 
-// Return alpha_lin of the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
+// Return roughness of the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
 float narrow_of(const RiskInputs& i)
 {
     return std::sqrt(std::max(i.across, 0.3f * i.along));
@@ -160,10 +160,10 @@ class Looker {
     glm::vec2 extracted_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i, const glm::vec3& v) const;
     float median() const;
     Changes changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const;
-    float seen(const glm::vec3& h, const glm::vec3& v, float alpha_lin) const // mirror direction about h, which has any length
+    float seen(const glm::vec3& h, const glm::vec3& v, float roughness) const // mirror direction about h, which has any length
     {
         const glm::vec3 d = h * (2.0f * glm::dot(h, v) / glm::dot(h, h)) - v;
-        return sky_.luminance(turned_ ? turn_ * d : d, alpha_lin);
+        return sky_.luminance(turned_ ? turn_ * d : d, roughness);
     }
 
     const Sky sky_;

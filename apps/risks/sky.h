@@ -12,14 +12,14 @@ class Sky {
     // each
     // lookup: a picture asks for fewer texels than there are.
     explicit Sky(const Environment& environment);
-    // Returns the luminance for a round lobe with this alpha_lin about `direction` (any length, not 0; environment space, unrotated):
+    // Returns the luminance for a round lobe with this roughness about `direction` (any length, not 0; environment space, unrotated):
     // the
     // nearest texel of the nearest level.
-    float luminance(const glm::vec3& direction, float alpha_lin) const { return at(direction, level_of(alpha_lin)); }
+    float luminance(const glm::vec3& direction, float roughness) const { return at(direction, level_of(roughness)); }
     float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // for the widest lobe
 
   private:
-    int level_of(float alpha_lin) const { return static_cast<int>(alpha_lin * last_ + 0.5f); }
+    int level_of(float roughness) const { return static_cast<int>(roughness * last_ + 0.5f); }
     float at(const glm::vec3& direction, int level) const;
 
     const CubeMap& cube_;

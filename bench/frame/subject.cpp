@@ -90,7 +90,7 @@ class TileSubject final : public Subject {
         desc_.frame_map = w.frame_map, desc_.area_way = way_named(w.area_way);
         desc_.background = w.background;
         if (w.eta != 0.0f)
-            desc_.roughness = w.alpha_lin, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
+            desc_.roughness = w.roughness, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;
     }
     void frame() override { last_ = draw(desc_, std::move(last_)); }
     std::string pixels() const override { return fmt::format("{:016x}", pixel_hash(last_.color)); }

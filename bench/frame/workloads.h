@@ -19,12 +19,12 @@ struct Workload {
     int width = 1920, height = 1080, msaa = 1;
     const char* technique = "bent_normal";
     int samples = 0;  // 0: the technique's default
-    float eta = 0.0f; // replaces the material's where nonzero, with alpha_lin
+    float eta = 0.0f; // replaces the material's where nonzero, with roughness
     int threads = 0;  // 0: as --threads says
     Engine engine = Engine::tile;
     int packet = 0;    // rays traced together
     bool slow = false; // skipped by --quick
-    float alpha_lin = 0.3f;
+    float roughness = 0.3f;
     int extracted_lights = 0; // synthetic ones, above the scene
     int quads = 0;            // area lights behind the eye; each lights every pixel
     const char* area_way = "ltc";

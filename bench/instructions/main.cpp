@@ -108,9 +108,9 @@ std::optional<Workload> place(const char* text)
     const TechniqueInfo* technique = find_technique(name);
     Workload w = {text, "instructions", BenchScene::sphere, 0, 160, 90, 1};
     char end = 0;
-    if (!technique || std::sscanf(text + name.size(), ":%d:%f:%f%c", &w.samples, &w.alpha_lin, &w.eta, &end) != 3)
+    if (!technique || std::sscanf(text + name.size(), ":%d:%f:%f%c", &w.samples, &w.roughness, &w.eta, &end) != 3)
         return std::nullopt;
-    const bool in_range = w.samples >= 1 && w.samples <= technique->most_samples && w.alpha_lin >= 0.0f && w.alpha_lin <= 1.0f;
+    const bool in_range = w.samples >= 1 && w.samples <= technique->most_samples && w.roughness >= 0.0f && w.roughness <= 1.0f;
     if (!in_range || std::abs(w.eta) > 1.0f || w.eta == 0.0f)
         return std::nullopt;
     w.technique = technique->name;

@@ -18,7 +18,7 @@ import count
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PIXELS = 160 * 90
-LOBES = ((0.5, 0.8), (0.3, 0.5))  # alpha_lin, eta
+LOBES = ((0.5, 0.8), (0.3, 0.5))  # roughness, eta
 THIRD = 0.33333334  # in floats: a third of 9 samples is more than 3
 MOST_SAMPLES = 512
 

@@ -4,7 +4,7 @@
 Usage: aims.py --program build/release/burnish [--instructions build/release/bench_instructions] [--before PROGRAM] [--env FILE|FOLDER]...
                [--work FOLDER] [--short|--quick] [--json FILE]
 
-Mean HDR-FLIP of `burnish chart` over six environments, half of which no constant was ever chosen on, alpha_lin, eta and two scenes, with
+Mean HDR-FLIP of `burnish chart` over six environments, half of which no constant was ever chosen on, roughness, eta and two scenes, with
 and without extracted lights:
 
   - lobe_line with as many samples as take no more time than major_axis_weighted with 16: by the instructions of frames of all eta, which
@@ -13,7 +13,7 @@ and without extracted lights:
   - major_axis_weighted as it was: of PROGRAM (--before: an older burnish), else with the overlap that it had (--axis-beta), which flatters
     it, since levels narrower across the grain and the lobe's own albedo stay. Without extracted lights, which there were none of then.
   - bent_normal and split_isotropic, and where they do better.
-  - Key lights: places that they make worse, and the mean with them over the mean without where there are some and alpha_lin is at most 0.65.
+  - Key lights: places that they make worse, and the mean with them over the mean without where there are some and roughness is at most 0.65.
   - The floor: mean FLIP that the references' own noise alone makes.
 
 References are kept beside the cache of environments: a second run does not make them again. What is stopped goes on where --work names
@@ -41,7 +41,7 @@ COUNTS = (16, 14, 12, 10)  # candidate sample counts for lobe_line; one is chose
 
 
 def places_of(report, value="flip_mean"):
-    """{technique, or technique:samples: {(scene, environment, alpha_lin, eta): value}}"""
+    """{technique, or technique:samples: {(scene, environment, roughness, eta): value}}"""
     found = {}
     for r in report["rows"]:
         s = r["settings"]
@@ -87,15 +87,15 @@ def judge(on, off, before, line, lights):
         share = 1.0 - len(lost) / len(mine)
         results.append(verdict(f"lobe_line better than {other}, of {len(mine)} places", f"{100 * share:.1f} %", "98 %", share >= 0.98))
         for gap, (scene, env, roughness, eta) in lost:
-            print(f"    not at {pathlib.Path(env).name} {scene} alpha_lin {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
+            print(f"    not at {pathlib.Path(env).name} {scene} roughness {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
     worse = sorted(((mine[p] - off[line][p], p) for p in mine if mine[p] > off[line][p] + key_lights.WORSE), reverse=True)
     results.append(verdict(f"places that extracted lights make worse by more than {key_lights.WORSE}, of {len(mine)}", str(len(worse)), "0", not worse))
     for gap, (scene, env, roughness, eta) in worse:
-        print(f"    worse at {pathlib.Path(env).name} {scene} alpha_lin {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
+        print(f"    worse at {pathlib.Path(env).name} {scene} roughness {roughness:.2f} eta {eta:+.2f} by {gap:.4f}")
     sharp = [p for p in mine if lights[p[1]] and p[2] <= key_lights.SHARP + 1e-6]
     if sharp:
         ratio = mean([mine[p] for p in sharp]) / max(mean([off[line][p] for p in sharp]), 1e-9)
-        results.append(verdict(f"extracted lights on to off, {len(sharp)} places that have some, alpha_lin <= {key_lights.SHARP}", f"{ratio:.3f}", "0.5", ratio <= 0.5))
+        results.append(verdict(f"extracted lights on to off, {len(sharp)} places that have some, roughness <= {key_lights.SHARP}", f"{ratio:.3f}", "0.5", ratio <= 0.5))
     return results
 
 

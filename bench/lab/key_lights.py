@@ -9,7 +9,7 @@ lie beside the checkout, `burnish chart` measures every technique twice, with --
 stopped goes on where --work names the same folder. A line a place: mean FLIP without and with, and the ratio. At the end, by environment,
 how many extracted lights it has, the means, and what is aimed at:
   - no place is worse by more than 0.002;
-  - where there are extracted lights and alpha_lin is at most 0.65, the mean is at most half.
+  - where there are extracted lights and roughness is at most 0.65, the mean is at most half.
 
 Exit code: 0 nothing became worse; 1 a place did; 2 something could not be run.
 """
@@ -24,7 +24,7 @@ import sys
 import tempfile
 
 WORSE = 0.002
-SHARP = 0.65  # up to this alpha_lin, the mean must halve
+SHARP = 0.65  # up to this roughness, the mean must halve
 FULL = {"roughness": "0.2,0.4,0.6,0.8", "anisotropy": "-0.9,0.5,0.8,0.95", "size": "128x72", "samples": "256"}
 QUICK = {"roughness": "0.3,0.6", "anisotropy": "-0.5,0.8", "size": "96x54", "samples": "256"}
 
@@ -157,7 +157,7 @@ def main():
         bad = on[place] > off[place] + WORSE
         worse += bad
         scene, env, technique, roughness, anisotropy = place
-        print(f"{scene} {pathlib.Path(env).name} {technique} alpha_lin {roughness:.2f} eta {anisotropy:+.2f}: {off[place]:.4f} -> {on[place]:.4f} "
+        print(f"{scene} {pathlib.Path(env).name} {technique} roughness {roughness:.2f} eta {anisotropy:+.2f}: {off[place]:.4f} -> {on[place]:.4f} "
               f"({on[place] / max(off[place], 1e-9):.2f}){' worse' if bad else ''}")
     print()
     for env in environments:
@@ -167,7 +167,7 @@ def main():
             ratio = mean([on[p] for p in sharp]) / max(mean([off[p] for p in sharp]), 1e-9)
             aim = "" if not lights[env] else ", at most half" if ratio <= 0.5 else ", not halved"
             print(f"{pathlib.Path(env).name}, {technique}: {lights[env]} extracted lights, mean FLIP {mean([off[p] for p in places]):.4f} -> "
-                  f"{mean([on[p] for p in places]):.4f}, up to alpha_lin {SHARP} by {ratio:.2f}{aim}")
+                  f"{mean([on[p] for p in places]):.4f}, up to roughness {SHARP} by {ratio:.2f}{aim}")
     print(f"{worse} of {len(off)} places worse by more than {WORSE}")
     if given.json:
         given.json.write_text(json.dumps([{"scene": p[0], "env": p[1], "technique": p[2], "roughness": p[3], "anisotropy": p[4],

@@ -112,7 +112,7 @@ def patterns(program, folder, environments, samples):
         width, height, truth = read_pfm(pictures.pop("reference"))
         for name, path in pictures.items():
             p = pattern(truth, read_pfm(path)[2], width, height)
-            print(f"{pathlib.Path(environment).name} alpha_lin {roughness} eta {eta:+} {name:<20} rms {p['rms']:.4f}  "
+            print(f"{pathlib.Path(environment).name} roughness {roughness} eta {eta:+} {name:<20} rms {p['rms']:.4f}  "
                   f"one {p['one']:+.3f}  two {p['two']:+.3f}  rise {p['rise']:.3f}")
             rows.append({"env": wanted, "roughness": roughness, "anisotropy": eta, "name": name, **p})
     return rows
@@ -130,14 +130,14 @@ def flicker(program, folder, environments, samples, frames):
             files = [picture(program, folder, environment, roughness, eta, (*words, "--orbit", f"{35 + 0.1 * k:.1f},28"), size="96x54") for k in range(frames)]
             found[name] = mean([json.loads(run([program, "compare", a, b, "--metric", "flip-hdr", "--json", "-", "-q", "-t", "1"]))["flip_mean"]
                                 for a, b in zip(files, files[1:])])
-        print(f"{pathlib.Path(environment).name} alpha_lin {roughness} eta {eta:+}  " +
+        print(f"{pathlib.Path(environment).name} roughness {roughness} eta {eta:+}  " +
               "  ".join(f"{name} {value:.4f}" for name, value in found.items()))
         rows.append({"env": wanted, "roughness": roughness, "anisotropy": eta, **found})
     return rows
 
 
 def count_instructions(program, etas):
-    print("\ninstructions of a frame, millions, alpha_lin 0.5, and their ratio to major_axis_weighted with 16 samples")
+    print("\ninstructions of a frame, millions, roughness 0.5, and their ratio to major_axis_weighted with 16 samples")
     names = [(t, n) for t, n in (("lobe_line", 16), ("lobe_line", 14), ("lobe_line", 12), ("major_axis_weighted", 16), ("bent_normal", 1), ("split_isotropic", 1))]
     counts = instructions.count(str(program), *(f"{t}:{n}:0.5:{eta}" for eta in etas for t, n in names))
     for t, n in names:

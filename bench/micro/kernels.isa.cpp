@@ -19,7 +19,7 @@ template <Technique kTechnique> void run(const FrameParams& f, const KernelSurfa
         const surface_frame frame = geometric_frame(load3(in.n, i), load3(in.t, i), lit(1.0));
         const aniso_lobe lobe = {frame.t, frame.b, splat(in.sigma_u), splat(in.sigma_v)};
         const real3 base = vec3_of(lit(0.9), lit(0.85), lit(0.8));
-        const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_alpha_lin(lobe), vec3_all(lit(0.04)),
+        const surface s = metallic_roughness_surface(frame.n, load3(in.v, i), base, lit(1.0), lobe_roughness(lobe), vec3_all(lit(0.04)),
                                                      lit(1.0), lit(1.0));
         shaded_point x = {};
         x.s = s, x.lobe = lobe, x.geometric_axes = frame;

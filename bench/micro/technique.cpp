@@ -1,5 +1,5 @@
 // Cost of a fragment by technique, instruction set and threads. 1920x1080, one sample a pixel; the inside of a sphere
-// with alpha_lin 0.3 and eta 0.5 or 0.8, under the studio, covers every pixel. ns_fragment is the process's CPU time
+// with roughness 0.3 and eta 0.5 or 0.8, under the studio, covers every pixel. ns_fragment is the process's CPU time
 // over fragments: nanoseconds on one core, independent of other load. Time is a frame's wall time.
 #include <benchmark/benchmark.h>
 

@@ -88,7 +88,7 @@ struct FrameDesc {
 #define BN_DESC_angles(id, fallback) glm::vec2 id##_rad{glm::radians(static_cast<float>(fallback))};
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_DESC_##kind(id, fallback)
 #include "shading/models.def"
-    float roughness = -1.0f; // >= 0: alpha_lin of every material
+    float roughness = -1.0f; // >= 0: roughness of every material
     float anisotropy = 0.0f; // eta of every material, [-1, 1], if override_anisotropy is set
     bool override_anisotropy = false;
     int tile_size = 64;          // 32 or 64; never changes the picture

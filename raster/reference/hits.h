@@ -372,7 +372,7 @@ BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, c
     material_inputs facet = facet_inputs(m, at, words);
     const lobe_shape own = lobe_shape_of(f, m, at), wide = facet_shape(facet, words);
     const lobe_shape shape = {select(chosen, wide.sigma_u, own.sigma_u), select(chosen, wide.sigma_v, own.sigma_v),
-                              select(chosen, wide.u, own.u), select(chosen, wide.alpha_lin, own.alpha_lin)};
+                              select(chosen, wide.u, own.u), select(chosen, wide.roughness, own.roughness)};
     facet.normal_map = select(chosen, facet.normal_map, at.normal_map);
     facet.kept = select(chosen, facet.kept, at.kept);
     make_shaded_point(f, m, facet, shape, g.fragment, int_lit(0), x);

@@ -83,8 +83,8 @@ BN_FN bsdf_lobe make_bsdf_lobe(int model, aniso_lobe lobe, real3 n, real3 v, sur
     r.axes = axes;
     // Use the mean width for round lobes
     if (lobe_has(model, kLies_round)) {
-        real alpha_lin = lobe_alpha_lin(lobe);
-        r.alpha_u = alpha_lin * alpha_lin;
+        real roughness = lobe_roughness(lobe);
+        r.alpha_u = roughness * roughness;
         r.alpha_v = r.alpha_u;
     }
     // Choose the frame: the surface's or the lobe's own

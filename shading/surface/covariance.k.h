@@ -1,7 +1,7 @@
 // Roughness as the 2x2 covariance of surface slopes in the tangent plane. Textures of anisotropic materials hold
 // covariances, because filters and mixes are linear in them, unlike in angles and axes. Filter first and decompose
 // afterwards, in float32: half floats lose the smaller deviation at strong anisotropy. alpha = sqrt(2) sigma is the GGX
-// width along an axis; alpha_lin = sqrt(alpha) is the artists' roughness.
+// width along an axis; roughness = sqrt(alpha).
 #ifndef BN_COVARIANCE_K_H
 #define BN_COVARIANCE_K_H
 
@@ -62,14 +62,14 @@ BN_FN slope_covariance covariance_of_moments(real2 mean, real3 second)
     return r;
 }
 
-// Returns the covariance for alpha_lin in [0,1] and degree of anisotropy eta in [-1,1]. The width is alpha_lin^2 (1 + eta)
-// along the main direction of a filtered tensor and alpha_lin^2 (1 - eta) across it. Without a direction the surface is
+// Returns the covariance for roughness in [0,1] and degree of anisotropy eta in [-1,1]. The width is roughness^2 (1 + eta)
+// along the main direction of a filtered tensor and roughness^2 (1 - eta) across it. Without a direction the surface is
 // isotropic.
-BN_FN slope_covariance covariance_from_eta_tensor(real alpha_lin, real eta, real2 rotation, real3 power2)
+BN_FN slope_covariance covariance_from_eta_tensor(real roughness, real eta, real2 rotation, real3 power2)
 {
     real trace = power2.x + power2.y;
     real3 m = power2 * (lit(1.0) / max(trace, lit(1e-6))); // trace 1 where a direction exists
-    real sigma = alpha_lin * alpha_lin * lit(0.70710678118654752);
+    real sigma = roughness * roughness * lit(0.70710678118654752);
     real e = select(trace > lit(1e-6), eta, lit(0.0));
     real along = sigma * (lit(1.0) + e);
     real across = sigma * (lit(1.0) - e);

@@ -13,7 +13,7 @@ BN_KERNELS_BEGIN
 
 // A place in a table of directional albedo for two widths, with size x size x size/2 x size/2 pairs as in dfg_lookup(). The
 // axes, fastest first, are n.v, roughness, the view's azimuth and anisotropy. They are graded to where the albedo bends:
-// sqrt(n.v), the lobe's alpha_lin, the square root of the cosine between the wide axis and the view's azimuth, and 1 -
+// sqrt(n.v), the lobe's roughness, the square root of the cosine between the wide axis and the view's azimuth, and 1 -
 // sqrt(1 - eta).
 struct lobe_albedo_place {
     real x, y, z, w; // in entries along these axes
@@ -28,7 +28,7 @@ BN_FN lobe_albedo_place lobe_albedo_place_of(int size, aniso_lobe lobe, real3 n,
     real3 o = to_lobe(lobe, n, v);
     lobe_albedo_place at;
     at.x = sqrt(k_saturate(o.z)) * last;
-    at.y = lobe_alpha_lin(lobe) * last;
+    at.y = lobe_roughness(lobe) * last;
     real flat2 = o.x * o.x + o.y * o.y;
     real cosine = min(abs(o.x) / sqrt(max(flat2, lit(1e-12))), one);
     at.z = sqrt(cosine) * half_last;
@@ -36,7 +36,7 @@ BN_FN lobe_albedo_place lobe_albedo_place_of(int size, aniso_lobe lobe, real3 n,
     return at;
 }
 
-// Returns directional albedo from such a table, within 0.02 of the integral for alpha_lin >= 0.1.
+// Returns directional albedo from such a table, within 0.02 of the integral for roughness >= 0.1.
 BN_FN dfg_value lobe_albedo_lookup(pair_table table, int size, aniso_lobe lobe, real3 n, real3 v)
 {
     real one = lit(1.0);

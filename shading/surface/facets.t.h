@@ -59,7 +59,7 @@ BN_FN lobe_shape facet_shape(BN_IN(material_inputs) at, BN_IN(facet_words) words
     r.sigma_u = alpha * lit(0.70710678118654752);
     r.sigma_v = r.sigma_u;
     r.u = vec2_of(lit(1.0), lit(0.0));
-    r.alpha_lin = sqrt(alpha);
+    r.roughness = sqrt(alpha);
     return r;
 }
 

@@ -49,7 +49,7 @@ BN_STAGE layer_values layers_of(any_frame f, material_ref m, BN_IN(material_inpu
     r.depth = k_dot3(from_eye, forward);
     r.normal = axes.n;
     r.albedo = at.base;
-    r.roughness = min(max(shape.alpha_lin, lit(0.0)), lit(1.0));
+    r.roughness = min(max(shape.roughness, lit(0.0)), lit(1.0));
     r.tangent = lobe.u_axis;
     r.anisotropy = lobe_eta(lobe);
     r.metalness = k_saturate(at.metallic);

@@ -13,7 +13,7 @@ struct aniso_lobe {
 };
 
 // Returns the lobe's perceptual roughness: the square root of its mean alpha, where alpha = sqrt(2) sigma.
-BN_FN real lobe_alpha_lin(aniso_lobe lobe)
+BN_FN real lobe_roughness(aniso_lobe lobe)
 {
     real mean = (lobe.sigma_u + lobe.sigma_v) * lit(0.70710678118654752);
     return min(sqrt(max(mean, lit(0.0))), lit(1.0));

@@ -150,7 +150,7 @@ BN_FN void keep_light(frame_ref f, material_ref m, BN_IN(material_inputs) at, BN
     if (has_own_gain(f))
         x.energy.whole = x.energy.own_dfg;
     if (widens_lobes(m))
-        undo_widening(f, own_alpha_lin(f, m, at), x);
+        undo_widening(f, own_roughness(f, m, at), x);
     if (x.has_surface_horizon && the_material(m).keeps != 0)
         x.energy.gain = x.energy.gain * kept_light(m, at.kept, k_dot3(x.geometric_axes.n, x.s.v));
 }

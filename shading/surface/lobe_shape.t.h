@@ -14,7 +14,7 @@ BN_KERNELS_BEGIN
 struct lobe_shape {        // a lobe before its placement on a surface
     real sigma_u, sigma_v; // see aniso_lobe
     real2 u;               // the wide axis, along tangent and bitangent
-    real alpha_lin;        // perceptual roughness
+    real roughness;        // perceptual roughness
 };
 
 // Makes a shape from widths and axis.
@@ -31,7 +31,7 @@ BN_FN lobe_shape shape_of_axes(slope_axes axes)
     lobe.v_axis = vec3_all(lit(0.0));
     lobe.sigma_u = r.sigma_u;
     lobe.sigma_v = r.sigma_v;
-    r.alpha_lin = lobe_alpha_lin(lobe);
+    r.roughness = lobe_roughness(lobe);
     return r;
 }
 
@@ -53,12 +53,12 @@ BN_FN bool widens_lobes(material_ref m)
 }
 
 // Returns the perceptual roughness of own_covariance().
-BN_FN real own_alpha_lin(frame_ref f, material_ref m, BN_IN(material_inputs) at)
+BN_FN real own_roughness(frame_ref f, material_ref m, BN_IN(material_inputs) at)
 {
     if (the_material(m).level_gain >= 0.0f)
         return at.own_roughness;
     lobe_shape own = shape_of_axes(axes_of_covariance(own_covariance(f, m, at)));
-    return own.alpha_lin;
+    return own.roughness;
 }
 
 // Returns the lobe at a point of a material.
@@ -72,7 +72,7 @@ BN_FN lobe_shape lobe_shape_of(frame_ref f, material_ref m, BN_IN(material_input
     r.sigma_u = sigma;
     r.sigma_v = sigma;
     r.u = vec2_of(lit(1.0), lit(0.0));
-    r.alpha_lin = at.roughness;
+    r.roughness = at.roughness;
     if (the_material(m).anisotropic == 0)
         return r;
     // Take the covariance from the level's moments, or from the material

@@ -105,7 +105,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     x.diffuse = the_material(m).metallic < 1.0f || texture_used(m, kMetalRoughTex);
     x.dielectric_f0 = at.dielectric_f0;
     x.dielectric_f90 = at.dielectric_f90;
-    x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.alpha_lin, at.dielectric_f0, at.dielectric_f90, at.occlusion);
+    x.s = metallic_roughness_surface(axes.n, v, at.base, at.metallic, shape.roughness, at.dielectric_f0, at.dielectric_f90, at.occlusion);
     // Use exact reflectances where the frame wants them
     x.s.exact = the_frame(f).fresnel;
     if (x.s.exact != 0) {

@@ -30,7 +30,7 @@ struct surface {
     real n_dot_v;        // clamped to [1e-4, 1]
     real3 diffuse;       // albedo of the diffuse part, [0,1]
     real3 f0, f90;       // specular reflectance at normal and grazing incidence
-    real roughness;      // perceptual (alpha_lin), [0,1]
+    real roughness;      // perceptual, [0,1]
     real occlusion;      // [0,1], 1 open
     int exact;           // uniform; 0: all parts reflect by Schlick's approximation; else the frame's way, and kFilmReflects
     fresnel_parts parts; // for these parts

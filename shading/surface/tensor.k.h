@@ -1,5 +1,5 @@
 // A lobe as a tensor, a form that texels may average, and its transforms between frames. Four forms of the same lobe:
-//  widths and axis      alpha_u, alpha_v along and across u, or artists' (alpha_lin, eta, direction)
+//  widths and axis      alpha_u, alpha_v along and across u, or artists' (roughness, eta, direction)
 //  covariance           Sigma = M^2 / 2 of slopes (covariance.k.h), M = R diag(alpha_u, alpha_v) R^T
 //  stored tensor        (a, b, c): A = [[a, c], [c, b]] is the adjugate of M, so M = [[b, -c], [-c, a]]; widths are linear in it
 //  covariance in space  M^2 in the tangent plane of a normal: lobes of several normals add up
@@ -25,7 +25,7 @@ struct tensor_axes {
 };
 
 struct tensor_roughness {
-    real alpha_lin, eta; // [0,1]: widths alpha_lin^2 (1 + eta) along the direction, alpha_lin^2 (1 - eta) across it
+    real roughness, eta; // [0,1]: widths roughness^2 (1 + eta) along the direction, roughness^2 (1 - eta) across it
     real2 direction;     // unit, x >= 0
 };
 
@@ -101,9 +101,9 @@ BN_FN tensor_axes axes_of_tensor(lobe_tensor t)
 }
 
 // Makes a tensor from artists' parameters. direction: any length above 0.
-BN_FN lobe_tensor tensor_of_roughness(real alpha_lin, real eta, real2 direction)
+BN_FN lobe_tensor tensor_of_roughness(real roughness, real eta, real2 direction)
 {
-    real alpha = alpha_lin * alpha_lin;
+    real alpha = roughness * roughness;
     real along = alpha * (lit(1.0) + eta);
     real across = alpha * (lit(1.0) - eta);
     return tensor_of_axes(along, across, k_normalize2(direction));
@@ -114,7 +114,7 @@ BN_FN tensor_roughness roughness_of_tensor(lobe_tensor t)
     tensor_axes axes = axes_of_tensor(t);
     real sum = axes.alpha_u + axes.alpha_v;
     tensor_roughness r;
-    r.alpha_lin = sqrt(lit(0.5) * sum);
+    r.roughness = sqrt(lit(0.5) * sum);
     r.eta = (axes.alpha_u - axes.alpha_v) / max(sum, lit(1e-12));
     r.direction = axes.u;
     return r;

@@ -18,7 +18,7 @@ struct bent_ray {
 // Returns the direction and level. n: shading normal, v: to the eye, both unit, world space.
 BN_FN bent_ray bent_normal_ray(real3 n, real3 v, aniso_lobe lobe)
 {
-    real al = lobe_alpha_lin(lobe);
+    real al = lobe_roughness(lobe);
     real eta = abs(lobe_eta(lobe));
     real stretch = eta * min(lit(1.5) * sqrt(al), lit(1.0));
     stretch = min(stretch, lit(0.999)); // a view along the grain would leave no direction

@@ -257,7 +257,7 @@ BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
 }
 
 // Returns true where the count above may exceed that of the line from Cocco, Zanni, Chermain 2024 (sec. 5): wide lobes
-// (alpha_lin above 0.5), grazing views, k other than 1.
+// (roughness above 0.5), grazing views, k other than 1.
 BN_FN mask major_axis_count_unsure(major_axis_grain g, real k)
 {
     mask wide = g.alpha_x + g.alpha_y > lit(0.5);

@@ -56,6 +56,27 @@ def options(bench):
     bench.run("manual", "bash", "render").expect(2).expect_one_line("markdown")
 
 
+@case("manual.pictures_beside_options_show_them", tier="quick")
+def option_pictures(bench):
+    """A command of the manual draws a picture with the option beside which it stands, and the page shows the picture."""
+    drawn = {}
+    for page in pages.pages():
+        for words, _ in pages.commands_of(page.read_text()):
+            drawn.update({words[i + 1]: words for i, word in enumerate(words[:-1]) if word in ("-o", "--risks", "--error-map")})
+    rows = re.findall(r'^BN_PICTURE\("(\w+)", "([^"]+)", "([^"]+)", "([^"]+)"\)$', (ROOT / "apps/cli/option_pictures.def").read_text(), re.M)
+    check(len({(command, option) for command, option, _, _ in rows}) > 20, f"{rows}")
+    for command, option in {(command, option) for command, option, _, _ in rows}:
+        page = bench.run("manual", "markdown", command).expect(0).out
+        row = re.search(rf"^\| (?:`-\w`, )?`{option}` \|.*$", page, re.M)[0]
+        own = [(words, file) for c, o, words, file in rows if (c, o) == (command, option)]
+        check(all(f"`{words}` ![{words}](../pictures/{file})" in row for words, file in own), row)
+        check(any(option in drawn[file] for _, file in own), f"{option}: no picture was drawn with it")
+        for words, file in own:
+            given = dict(re.findall(r"(--[a-z-]+) (\S+)", words))
+            wrong = [f"{name} {value}" for name, value in given.items() if name in drawn[file] and drawn[file][drawn[file].index(name) + 1] != value]
+            check(not wrong, f"{file} was not drawn by {wrong}")
+
+
 @case("manual.links_and_pictures_are_there")
 def links(bench):
     """Checks the manual and the front page. A page shows every image, and no image is large."""
@@ -77,10 +98,15 @@ def links(bench):
     check(sum(files.values()) <= MOST_BYTES and len(files) > 30, f"{len(files)} pictures, {sum(files.values())} bytes")
 
 
-@case("manual.library_page_has_the_tested_program")
+@case("manual.library_page_has_the_tested_programs")
 def library_page(bench):
     page = (MANUAL / "library.md").read_text()
     check((ROOT / "apps/examples/mesh.cpp").read_text() in page, "library.md and apps/examples/mesh.cpp differ")
+    plain = lambda text: "\n".join(line.strip() for line in text.strip().splitlines())
+    programs = [plain(path.read_text()) for path in (ROOT / "apps/examples").glob("*.cpp")]
+    pieces = [plain(piece) for piece in re.findall(r"```cpp\n(.*?)```", page, re.S)]
+    wrong = [piece for piece in pieces if not any(piece in program for program in programs)]
+    check(len(pieces) > 2 and not wrong, f"no example that is compiled holds {wrong}")
 
 
 @case("manual.pages_hold_no_dates_and_no_times")

@@ -117,7 +117,7 @@ def roughness(bench):
     by = {name: hash_of(bench, "rough.gltf", *VIEW, "--mip-filter", name) for name in ("box", "lean", "baseline", "covariance", "kappa")}
     check(by["lean"] == by["box"] and by["kappa"] == by["covariance"], f"{by}")
     check(len({by["box"], by["baseline"], by["covariance"]}) == 3, f"{by}")
-    # root mean square of alpha: .0246 and .7441 give .5264, alpha_lin .7256
+    # root mean square of alpha: .0246 and .7441 give .5264, roughness .7256
     words = ("rough.gltf", *VIEW, "--technique", "mc", "--samples", "64", "-q")
     bench.run("render", *words, "--mip-filter", "covariance", "-o", "a.pfm").expect(0)
     bench.run("render", *words, "--roughness", "0.7256", "-o", "b.pfm").expect(0)

@@ -142,8 +142,8 @@ def brushing_sets_in(bench):
     check(len(report["by_frame"]) == len(places), f"{report}")
     for (scene, msaa, roughness), frame in zip(places, report["by_frame"]):
         found = frame["flip_mean"]
-        print(f"{scene}, alpha_lin {roughness}, {msaa}x: {found:.5f}")
-        check(found <= 0.002, f"{scene}, alpha_lin {roughness}, {msaa}x: FLIP {found}")
+        print(f"{scene}, roughness {roughness}, {msaa}x: {found:.5f}")
+        check(found <= 0.002, f"{scene}, roughness {roughness}, {msaa}x: FLIP {found}")
 
 
 @case("pixels.lines_that_turn_fast_leave_no_dots", budget=4)

@@ -8,7 +8,10 @@ import sys
 import harness
 
 HERE = pathlib.Path(__file__).resolve().parent
-MODULES = sorted(path.stem for path in HERE.glob("*_cases.py"))
+LAB = HERE.parent / "lab/cli" # of subcommands of burnish-lab
+sys.path.append(str(LAB))
+FILES = {path.stem: path for folder in (HERE, LAB) for path in sorted(folder.glob("*_cases.py"))}
+MODULES = sorted(FILES)
 
 
 def load(modules, data):
@@ -22,7 +25,7 @@ def load_case(name, data):
     """Registers a case, from the modules that write its name, or as much of it as is not made up. To compile them all takes a second."""
     area, _, claim = name.partition(".")
     parts = [f'"{name}"', f'"{claim}"', *([f'"{area}.{claim.rpartition(".")[0]}.'] if "." in claim else [])]
-    load([module for module in MODULES if any(part in (HERE / f"{module}.py").read_text() for part in parts)], data)
+    load([module for module in MODULES if any(part in FILES[module].read_text() for part in parts)], data)
     if name not in harness.CASES:
         load(MODULES, data)
 

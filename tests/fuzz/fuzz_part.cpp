@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "shading/bake/mipnet/training_checkpoint.h"
 #include "shading/lab/ltc/bake_checkpoint.h"
+#include "shading/lab/mipnet/training_checkpoint.h"
 #include "tests/fuzz/sealed.h"
 
 namespace {

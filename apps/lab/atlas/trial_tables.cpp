@@ -48,12 +48,12 @@ Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string&
     return made[path] = std::make_shared<const ltc::ShadingTables>(std::move(*tables));
 }
 
-Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double alpha_lin, double eta)
+Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double roughness, double eta)
 {
     const std::string name = path.substr(std::string(kTrial).size());
     if (name != "floats" && name != "eight-bits")
         return Error{ExitCode::bad_input, path, "", "no table of this name is tried; there are floats, eight-bits"};
-    const double alpha = alpha_lin * alpha_lin, nu = phong_exponent(alpha * (1.0 + eta)), nv = phong_exponent(alpha * (1.0 - eta));
+    const double alpha = roughness * roughness, nu = phong_exponent(alpha * (1.0 + eta)), nv = phong_exponent(alpha * (1.0 - eta));
     Result<PhongFiles> table =
         PhongFiles::of(half_vector_table(nu, nv, {256, 256}, name == "floats" ? PixelType::f32 : PixelType::u8), path);
     BN_TRY(table);

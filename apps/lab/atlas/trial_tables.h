@@ -15,8 +15,8 @@ bool is_trial_table(const std::string& path);
 // matrix, trial:unsymmetric also --no-symmetry, trial:inverse has --interpolate inverse. Each is made once. Fails for other names.
 Result<std::shared_ptr<const ltc::ShadingTables>> trial_table(const std::string& path, const Jobs& jobs);
 
-// Makes a table as `burnish bake half-vectors --size 256x256` does, but with unrounded exponents, for the lobe with alpha_lin and eta in
+// Makes a table as `burnish bake half-vectors --size 256x256` does, but with unrounded exponents, for the lobe with roughness and eta in
 // [0,1]. trial:floats is like .exr, trial:eight-bits like .png. Fails for other names.
-Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double alpha_lin, double eta);
+Result<std::shared_ptr<const PhongFiles>> trial_half_vectors(const std::string& path, double roughness, double eta);
 
 } // namespace burnish

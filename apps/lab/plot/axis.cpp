@@ -119,7 +119,7 @@ Drawing plot_axis(const LobePlot& lobe)
 
     const double nan = std::nan("");
     Drawing out(3.0 * kSide + 4.0 * kGap, kTop + kSide + kBelow, "chart",
-                fmt::format("Major axis of a lobe of alpha_lin {:g} and eta {:g}", lobe.roughness, lobe.anisotropy));
+                fmt::format("Major axis of a lobe of roughness {:g} and eta {:g}", lobe.roughness, lobe.anisotropy));
     // Draw the three spaces: slopes, normals and reflected directions
     const Panel slopes{"slopes", kGap, 1.5 * lobe.k * alpha_x / std::sqrt(2.0)};
     draw_density(out, slopes, Edge::slopes, [&](const Place& p) {
@@ -151,7 +151,7 @@ Drawing plot_axis(const LobePlot& lobe)
     // Measure the width between the moved points
     const PlotVec left = plot_fns().mirrored(shapes.moved[0], o), right = plot_fns().mirrored(shapes.moved[1], o);
     out.text(kGap, kTop + kSide + 44.0, "note",
-             fmt::format("alpha_lin {:g}, eta {:g}, seen from {:g} degrees off the normal, {:g} about it; k {:g}, beta {:g}, {} samples; "
+             fmt::format("roughness {:g}, eta {:g}, seen from {:g} degrees off the normal, {:g} about it; k {:g}, beta {:g}, {} samples; "
                          "width {:.5f}, radius {:.5f}",
                          lobe.roughness, lobe.anisotropy, lobe.theta_deg, lobe.phi_deg, lobe.k, lobe.beta, lobe.samples,
                          std::hypot(left.x - right.x, left.y - right.y, left.z - right.z), axis.radius));

@@ -58,8 +58,8 @@ OptionTable plot_option_table(PlotArguments& to)
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(to.what, {"axis", "lobe", "side", "ellipsoid", "half-vectors", "energy", "ltc"})}});
     table.add("The lobe",
-              {{"--roughness", "R", "Roughness alpha_lin of the lobe, {}", number(l.roughness, 0.03, 1.0)},
-               {"--anisotropy", "A", "Anisotropy eta of the lobe, {}: GGX widths alpha_lin^2 (1 +- eta) along and across the tangent",
+              {{"--roughness", "R", "Roughness of the lobe, {}", number(l.roughness, 0.03, 1.0)},
+               {"--anisotropy", "A", "Anisotropy eta of the lobe, {}: GGX widths roughness^2 (1 +- eta) along and across the tangent",
                 number(l.anisotropy, -1.0, 1.0)},
                {"--eye", "DEG,DEG", "Direction to the eye: angle from the normal, and angle about it from the tangent",
                 angles(to.eye_deg, -360.0, 360.0)}});

@@ -93,7 +93,7 @@ Drawing plot_half_vectors(const LobePlot& lobe)
         return paint_of(of.s, of.b, 0.0);
     });
     out.text(kGap, kTop + kSide + 44.0, "note",
-             fmt::format("alpha_lin {:g}, eta {:g}: exponents {:.4g} along the tangent and {:.4g} across; {} samples of a grid",
+             fmt::format("roughness {:g}, eta {:g}: exponents {:.4g} along the tangent and {:.4g} across; {} samples of a grid",
                          lobe.roughness, lobe.anisotropy, nu, nv, kSampleSide * kSampleSide));
     out.text(kGap, kTop + kSide + 68.0, "note", "to the right and up: both random numbers; the eye's azimuth and the root of its cosine");
     return out;

@@ -107,7 +107,7 @@ Drawing plot_lobe(const LobePlot& plot)
     const PlotVec towards = sine > 1e-6 ? PlotVec{peak.x / sine, peak.y / sine, 0.0} : PlotVec{1, 0, 0};
 
     Drawing out(4.0 * kSide + 5.0 * kGap, kTop + kSide + kBelow, "chart",
-                fmt::format("Lobe {} of alpha_lin {:g} and eta {:g}", lobe_model(plot.model).name, plot.roughness, plot.anisotropy));
+                fmt::format("Lobe {} of roughness {:g} and eta {:g}", lobe_model(plot.model).name, plot.roughness, plot.anisotropy));
     // Draw the visible half vectors
     const Panel halves{"half vectors that the eye sees", kGap, 1.0};
     const Density half = [&](const Place& p) {
@@ -145,7 +145,7 @@ Drawing plot_lobe(const LobePlot& plot)
     // Write the caption and the key
     out.text(kGap, kTop + kSide + 44.0, "note",
              fmt::format(
-                 "{}, alpha_lin {:g}, eta {:g}, tilt {:g},{:g}; seen from {:g} degrees off the normal, {:g} about it; peak {:.5g} at {}, "
+                 "{}, roughness {:g}, eta {:g}, tilt {:g},{:g}; seen from {:g} degrees off the normal, {:g} about it; peak {:.5g} at {}, "
                  "mirror direction {:.5g} at {}",
                  lobe_model(plot.model).name, plot.roughness, plot.anisotropy, plot.tilt_x_deg, plot.tilt_y_deg, plot.theta_deg,
                  plot.phi_deg, most, degrees(peak), value(mirror), degrees(mirror)));

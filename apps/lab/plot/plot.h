@@ -8,7 +8,7 @@ struct Table;
 }
 
 struct LobePlot {
-    double roughness = 0.5, anisotropy = 0.8; // alpha_lin and eta: widths alpha_lin^2 (1 +- eta)
+    double roughness = 0.5, anisotropy = 0.8; // roughness and eta: widths roughness^2 (1 +- eta)
     double theta_deg = 50.0, phi_deg = 30.0;  // direction to the eye: from the normal, and about it from the grain
     double k = 1.0, beta = 2.3;
     int samples = 16;

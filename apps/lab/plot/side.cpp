@@ -144,14 +144,14 @@ void draw_shares(Drawing& out, const LobePlot& plot, double left)
 Drawing plot_side(const LobePlot& plot)
 {
     Drawing out(4.0 * kSide + 5.0 * kGap, kTop + kSide + kBelow, "chart",
-                fmt::format("Where techniques look on a sphere of alpha_lin {:g} and eta {:g}", plot.roughness, plot.anisotropy));
+                fmt::format("Where techniques look on a sphere of roughness {:g} and eta {:g}", plot.roughness, plot.anisotropy));
     for (int looker = 0; looker < lookers; ++looker)
         draw_sphere(out, plot, looker);
     draw_shares(out, plot, kGap + 3.0 * (kSide + kGap));
     const Shares shares = shares_of(plot, plot.anisotropy);
     out.text(
         kGap, kTop + kSide + 44.0, "note",
-        fmt::format("alpha_lin {:g}, eta {:g}, highlight {:g} degrees off the parallels, {} samples; light: looks up, dark: looks down, "
+        fmt::format("roughness {:g}, eta {:g}, highlight {:g} degrees off the parallels, {} samples; light: looks up, dark: looks down, "
                     "red: against the lobe's mean, bent_normal {:.2f} %, major_axis {:.2f} % of the points",
                     plot.roughness, plot.anisotropy, plot.rotation_deg, plot.samples, 100.0 * shares.of[bent_normal],
                     100.0 * shares.of[major_axis]));

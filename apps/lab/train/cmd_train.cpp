@@ -19,7 +19,7 @@
 #include "apps/report/json.h"
 #include "core/base/clock.h"
 #include "shading/bake/mip/evaluate.h"
-#include "shading/bake/mipnet/train.h"
+#include "shading/lab/mipnet/train.h"
 
 namespace burnish {
 namespace {

@@ -55,14 +55,14 @@ void add_plates(Scene& scene)
     constexpr double kPlateWidth = 0.72, kPlateHeight = 0.8, kLean = 0.3; // kLean: offset of the top, backwards
     struct Plate {
         const char* name;
-        double x, alpha_lin, eta;
+        double x, roughness, eta;
         bool upright;
     };
     const Plate plates[] = {{"plate brushed along", -0.95, 0.45, 0.85, false},
                             {"plate brushed upwards", 0.0, 0.45, 0.85, true},
                             {"plate hardly brushed", 0.95, 0.35, 0.0, false}};
     for (const Plate& plate : plates) {
-        Material material = brushed_metal(plate.alpha_lin, plate.eta, glm::vec3(0.85f, 0.8f, 0.74f));
+        Material material = brushed_metal(plate.roughness, plate.eta, glm::vec3(0.85f, 0.8f, 0.74f));
         material.name = plate.name;
         const std::uint32_t first = begin_surface(scene, material);
         const glm::dvec3 corner(plate.x - 0.5 * kPlateWidth, 0.0, -0.75), across(kPlateWidth, 0.0, 0.0), up(0.0, kPlateHeight, -kLean);

@@ -1,4 +1,4 @@
-// A wall of spheres: alpha_lin grows to the right, eta upwards. Also one sphere under a lamp. Tangents point east.
+// A wall of spheres: roughness grows to the right, eta upwards. Also one sphere under a lamp. Tangents point east.
 #include <cmath>
 #include <cstdio>
 
@@ -34,18 +34,18 @@ namespace {
 
 constexpr double kEta[kRows] = {0.0, 0.25, 0.5, 0.75, 0.95};
 
-// Converts the widths alpha_lin^2 (1 +- eta) to KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1,
+// Converts the widths roughness^2 (1 +- eta) to KHR_materials_anisotropy: alpha across the tangent, mix(alpha, 1,
 // strength^2) along it.
-void set_widths(Material& material, double alpha_lin, double eta)
+void set_widths(Material& material, double roughness, double eta)
 {
-    const double along = alpha_lin * alpha_lin * (1.0 + eta), across = alpha_lin * alpha_lin * (1.0 - eta);
+    const double along = roughness * roughness * (1.0 + eta), across = roughness * roughness * (1.0 - eta);
     material.roughness = static_cast<float>(std::sqrt(across));
     material.anisotropy_strength = static_cast<float>(std::sqrt((along - across) / (1.0 - across)));
 }
 
-Material silver(double alpha_lin, double eta)
+Material silver(double roughness, double eta)
 {
-    return brushed_metal(alpha_lin, eta, glm::vec3(0.95f, 0.93f, 0.88f));
+    return brushed_metal(roughness, eta, glm::vec3(0.95f, 0.93f, 0.88f));
 }
 
 void add_front_camera(Scene& scene)
@@ -76,10 +76,10 @@ void add_part(Scene& scene, const Material& material, const glm::vec3& at, void 
     add_node(scene, material.name.c_str(), add_mesh(scene, material.name.c_str(), first), local);
 }
 
-Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour)
+Material brushed_metal(double roughness, double eta, const glm::vec3& colour)
 {
     Material material;
-    set_widths(material, alpha_lin, eta);
+    set_widths(material, roughness, eta);
     material.base_color = glm::vec4(colour, 1.0f);
     return material;
 }
@@ -92,7 +92,7 @@ Scene make_spheres()
         for (int column = 0; column < kColumns; ++column) {
             Material material = silver((column + 1) * 0.1, kEta[row]);
             char name[64];
-            std::snprintf(name, sizeof(name), "alpha_lin 0.%d eta %.2f", column + 1, kEta[row]);
+            std::snprintf(name, sizeof(name), "roughness 0.%d eta %.2f", column + 1, kEta[row]);
             material.name = name;
             scene.materials.push_back(material);
 

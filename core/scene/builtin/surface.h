@@ -16,8 +16,8 @@ void add_sphere(Scene& scene, int meridians, int parallels, double radius);
 // Adds a node at `at` with a mesh that `add` makes, in one material.
 void add_part(Scene& scene, const Material& material, const glm::vec3& at, void (*add)(Scene&));
 
-// Returns metal with GGX widths alpha_lin^2 (1 +- eta) along and across the tangent.
-Material brushed_metal(double alpha_lin, double eta, const glm::vec3& colour);
+// Returns metal with GGX widths roughness^2 (1 +- eta) along and across the tangent.
+Material brushed_metal(double roughness, double eta, const glm::vec3& colour);
 
 // What shines along -Z, or looks there, from `eye` at `target`, not along +Y.
 Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target);

@@ -289,7 +289,7 @@ LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const
     shapes.override_anisotropy = desc.override_anisotropy, shapes.anisotropy = desc.anisotropy;
     const lobe_shape shape = only_lobe_shape(shapes, m);
     const bool one = one_lobe_shape(m);
-    const float roughness = std::clamp(one ? shape.alpha_lin : m.roughness, 0.0f, 1.0f);
+    const float roughness = std::clamp(one ? shape.roughness : m.roughness, 0.0f, 1.0f);
     r.lobe = glm::vec4(shape.sigma_u, shape.sigma_v, roughness, desc.override_anisotropy ? desc.anisotropy : m.anisotropy_strength);
     const float eta = (shape.sigma_u - shape.sigma_v) / std::max(shape.sigma_u + shape.sigma_v, 1e-20f);
     const float stretch = std::min(eta * std::min(1.5f * std::sqrt(roughness), 1.0f), 0.999f);

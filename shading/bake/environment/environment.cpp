@@ -87,7 +87,7 @@ std::vector<float> prefilter_level(const std::vector<LightLevel>& tree, int size
     return rgb;
 }
 
-// Makes the prefiltered chain. Level 0 is the environment; level l holds GGX with alpha_lin = l / (levels - 1).
+// Makes the prefiltered chain. Level 0 is the environment; level l holds GGX with roughness = l / (levels - 1).
 CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int samples, float scale, const Jobs& jobs, Progress& progress)
 {
     const int size = boxes[0].size;
@@ -99,8 +99,8 @@ CubeMap prefilter_chain(const std::vector<CubeLevel>& boxes, int levels, int sam
     const std::vector<LightLevel> tree_levels = tree.levels();
     const double opening = std::min(kOpening / std::sqrt(samples), kWidestOpening);
     for (int l = 1; l < levels; ++l) {
-        const double alpha_lin = static_cast<double>(l) / (levels - 1);
-        const std::vector<float> rgb = prefilter_level(tree_levels, size >> l, alpha_lin * alpha_lin, opening, jobs, progress);
+        const double roughness = static_cast<double>(l) / (levels - 1);
+        const std::vector<float> rgb = prefilter_level(tree_levels, size >> l, roughness * roughness, opening, jobs, progress);
         store_cube_level(chain, l, rgb.data(), jobs);
     }
     return chain;

@@ -44,7 +44,7 @@ struct Environment {
     float rotation_deg = 0.0f; // drawing angle about +Y, counter-clockwise seen from above; the data below is not turned
     // Neither cube holds extracted lights. With EnvironmentOptions::picture_only both are empty, except specular's level 0 if there are no
     // extracted lights.
-    CubeMap specular;                             // level 0: the environment; level l: GGX with alpha_lin = l / (levels - 1)
+    CubeMap specular;                             // level 0: the environment; level l: GGX with roughness = l / (levels - 1)
     CubeMap irradiance;                           // cosine-weighted mean radiance (irradiance / pi), one level, 32^2 faces
     std::vector<ExtractedLight> extracted_lights; // strongest first
     CubeMap whole;                                // level 0 with extracted lights; empty if there are none
@@ -83,7 +83,7 @@ Result<Environment> load_environment(const std::string& spec, const EnvironmentO
 // Returns the cube's level 0 with box-filtered levels, for techniques that choose a level by a sample's solid angle.
 CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs);
 
-// Directional albedo of GGX with height-correlated Smith masking (split-sum DFG): F = F0 * scale + F90 * bias (Schlick). Row: alpha_lin
+// Directional albedo of GGX with height-correlated Smith masking (split-sum DFG): F = F0 * scale + F90 * bias (Schlick). Row: roughness
 // (perceptual roughness) = y / (size - 1). Column: n.v = x / (size - 1).
 struct DfgTable {
     int size = 0;

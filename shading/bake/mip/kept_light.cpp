@@ -76,8 +76,8 @@ const KeptShares& kept_shares(float roughness)
     const std::lock_guard lock(making);
     std::unique_ptr<const KeptShares>& shares = made[step];
     if (!shares) {
-        const float alpha_lin = static_cast<float>(step) / 32.0f;
-        shares = std::make_unique<const KeptShares>(alpha_lin * alpha_lin);
+        const float of_step = static_cast<float>(step) / 32.0f;
+        shares = std::make_unique<const KeptShares>(of_step * of_step);
     }
     return *shares;
 }

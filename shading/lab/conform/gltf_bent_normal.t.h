@@ -48,7 +48,7 @@ BN_FN bent_ray gltf_bent_ray(real3 n, real3 v, aniso_lobe lobe)
     // Mirror the view
     bent_ray r;
     r.direction = bent * (lit(2.0) * k_dot3(bent, v)) - v;
-    r.lod = BN_MUTANT(mean_width, roughness, lobe_alpha_lin(lobe));
+    r.lod = BN_MUTANT(mean_width, roughness, lobe_roughness(lobe));
     return r;
 }
 

@@ -16,9 +16,9 @@ struct Lobe {
     double x, y, z; // to the eye, unit
 };
 
-Lobe lobe_of(double alpha_lin, double eta, double cosine, double azimuth_rad)
+Lobe lobe_of(double roughness, double eta, double cosine, double azimuth_rad)
 {
-    const double alpha = alpha_lin * alpha_lin, sine = std::sqrt(1.0 - cosine * cosine);
+    const double alpha = roughness * roughness, sine = std::sqrt(1.0 - cosine * cosine);
     return {std::max(alpha * (1.0 + eta), 1e-3), std::max(alpha * (1.0 - eta), 1e-3), sine * std::cos(azimuth_rad),
             sine * std::sin(azimuth_rad), cosine};
 }

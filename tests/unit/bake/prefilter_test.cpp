@@ -59,13 +59,13 @@ TEST(prefilter, levels_equal_the_integral_over_the_hemisphere)
     const Result<Environment> e = bake_environment(image, "test", o, Jobs(2));
     ASSERT_TRUE(e);
     for (const int level : {1, 2, 3, 4}) {
-        const double alpha_lin = static_cast<double>(level) / (e->specular.levels - 1);
+        const double roughness = static_cast<double>(level) / (e->specular.levels - 1);
         const int n = 128 >> level;
         for (int face = 0; face < 6; ++face) {
             const int x = n / 3, y = n / 5;
             Direction d = cube_direction(face, (x + 0.5) * 2.0 / n - 1.0, (y + 0.5) * 2.0 / n - 1.0);
             const double r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), v[3] = {d.x / r, d.y / r, d.z / r};
-            const double expected = brute_force(v, alpha_lin * alpha_lin);
+            const double expected = brute_force(v, roughness * roughness);
             EXPECT_NEAR(static_cast<double>(cube_texel(e->specular, level, face, x, y, 0)), expected, 0.015)
                 << "level " << level << " face " << face;
         }
@@ -112,13 +112,13 @@ double relative_error(const CubeLevel& level0, const CubeMap& baked, int level, 
 {
     Random random(static_cast<std::uint64_t>(level));
     const int n = baked.size >> level;
-    const double alpha_lin = static_cast<double>(level) / (baked.levels - 1);
+    const double roughness = static_cast<double>(level) / (baked.levels - 1);
     double sum = 0.0;
     for (int i = 0; i < texels; ++i) {
         const int face = i % 6, x = static_cast<int>(random() * n), y = static_cast<int>(random() * n);
         Direction d = cube_direction(face, (x + 0.5) * 2.0 / n - 1.0, (y + 0.5) * 2.0 / n - 1.0);
         const double r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-        const std::array<double, 3> expected = quadrature(level0, {d.x / r, d.y / r, d.z / r}, alpha_lin * alpha_lin);
+        const std::array<double, 3> expected = quadrature(level0, {d.x / r, d.y / r, d.z / r}, roughness * roughness);
         for (int c = 0; c < 3; ++c) {
             const double e = static_cast<double>(cube_texel(baked, level, face, x, y, c)) / expected[static_cast<std::size_t>(c)] - 1.0;
             sum += e * e / 3.0;

@@ -35,9 +35,9 @@ Tensor of_alphas(double along, double across, double angle)
     const double v = .5 * across * across, extra = .5 * along * along - v;
     return {v + extra * d[0], v + extra * d[1], extra * d[2]};
 }
-Tensor by_definition_eta(double alpha_lin, double eta, double angle)
+Tensor by_definition_eta(double roughness, double eta, double angle)
 {
-    return of_alphas(alpha_lin * alpha_lin * (1 + eta), alpha_lin * alpha_lin * (1 - eta), angle);
+    return of_alphas(roughness * roughness * (1 + eta), roughness * roughness * (1 - eta), angle);
 }
 Tensor by_definition_khr(double alpha, double strength, double angle)
 {
@@ -52,9 +52,9 @@ std::vector<double> run(const char* name, const std::vector<double>& in)
         EXPECT_EQ(call(isa, name, in), scalar) << name;
     return scalar;
 }
-Tensor from_eta(double alpha_lin, double eta, double turn, Tensor t)
+Tensor from_eta(double roughness, double eta, double turn, Tensor t)
 {
-    const std::vector<double> r = run("covariance_eta_tensor", {alpha_lin, eta, std::cos(turn), std::sin(turn), t[0], t[1], t[2]});
+    const std::vector<double> r = run("covariance_eta_tensor", {roughness, eta, std::cos(turn), std::sin(turn), t[0], t[1], t[2]});
     return {r[0], r[1], r[2]};
 }
 Tensor from_khr(double alpha, double strength, double turn, Tensor t2, Tensor t4)
@@ -66,7 +66,7 @@ Tensor from_khr(double alpha, double strength, double turn, Tensor t2, Tensor t4
 const Tensor kNoTexture = {1, 0, 0};
 
 struct Axes {
-    double sigma_u, sigma_v, x, y, alpha_lin, eta;
+    double sigma_u, sigma_v, x, y, roughness, eta;
 };
 Axes axes_of(Tensor s)
 {
@@ -105,12 +105,12 @@ Tensor texel(double r, double g, double b, int power, PixelType type = PixelType
 TEST(covariance, follows_roughness_anisotropy_and_direction)
 {
     for (double eta : {-1.0, -.95, -.4, 0.0, .3, .95, 1.0})
-        for (double alpha_lin : {0.0, .001, .3, 1.0})
+        for (double roughness : {0.0, .001, .3, 1.0})
             for (double angle : {0.0, .3, 1.4, 2.9})
                 for (double turn : {0.0, .7}) {
-                    const Tensor expected = by_definition_eta(alpha_lin, eta, angle + turn);
+                    const Tensor expected = by_definition_eta(roughness, eta, angle + turn);
                     const double scale = expected[0] + expected[1];
-                    expect_near(from_eta(alpha_lin, eta, turn, of_direction(angle)), expected, 3e-7 * scale, "eta");
+                    expect_near(from_eta(roughness, eta, turn, of_direction(angle)), expected, 3e-7 * scale, "eta");
                 }
 }
 
@@ -119,7 +119,7 @@ TEST(covariance, deviations_are_those_of_the_test_vectors)
     const Axes a = axes_of(from_eta(.5, .8, 0, kNoTexture));
     EXPECT_NEAR(a.sigma_u, .31819805, 1e-7);
     EXPECT_NEAR(a.sigma_v, .03535534, 1e-6);
-    EXPECT_NEAR(a.alpha_lin, .5, 1e-6);
+    EXPECT_NEAR(a.roughness, .5, 1e-6);
     EXPECT_NEAR(a.eta, .8, 1e-5);
     EXPECT_EQ(a.x, 1);
     const Axes narrow = axes_of(from_eta(.4, .5, 0, kNoTexture));
@@ -140,7 +140,7 @@ TEST(covariance, decomposition_is_the_inverse)
         const Axes a = axes_of(from_eta(.4, eta, angle, kNoTexture));
         const double sine = a.x * std::sin(angle) - a.y * std::cos(angle);
         worst = std::max(worst, std::abs(sine) * eta);
-        ASSERT_NEAR(a.alpha_lin, .4, 1e-6);
+        ASSERT_NEAR(a.roughness, .4, 1e-6);
         ASSERT_NEAR(a.eta, eta, 1e-4);
         ASSERT_GE(a.x, 0);
         ASSERT_NEAR(a.x * a.x + a.y * a.y, 1, 1e-6);

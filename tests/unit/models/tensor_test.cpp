@@ -66,13 +66,13 @@ TEST(tensor, forms_go_to_each_other_and_back)
 
 TEST(tensor, roughness_and_direction_come_back)
 {
-    for (const double alpha_lin : {0.05, 0.3, 0.7})
+    for (const double roughness : {0.05, 0.3, 0.7})
         for (const double eta : {0.0, 0.4, 0.95}) {
-            const Numbers t = exact("tensor_roughness_in", {alpha_lin, eta, 1.5, -2.0});
+            const Numbers t = exact("tensor_roughness_in", {roughness, eta, 1.5, -2.0});
             const Numbers r = exact("tensor_roughness_out", t), rough = in_floats("tensor_roughness_out", t);
-            EXPECT_NEAR(r[0], alpha_lin, 1e-12);
+            EXPECT_NEAR(r[0], roughness, 1e-12);
             EXPECT_NEAR(r[1], eta, 1e-9);
-            EXPECT_NEAR(rough[0], alpha_lin, 1e-6);
+            EXPECT_NEAR(rough[0], roughness, 1e-6);
             EXPECT_NEAR(rough[1], eta, 2e-4);
             if (eta > 0.0) {
                 EXPECT_NEAR(r[2], 0.6, 1e-9);

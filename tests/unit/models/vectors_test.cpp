@@ -11,7 +11,7 @@ namespace {
 
 TEST(ggx_vectors, directional_albedo_matches_brute_force)
 {
-    const double cases[][3] = {{.2, .5, .963 + .032}, {.5, .3, .772 + .065}, {.9, .8, .453 + .001}}; // alpha_lin, n.v, albedo
+    const double cases[][3] = {{.2, .5, .963 + .032}, {.5, .3, .772 + .065}, {.9, .8, .453 + .001}}; // roughness, n.v, albedo
     for (const auto& c : cases) {
         const double alpha = c[0] * c[0];
         const Vec wo = direction(std::acos(c[1]), 0.3);

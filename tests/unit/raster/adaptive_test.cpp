@@ -69,8 +69,8 @@ TEST(adaptive, no_seam_shows_on_a_sweep_over_a_sphere)
             const double equal = roughest(judge.sphere("major_axis", 16, roughness, anisotropy));
             const double by_density = roughest(judge.sphere("major_axis_weighted", 16, roughness, anisotropy));
             const double adaptive = roughest(judge.sphere("major_axis_adaptive", 16, roughness, anisotropy));
-            EXPECT_LE(adaptive, std::max(equal, by_density) + 1.0 / 255.0) << "alpha_lin " << roughness << " eta " << anisotropy;
-            EXPECT_LE(adaptive, equal + 1.3 / 255.0) << "alpha_lin " << roughness << " eta " << anisotropy;
+            EXPECT_LE(adaptive, std::max(equal, by_density) + 1.0 / 255.0) << "roughness " << roughness << " eta " << anisotropy;
+            EXPECT_LE(adaptive, equal + 1.3 / 255.0) << "roughness " << roughness << " eta " << anisotropy;
         }
 }
 

@@ -73,7 +73,7 @@ TEST(energy, one_fetch_gives_back_what_sampling_does)
                         const double truth = floor.seen(d, cosine, azimuth * kDegree);
                         d.technique = "bent_normal";
                         const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) - truth);
-                        EXPECT_LT(error, 0.02) << "metallic " << metallic << ", alpha_lin " << roughness << ", eta " << eta << ", cosine "
+                        EXPECT_LT(error, 0.02) << "metallic " << metallic << ", roughness " << roughness << ", eta " << eta << ", cosine "
                                                << cosine << ", azimuth " << azimuth;
                         largest = std::max(largest, error);
                     }
@@ -98,7 +98,7 @@ TEST(energy, prefiltered_techniques_give_back_what_their_lobe_does)
                     for (const char* technique : {"split_isotropic", "bent_normal", "major_axis", "major_axis_weighted", "lobe_line"}) {
                         d.technique = technique, d.samples = 4;
                         const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) / truth - 1.0);
-                        EXPECT_LT(error, 0.01) << technique << ", alpha_lin " << roughness << ", eta " << eta << ", cosine " << cosine
+                        EXPECT_LT(error, 0.01) << technique << ", roughness " << roughness << ", eta " << eta << ", cosine " << cosine
                                                << ", azimuth " << azimuth;
                         largest = std::max(largest, error);
                     }
@@ -250,7 +250,7 @@ TEST(tilt, that_is_next_to_none_changes_nothing)
                             d.tilt_rad = glm::vec2(static_cast<float>(0.001 * kDegree), 0.0f);
                             const double change = std::abs(floor.seen(d, cosine, 0.4) / level - 1.0);
                             EXPECT_LT(change, masking ? 3e-4 : 1e-4)
-                                << t.name << ", masking " << masking << ", compensated " << compensated << ", alpha_lin " << roughness
+                                << t.name << ", masking " << masking << ", compensated " << compensated << ", roughness " << roughness
                                 << ", eta " << eta << ", cosine " << cosine;
                             largest = std::max(largest, change);
                         }
@@ -276,7 +276,7 @@ TEST(tilt, dims_without_a_jump)
                         const double now = floor.seen(d, cosine, 1.9);
                         if (degrees > 1) {
                             const double bend = std::abs(now - 2.0 * last + before);
-                            EXPECT_LT(bend, 0.03) << t.name << ", masking " << masking << ", alpha_lin " << roughness << ", cosine "
+                            EXPECT_LT(bend, 0.03) << t.name << ", masking " << masking << ", roughness " << roughness << ", cosine "
                                                   << cosine << ", degrees " << degrees;
                             largest = std::max(largest, bend);
                         }
@@ -304,7 +304,7 @@ TEST(masking, every_technique_gives_back_what_monte_carlo_does)
                 for (const char* technique : {"split_isotropic", "bent_normal", "major_axis_weighted", "lobe_line"}) {
                     d.technique = technique, d.samples = 4;
                     const double error = std::abs(floor.seen(d, cosine, 0.4) - truth);
-                    EXPECT_LT(error, 0.015) << technique << ", alpha_lin " << roughness << ", eta " << eta << ", cosine " << cosine;
+                    EXPECT_LT(error, 0.015) << technique << ", roughness " << roughness << ", eta " << eta << ", cosine " << cosine;
                     largest = std::max(largest, error);
                 }
             }

@@ -146,7 +146,7 @@ TEST(fresnel, one_fetch_gives_back_what_sampling_does)
                 const double truth = floor.seen(d, cosine, 0.4);
                 d.technique = "bent_normal";
                 const double off = floor.seen(d, cosine, 0.4) - truth;
-                EXPECT_LT(std::abs(off), 0.025) << metal.name << ", alpha_lin " << roughness << ", cosine " << cosine;
+                EXPECT_LT(std::abs(off), 0.025) << metal.name << ", roughness " << roughness << ", cosine " << cosine;
                 largest = std::max(largest, std::abs(off)), squares += off * off, ++count;
                 Scene approximate = square(1.0f, 1.0f);
                 for (int c = 0; c < 3; ++c)

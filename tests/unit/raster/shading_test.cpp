@@ -163,10 +163,10 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
                     EXPECT_GT(ratio, phong      ? 0.7
                                      : beckmann ? 0.85
                                                 : 0.97)
-                        << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                        << t.name << ", roughness " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                     const bool own = t.sampling == Sampling::grid; // samples with another albedo than the lobe
                     EXPECT_LT(ratio, own ? 1.25 : 1.06)
-                        << t.name << ", alpha_lin " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
+                        << t.name << ", roughness " << roughness << ", eta " << anisotropy << ", tilt " << tilt;
                 }
             }
 }
@@ -187,7 +187,7 @@ TEST(technique, no_lobe_and_no_sample_count_makes_a_nan)
                         d.technique = t.name, d.samples = effective_samples(t, samples);
                         d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, -tilt};
                         const Frame f = stage.render(d, best_isa());
-                        ASSERT_EQ(count_not_finite(f.color), 0u) << t.name << ", " << samples << " samples, alpha_lin " << roughness
+                        ASSERT_EQ(count_not_finite(f.color), 0u) << t.name << ", " << samples << " samples, roughness " << roughness
                                                                  << ", eta " << anisotropy << ", tilt " << tilt;
                     }
 }

@@ -8,9 +8,9 @@ namespace burnish::test {
 
 inline constexpr double kHalfTurn = 3.14159265358979323846;
 
-inline Material glass(float alpha_lin, float ior = 1.5f, float transmission = 1.0f)
+inline Material glass(float roughness, float ior = 1.5f, float transmission = 1.0f)
 {
-    Material m = metal(alpha_lin, 0.0f);
+    Material m = metal(roughness, 0.0f);
     m.metallic = 0.0f, m.ior = ior, m.transmission = transmission;
     return m;
 }

@@ -201,10 +201,10 @@ Material lambert(float albedo)
     return m;
 }
 
-Material metal(float alpha_lin, float eta)
+Material metal(float roughness, float eta)
 {
     Material m;
-    m.roughness = alpha_lin;
+    m.roughness = roughness;
     m.anisotropy_strength = eta != 0.0f ? 0.5f : 0.0f; // FrameDesc overrides any nonzero value
     return m;
 }

@@ -29,7 +29,7 @@ TextureRef add_texel(Scene& to, const glm::vec4& values);                       
 void add_scene(Scene& to, const Scene& from, const glm::vec3& offset, float scale); // its first mesh and material
 
 Material lambert(float albedo);                                // diffuse only
-Material metal(float alpha_lin, float eta);                    // reflectance 1 everywhere; eta by FrameDesc::anisotropy
+Material metal(float roughness, float eta);                    // reflectance 1 everywhere; eta by FrameDesc::anisotropy
 View view_from(const glm::vec3& direction, float half_extent); // orthographic, of a small square around the origin
 Frame render_reference(const Stage& stage, const FrameDesc& desc, const ReferenceOptions& options);
 FrameDesc desc_of(int width, int height, const View& view);

@@ -212,7 +212,7 @@ TEST(builtin, teapot_passes_through_the_published_corners_of_its_patches)
     EXPECT_EQ(patches, 28);
 }
 
-TEST(builtin, spheres_span_alpha_lin_and_eta)
+TEST(builtin, spheres_span_roughness_and_eta)
 {
     const Result<Scene> scene = make_builtin_scene("spheres");
     ASSERT_TRUE(scene);
@@ -222,8 +222,8 @@ TEST(builtin, spheres_span_alpha_lin_and_eta)
         const Material& m = scene->materials[i];
         const double across = static_cast<double>(m.roughness) * static_cast<double>(m.roughness);
         const double s = static_cast<double>(m.anisotropy_strength), along = across + (1.0 - across) * s * s;
-        const double alpha_lin = static_cast<double>(i % 7 + 1) * 0.1;
-        EXPECT_NEAR(std::sqrt(0.5 * (along + across)), alpha_lin, 1e-6) << i;
+        const double roughness = static_cast<double>(i % 7 + 1) * 0.1;
+        EXPECT_NEAR(std::sqrt(0.5 * (along + across)), roughness, 1e-6) << i;
         EXPECT_NEAR((along - across) / (along + across), eta[i / 7], 1e-5) << i;
     }
 }

@@ -7,8 +7,8 @@
 namespace burnish::test {
 namespace {
 
-struct Vector { // view (not unit), alpha_lin, eta; bending factor; the bent normal, direction and level
-    double v[3], alpha_lin, eta, stretch, projected[3], normal[3], direction[3], lod;
+struct Vector { // view (not unit), roughness, eta; bending factor; the bent normal, direction and level
+    double v[3], roughness, eta, stretch, projected[3], normal[3], direction[3], lod;
 };
 
 TEST(bent_normal, equals_the_printed_test_vectors)
@@ -22,7 +22,7 @@ TEST(bent_normal, equals_the_printed_test_vectors)
     };
     for (const Vector& t : vectors)
         for (const IsaFns& kernels : all_fns()) {
-            const double l = std::sqrt(t.v[0] * t.v[0] + t.v[1] * t.v[1] + t.v[2] * t.v[2]), s = t.alpha_lin * t.alpha_lin / std::sqrt(2.0);
+            const double l = std::sqrt(t.v[0] * t.v[0] + t.v[1] * t.v[1] + t.v[2] * t.v[2]), s = t.roughness * t.roughness / std::sqrt(2.0);
             const std::vector<double> in = {t.v[0] / l, t.v[1] / l, t.v[2] / l, s * (1 + t.eta), s * (1 - t.eta)};
             const std::vector<double> out = call(kernels, "bent_normal", in);
             double bent[3], mixed[3]; // the normal between direction and view; (1 - stretch) n + stretch projected

@@ -24,9 +24,9 @@ Vec unit(double x, double y, double z)
     return {x / l, y / l, z / l};
 }
 
-struct Vector { // test vectors A to F: view, alpha_lin, eta, samples; expected values
+struct Vector { // test vectors A to F: view, roughness, eta, samples; expected values
     Vec o;
-    double alpha_lin, eta, count;
+    double roughness, eta, count;
     double t_near, t_far, width, length, radius;
     Vec e0, e1; // an unordered pair
 };
@@ -81,7 +81,7 @@ const Vector kVectors[] = {
 
 std::vector<double> input(const Vector& v)
 {
-    const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0);
+    const double s = v.roughness * v.roughness / std::sqrt(2.0);
     return {v.o.x, v.o.y, v.o.z, s * (1 + v.eta), s * (1 - v.eta), 1.0, 2.3, v.count};
 }
 
@@ -130,7 +130,7 @@ const Steps kSteps[] = {
 
 Vec ellipse_point(const Vector& v, double t, double scale)
 {
-    const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0);
+    const double s = v.roughness * v.roughness / std::sqrt(2.0);
     return unit(scale * s * (1 + v.eta) * std::cos(t), scale * s * (1 - v.eta) * std::sin(t), 1);
 }
 Vec mirrored(const Vec& w, const Vec& o)
@@ -150,7 +150,7 @@ TEST(major_axis, equals_the_printed_steps)
         const Vector& v = kVectors[step.vector];
         const std::vector<double> out = call(oracle_fns(), "major_axis", input(v));
         if (step.f2 != 0) { // appendix A as printed
-            const double s = v.alpha_lin * v.alpha_lin / std::sqrt(2.0), rx = s * (1 + v.eta), ry = s * (1 - v.eta);
+            const double s = v.roughness * v.roughness / std::sqrt(2.0), rx = s * (1 + v.eta), ry = s * (1 - v.eta);
             const double f3 = -step.f2 * step.f2 * (1 + rx * rx) / (1 + ry * ry), root = std::sqrt(step.f1 * step.f1 - f3);
             EXPECT_NEAR(out[0], std::atan((step.f1 + root) / step.f2), 1e-5) << step.vector;
             EXPECT_NEAR(out[1], std::atan((step.f1 - root) / step.f2), 1e-5) << step.vector;

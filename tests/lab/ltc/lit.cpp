@@ -1,4 +1,4 @@
-#include "tests/unit/ltc/lit.h"
+#include "tests/lab/ltc/lit.h"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ void put_light(ltc_light light, real* r)
 }
 
 constexpr test::Kernel kKernels[] = {
-#include "tests/unit/ltc/kernels.def"
+#include "tests/lab/ltc/kernels.def"
 };
 
 } // namespace

@@ -12,7 +12,7 @@ from detail_cases import bumps
 from harness import case, check
 
 SMALL = ("train", "mip", "--steps", "20")
-SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/mipnet"
+SHIPPED = pathlib.Path(__file__).resolve().parents[3] / "shading/bake/mipnet"
 
 
 @case("train.threads_and_instruction_sets_make_no_difference", budget=5)

@@ -1,4 +1,4 @@
-#include "shading/bake/mipnet/training_checkpoint.h"
+#include "shading/lab/mipnet/training_checkpoint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/base/file.h"
-#include "shading/bake/mipnet/train.h"
+#include "shading/lab/mipnet/train.h"
 
 namespace burnish::mipnet {
 namespace {

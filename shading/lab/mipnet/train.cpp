@@ -1,4 +1,4 @@
-#include "shading/bake/mipnet/train.h"
+#include "shading/lab/mipnet/train.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "core/image/image.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/half.h"
-#include "shading/bake/mipnet/training_checkpoint.h"
+#include "shading/lab/mipnet/training_checkpoint.h"
 
 namespace burnish::mipnet {
 namespace {

@@ -12,7 +12,7 @@ from browser import Browser
 from chart_cases import needs_embree
 from harness import case, check, scratch
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCENES = ("mirror", "round", "rotation_0", "rotation_30", "rotation_90", "strength_half", "rough", "smooth", "direction_map", "strength_map", "linear_map",
           "second_coordinates", "moved_coordinates", "own_tangents", "no_tangents", "left_handed", "mirrored_coordinates", "mirrored_node", "skewed_node",
           "normal_map", "pole", "grazing", "back", "minified", "dielectric", "high_index", "dark_limb", "few_triangles",
