@@ -83,40 +83,45 @@ std::vector<Entry> extension_entries()
     return entries;
 }
 
-int print(const std::vector<Entry>& entries)
+void print(const std::vector<Entry>& entries)
 {
     std::size_t width = 0;
     for (const Entry& entry : entries)
         width = std::max(width, entry.name.size());
     for (const Entry& entry : entries)
         fmt::print("{:<{}}  {}\n", entry.name, width, entry.summary);
-    return 0;
 }
 
 } // namespace
 
 Command list_command()
 {
-    auto what = std::make_shared<std::string>();
+    struct Kind {
+        const char* name;
+        std::vector<Entry> (*entries)();
+    };
+    static constexpr Kind kKinds[] = {{"techniques", technique_entries},
+                                      {"scenes", [] { return builtins(builtin_scenes()); }},
+                                      {"environments", [] { return builtins(builtin_environments()); }},
+                                      {"models", model_entries},
+                                      {"area-lights", area_way_entries},
+                                      {"mip-filters", mip_filter_entries},
+                                      {"extensions", extension_entries}};
+    std::vector<std::string> names = {"all"};
+    for (const Kind& kind : kKinds)
+        names.push_back(kind.name);
+    auto what = std::make_shared<std::string>("all");
     OptionTable table;
-    table.add("", {Option("WHAT", "", "{}",
-                          choice(*what, {"techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions"}))
-                       .must_be_given()});
+    table.add("", {Option("WHAT", "", "{}", choice(*what, names))});
     return {"list", "List names that options accept, reflection models, and supported glTF features", table,
-            "Examples:\n  burnish list techniques\n  burnish list scenes", [what](OptionTable&) {
-                if (*what == "scenes")
-                    return print(builtins(builtin_scenes()));
-                if (*what == "environments")
-                    return print(builtins(builtin_environments()));
-                if (*what == "models")
-                    return print(model_entries());
-                if (*what == "area-lights")
-                    return print(area_way_entries());
-                if (*what == "mip-filters")
-                    return print(mip_filter_entries());
-                if (*what == "extensions")
-                    return print(extension_entries());
-                return print(technique_entries());
+            "Examples:\n  burnish list\n  burnish list techniques", [what](OptionTable&) {
+                for (const Kind& kind : kKinds) {
+                    if (*what == "all")
+                        fmt::print("{}{}:\n", &kind == kKinds ? "" : "\n", kind.name);
+                    if (*what == "all" || *what == kind.name)
+                        print(kind.entries());
+                }
+                return 0;
             }};
 }
 

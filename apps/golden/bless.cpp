@@ -114,6 +114,12 @@ int bless_goldens(const GoldenArguments& arguments, Report& report)
                 chosen.insert(r.name);
     if (!results->empty() && std::none_of(results->begin(), results->end(), [&](const GoldenResult& r) { return rows.contains(r.name); }))
         return fail(Error{ExitCode::bad_input, arguments.results, "", "holds no row of the manifest: -o names the folder of its check"});
+    const Result<ResultOrigin> origin = origin_of_results(arguments.results);
+    if (!origin)
+        return fail(origin.error());
+    if (arguments.paths.size() == 1 && origin->manifest != manifest_hash(*manifest))
+        return fail(
+            Error{ExitCode::bad_input, arguments.results, "", "was made before the manifest's rows changed: run golden check again"});
     // Check every name before the first golden changes
     const std::string source = arguments.from.empty() ? arguments.results : arguments.from;
     for (const std::string& name : chosen)

@@ -117,6 +117,19 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
     return conclude_golden(std::move(*results), &manifest, fresh, arguments, report);
 }
 
+// Warns of rows without a tolerance whose bits depend on the machine.
+void warn_of_machines(const GoldenManifest& manifest, Report& report)
+{
+    for (const GoldenRow& row : manifest.rows)
+        if (row.kind == GoldenKind::scene && row.limits.exact()) {
+            const std::string words = " " + shell_words(row.command) + " ";
+            for (const char* option : {"--backend reference", "--backend vulkan", "--budget-ms"})
+                if (words.find(fmt::format(" {}", option)) != words.npos)
+                    report.warning(fmt::format("row '{}': {} may draw other bits on another machine; \"hold\" gives it a tolerance",
+                                               row.name, option));
+        }
+}
+
 int check(const GoldenArguments& arguments, Report& report)
 {
     if (const Status pieces = check_piece_options(arguments.pieces); !pieces)
@@ -130,6 +143,7 @@ int check(const GoldenArguments& arguments, Report& report)
     Result<GoldenManifest> manifest = manifest_at(arguments);
     if (!manifest)
         return fail(manifest.error());
+    warn_of_machines(*manifest, report);
     if (wants_pieces(arguments.pieces))
         return check_in_pieces(arguments, *manifest, report);
     std::vector<GoldenRow> rows;

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/plan/cost.h"
-#include "apps/plan/hull.h"
+#include "apps/plan/pareto.h"
 #include "core/base/clock.h"
 
 namespace burnish {
@@ -58,7 +58,7 @@ struct Clock {
 };
 
 // Draws the frame by the cheapest plan.
-Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& probe, const std::vector<std::vector<PlanPoint>>& hulls,
+Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& probe, const std::vector<std::vector<PlanPoint>>& fronts,
                       const std::vector<std::size_t>& seen)
 {
     FrameDesc cheap = desc;
@@ -66,10 +66,10 @@ Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& prob
     cheap.by_material.assign(probe.materials.size(), {usual.name, usual.default_samples});
     Clock clock;
     double covered = 0.0;
-    for (std::size_t h = 0; h < hulls.size(); ++h) {
+    for (std::size_t h = 0; h < fronts.size(); ++h) {
         const ProbedMaterial& m = probe.materials[seen[h]];
-        cheap.by_material[seen[h]] = m.settings[hulls[h].front().setting].setting;
-        clock.cost += hulls[h].front().cost, covered += m.share;
+        cheap.by_material[seen[h]] = m.settings[fronts[h].front().setting].setting;
+        clock.cost += fronts[h].front().cost, covered += m.share;
     }
     const double begin = process_cpu_ms();
     const Result<Frame> frame = session.render(cheap);
@@ -105,45 +105,52 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget
     BN_TRY(probed);
     const Probe& probe = *probed;
     plan.probe_width = probe.width, plan.probe_height = probe.height;
-    // Climb the hulls of the materials that are seen
+    // Choose from the fronts of the materials that are seen
     const double pixels = static_cast<double>(desc.width) * desc.height;
-    std::vector<std::vector<PlanPoint>> hulls;
+    std::vector<std::vector<PlanPoint>> fronts;
     std::vector<std::size_t> seen;
     for (std::size_t m = 0; m < probe.materials.size(); ++m)
         if (probe.materials[m].share > 0.0) {
-            hulls.push_back(lower_hull(points_of(probe.materials[m], pixels)));
+            fronts.push_back(pareto_front(points_of(probe.materials[m], pixels)));
             seen.push_back(m);
             plan.usual_cost += probe.materials[m].usual_cost * probe.materials[m].share * pixels;
         }
-    if (hulls.empty()) {
+    if (fronts.empty()) {
         plan.aside = "no solid surface is seen";
         return plan;
     }
     std::optional<Clock> clock;
     if (budget.cpu_ms) {
-        const Result<Clock> measured = measure(session, desc, probe, hulls, seen);
+        const Result<Clock> measured = measure(session, desc, probe, fronts, seen);
         BN_TRY(measured);
         clock = *measured;
     }
-    const std::vector<std::size_t> at = budget.error ? within_error(hulls, *budget.error / kPlanSafety)
-                                                     : within_cost(hulls, clock->cost_within(*budget.cpu_ms / kTimeSafety));
-    // Tell the choices, and the neighbours on the hulls
+    const std::vector<std::size_t> at = budget.error ? within_error(fronts, *budget.error / kPlanSafety)
+                                                     : within_cost(fronts, clock->cost_within(*budget.cpu_ms / kTimeSafety));
+    // Tell the choices, and the neighbours on the fronts
     const TechniqueInfo& usual = automatic_technique();
     for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
         plan.materials.push_back({name_of(session.scene(), m), 0.0, {{usual.name, usual.default_samples}, 0.0, 0.0}, {}, {}, {}});
-    for (std::size_t h = 0; h < hulls.size(); ++h) {
+    double usual_error = 0.0;
+    std::size_t with_usual = 0;
+    for (std::size_t h = 0; h < fronts.size(); ++h) {
         const ProbedMaterial& m = probe.materials[seen[h]];
-        const std::vector<PlanPoint>& hull = hulls[h];
+        const std::vector<PlanPoint>& front = fronts[h];
         PlannedMaterial& to = plan.materials[seen[h]];
-        to.share = m.share, to.chosen = step_of(m, hull[at[h]]);
+        to.share = m.share, to.chosen = step_of(m, front[at[h]]);
         for (const PlanPoint& p : points_of(m, pixels))
             to.all.push_back(step_of(m, p));
         if (at[h] > 0)
-            to.cheaper = step_of(m, hull[at[h] - 1]);
-        if (at[h] + 1 < hull.size())
-            to.better = step_of(m, hull[at[h] + 1]);
-        plan.error += hull[at[h]].error, plan.cost += hull[at[h]].cost;
+            to.cheaper = step_of(m, front[at[h] - 1]);
+        if (at[h] + 1 < front.size())
+            to.better = step_of(m, front[at[h] + 1]);
+        plan.error += front[at[h]].error, plan.cost += front[at[h]].cost;
+        for (std::size_t i = 0; i < m.settings.size(); ++i) // unless the user's technique or samples leave it out
+            if (m.settings[i].setting.technique == technique_of(FrameDesc()).name && m.settings[i].setting.samples == usual.default_samples)
+                usual_error += m.settings[i].error * m.share, ++with_usual;
     }
+    if (with_usual == fronts.size())
+        plan.usual_error = usual_error;
     if (clock)
         plan.cpu_ms = clock->ms_of(plan.cost);
     if (budget.error && !(plan.error * kPlanSafety <= *budget.error))
@@ -158,9 +165,10 @@ std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
         return {fmt::format("stands aside: {}", plan.aside)};
     std::vector<std::string> lines;
     const double usual = std::max(1.0, plan.usual_cost);
-    const std::string wanted = budget.error ? fmt::format("mean HDR-FLIP {:.4g}", *budget.error) : fmt::format("{:.4g} ms", *budget.cpu_ms);
-    lines.push_back(fmt::format("{}: predicted {:.4f}{}, shading at {:.2f} of the default's instructions", wanted, plan.error,
-                                plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / usual));
+    const std::string wanted = budget.error ? fmt::format("mean HDR-FLIP {:.4g}", *budget.error) : fmt::format("{:g} ms", *budget.cpu_ms);
+    lines.push_back(fmt::format("{}: predicted {:.4f}{}, shading at {:.2f} of the default's instructions{}", wanted, plan.error,
+                                plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / usual,
+                                plan.usual_error ? fmt::format("; the default: predicted {:.4f}", *plan.usual_error) : ""));
     if (!budget.error)
         lines.push_back("times are those of this machine: another one may get another plan and another hash");
     for (const PlannedMaterial& m : plan.materials) {

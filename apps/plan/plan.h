@@ -23,7 +23,7 @@ struct PlannedMaterial {
     std::string name;   // the scene's, or "material 3"
     double share = 0.0; // of the picture's pixels
     PlanStep chosen;
-    std::optional<PlanStep> cheaper, better; // the neighbours on its hull
+    std::optional<PlanStep> cheaper, better; // the next settings that none beats in cost and error
     std::vector<PlanStep> all;               // every setting of the probe
 };
 
@@ -31,6 +31,7 @@ struct Plan {
     std::vector<PlannedMaterial> materials; // by index in the scene
     double error = 0.0;                     // predicted mean HDR-FLIP of the picture
     double cost = 0.0, usual_cost = 0.0;    // instructions for shading, and those of the default technique
+    std::optional<double> usual_error;      // predicted for the default technique; none: the probe has it not
     int probe_width = 0, probe_height = 0;
     std::optional<double> cpu_ms; // predicted; only for a budget of time
     std::string aside;            // why nothing was planned: then `materials` is empty

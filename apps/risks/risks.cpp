@@ -78,7 +78,8 @@ bool names(const char* beginnings, const std::string& technique)
 std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 {
     if (setting.options.eye && setting.values.starts_with("eye "))
-        return fmt::format("an eye {:.0f} degrees above the surface", glm::degrees(std::asin(std::clamp(at.n_dot_v, 0.0f, 1.0f))));
+        return fmt::format("seen from lower than {:.0f} degrees above the surface",
+                           glm::degrees(std::asin(std::clamp(at.n_dot_v, 0.0f, 1.0f))));
     if (setting.values.starts_with("tilt "))
         return fmt::format("a tilt of {:.0f} degrees", glm::degrees(at.tilt));
     return setting.values;
@@ -296,6 +297,17 @@ std::array<std::uint8_t, 3> colour_of(std::size_t rule)
     return rgb;
 }
 
+// Returns "lime #b8ff46": the nearest of twelve names, and the bytes.
+std::string words_of_colour(std::size_t rule)
+{
+    constexpr const char* kNames[] = {"red",  "orange", "yellow", "lime",   "green",   "mint",
+                                      "cyan", "azure",  "blue",   "violet", "magenta", "pink"};
+    const float hue = std::fmod(0.61803f * static_cast<float>(rule), 1.0f);
+    const auto name = static_cast<std::size_t>(hue * static_cast<float>(std::size(kNames)) + 0.5f) % std::size(kNames);
+    const std::array<std::uint8_t, 3> rgb = colour_of(rule);
+    return fmt::format("{} #{:02x}{:02x}{:02x}", kNames[name], rgb[0], rgb[1], rgb[2]);
+}
+
 } // namespace
 
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment)
@@ -377,7 +389,7 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc)
         const Active& rule = (*active)[a];
         if (all.of[a])
             map.findings.push_back({technique_of(desc).name, kRules[rule.rule].entry, kRules[rule.rule].says, rule.beyond,
-                                    static_cast<double>(all.of[a]) / shaded});
+                                    words_of_colour(rule.rule), static_cast<double>(all.of[a]) / shaded});
     }
     std::stable_sort(map.findings.begin(), map.findings.end(),
                      [](const RiskFinding& a, const RiskFinding& b) { return a.share > b.share; });
@@ -407,8 +419,9 @@ std::string risk_lines(const RiskMap& map)
 {
     std::string text;
     for (const RiskFinding& f : map.findings)
-        text += fmt::format("{:.1f} % of shaded pixels: {} beyond {} ({}; {})\n", 100.0 * f.share, f.technique, f.beyond, f.says, f.entry);
-    return text + fmt::format("{:.1f} % of shaded pixels are beyond any of them\n", 100.0 * map.share);
+        text += fmt::format("{}, {:.1f} % of shaded pixels: {} past its limit, {} ({}; {})\n", f.colour, 100.0 * f.share, f.technique,
+                            f.beyond, f.says, f.entry);
+    return text + fmt::format("{:.1f} % of shaded pixels are past any of them\n", 100.0 * map.share);
 }
 
 } // namespace burnish

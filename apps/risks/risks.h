@@ -31,7 +31,8 @@ RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {
     std::string technique, entry, says; // from risks.def
-    std::string beyond;                 // onset on the path: "anisotropy 0.158", "an eye 11 degrees above the surface"
+    std::string beyond;                 // onset on the path: "anisotropy 0.158", "seen from lower than 11 degrees above the surface"
+    std::string colour;                 // in the picture: "lime #46ff8b"
     double share = 0.0;                 // over the shaded pixels, [0,1]; a pixel may have several findings
 };
 
@@ -48,7 +49,8 @@ Result<RiskMap> mark_risks(Session& session, const FrameDesc& desc);
 
 // Returns 8-bit RGB: black without a surface, grey without a finding, one colour an entry.
 Image risk_picture(const RiskMap& map, int width, int height);
-// Formats "7.1 % of shaded pixels: bent_normal beyond anisotropy 0.158 (upside down; bent_normal_bends_too_far)", one line a finding.
+// Formats a line a finding: "red #ff4646, 7.1 % of shaded pixels: bent_normal past its limit, anisotropy 0.158 (upside down;
+// bent_normal_bends_too_far)".
 std::string risk_lines(const RiskMap& map);
 
 } // namespace burnish

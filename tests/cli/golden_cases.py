@@ -84,6 +84,22 @@ def tampered(bench):
     check((bench.folder / "goldens/a.ppm").exists(), "no golden")
 
 
+@case("golden.bless_refuses_results_of_other_rows", budget=10)
+def stale(bench):
+    """A picture of an earlier manifest never becomes golden. A row whose bits depend on the machine is told."""
+    write(bench, ROWS[:1])
+    bench.run("golden", "check", "m.json").expect(5)
+    write(bench, [{**ROWS[0], "options": ["--roughness", "0.5"]}])
+    bench.run("golden", "bless", "m.json").expect(4).expect_one_line("golden-results", "run golden check again")
+    check(not (bench.folder / "goldens").exists(), "a stale picture is golden")
+    bench.run("golden", "check", "m.json").expect(5)
+    bench.run("golden", "bless", "m.json").expect(0)
+    for options, held, told in ((["--budget-ms", "1e5"], {}, True), (["--budget-ms", "1e5"], {"hold": {"flip": 0.1}}, False), ([], {}, False)):
+        write(bench, [{**ROWS[0], "options": options, **held}])
+        done = bench.run("golden", "check", "m.json", "-o", "r")
+        check(("other bits on another machine" in done.err) == told, f"{options} {held}: {done.err}")
+
+
 @case("golden.draws_with_any_program", budget=10)
 def commands(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))

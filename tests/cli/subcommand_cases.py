@@ -58,7 +58,7 @@ RUNS = {
     "export": [*(((what, "--technique", "lobe_line", "-o", f"l.{what}"), (0,)) for what in ("essl", "hlsl", "msl", "wgsl", "three", "three-node", "babylon", "godot", "bevy")),
                (("glsl", "--technique", "lobe_line", "-o", "l.glsl"), (0,)), (("glsl", "--technique", "filtered_is", "-o", "-"), (0,)),
                (("page", "builtin:plate", *BARE, "-o", "p.html"), (0, 77))],
-    "list": [((what,), (0,)) for what in ("techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],
+    "list": [((what,), (0,)) for what in ("all", "techniques", "scenes", "environments", "models", "area-lights", "mip-filters", "extensions")],
     "merge": [(("nothing",), (4,))],
     "submit": [(("--for", engine, "--", "render", "builtin:plate", "--turntable", "8", "-o", "t%d.png"), (0,)) for engine in ("slurm", "mpi", "parallel", "k8s", "openjd", "github")],
     "manual": [((what,), (0,)) for what in ("man", "bash", "zsh", "fish", "markdown")],

@@ -143,7 +143,6 @@ WRONG = (
     (("render", "-o", "a.png", "-o", "a.png"), "a.png"),
     (("render", "-o"), "--output"),
     (("render", "--stats", ""), "--stats"),
-    (("list",), "WHAT"),
     (("list", "nothing"), "techniques"),
     (("info", "--bogus"), "--bogus"),
 )
