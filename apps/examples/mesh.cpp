@@ -39,6 +39,6 @@ int main()
     const Result<Frame> frame = session->render(desc);
     if (!frame)
         return fails(frame.error());
-    const Status written = write_image("square.exr", frame->color);
+    const Status written = write_image("square.png", tonemap_to_srgb8(frame->color, Tonemap::pbr_neutral, 0.0f));
     return written ? 0 : fails(written.error());
 }
