@@ -278,6 +278,8 @@ void tell(const Judgement& judgement, Report& report)
         }
         std::string line =
             fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
+        if (s.outcome == SceneJudgement::Outcome::wrong)
+            line += fmt::format(" ({:.3f} from the truth)", s.usual);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
             line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
         report.figure(s.name, line);

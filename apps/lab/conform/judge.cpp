@@ -23,15 +23,16 @@ constexpr double kLeastGain = 0.012;   // mean FLIP a scene that a mistake must 
 // A picture is right up to this mean FLIP to the truth or to the engine's way, a factor on the engine's noise, within bounds. The noise is
 // the median of that FLIP over all scenes.
 constexpr double kRightOfNoise = 2.0, kLeastRight = 0.06, kMostRight = 0.12, kLeastNoise = 0.03;
-constexpr double kSuspect = 1.4;        // of the noise, from which a scene may hold a mistake
-constexpr double kNear = 1.3;           // of the noise, up to which pictures are like those with a mistake
-constexpr int kProbes = 4;              // scenes after which a mistake that takes nothing away is given up
-constexpr std::size_t kStride = 11;     // between scenes tried one after the other
-constexpr double kExplained = 0.25;     // of what is wrong in a way, which its mistakes may leave before another way is tried
-constexpr double kWellExplained = 0.05; // the same, where another way is far from about as few scenes
-constexpr int kAboutAsFew = 2;          // scenes
-constexpr double kHopeful = 0.85;       // of the distance before, which it may leave there
-constexpr double kLeastExposure = 0.12; // stops
+constexpr double kSuspect = 1.4;          // of the noise, from which a scene may hold a mistake
+constexpr double kNear = 1.3;             // of the noise, up to which pictures are like those with a mistake
+constexpr int kProbes = 4;                // scenes after which a mistake that takes nothing away is given up
+constexpr std::size_t kStride = 11;       // between scenes tried one after the other
+constexpr double kExplained = 0.25;       // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kWellExplained = 0.05;   // the same, where another way is far from about as few scenes
+constexpr int kAboutAsFew = 2;            // scenes
+constexpr double kHopeful = 0.85;         // of the distance before, which it may leave there
+constexpr double kLeastExposure = 0.12;   // stops
+constexpr double kLeastNamed = 1.0 / 3.0; // share of the wrong scenes that mistakes explain, from which they are named
 
 double luminance(const std::byte* texel)
 {
@@ -372,6 +373,26 @@ double unexplained_distance(const Judgement& judgement)
     return sum;
 }
 
+// Returns true for a scene that the mistakes found bring near to the picture.
+bool is_explained(const SceneJudgement& s, const Judgement& judgement)
+{
+    return s.explained <= judgement.right_up_to || s.explained <= kExplains * s.to_usual;
+}
+
+// Takes the mistakes back where they explain few of the wrong scenes: a fault that nobody knows looks like one of ours here and there.
+void forget_chance(Judgement& judgement)
+{
+    double wrong = 0.0, explained = 0.0;
+    for (const SceneJudgement& s : judgement.scenes)
+        if (s.outcome == SceneJudgement::Outcome::wrong)
+            wrong += 1.0, explained += is_explained(s, judgement);
+    if (explained >= kLeastNamed * wrong)
+        return;
+    judgement.mistakes.clear(), judgement.exposure_ev = 0.0;
+    for (SceneJudgement& s : judgement.scenes)
+        s.explained = s.to_usual;
+}
+
 Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& truths)
 {
     Judgement none;
@@ -379,6 +400,7 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
         SceneJudgement scene;
         scene.name = folder.scenes[i].name;
         const EnginePicture& picture = pictures_[i];
+        scene.from_eight_bits = picture.from_eight_bits;
         if (usable(i))
             scene.to_truth = scene.to_right = mean_flip(shown_picture(truths[i]), picture.shown, jobs_);
         else {
@@ -422,12 +444,14 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
         BN_TRY(share);
         least = std::min(least, *share);
     }
+    forget_chance(*best);
     // Look for two at once where no single one explains pictures that are mostly wrong
     const auto wrong = std::count_if(best->scenes.begin(), best->scenes.end(),
                                      [](const SceneJudgement& s) { return s.outcome == SceneJudgement::Outcome::wrong; });
     const bool searches = 2 * wrong > static_cast<std::ptrdiff_t>(best->scenes.size());
     for (std::size_t i = 0; searches && best->mistakes.empty() && i < order.size() && about_as_few(order[i]); ++i)
         BN_TRY(look(order[i], true));
+    forget_chance(*best);
     drawer_.set_way(*best->way);
     return std::move(*best);
 }
@@ -463,7 +487,7 @@ std::vector<std::string> Judgement::unexplained() const
 {
     std::vector<std::string> names;
     for (const SceneJudgement& s : scenes)
-        if (s.outcome == SceneJudgement::Outcome::wrong && s.explained > right_up_to && s.explained > kExplains * s.to_usual)
+        if (s.outcome == SceneJudgement::Outcome::wrong && !is_explained(s, *this))
             names.push_back(s.name);
     return names;
 }

@@ -30,7 +30,8 @@ std::string fault_of(const SceneJudgement& s)
 {
     if (!is_compared(s))
         return s.reason;
-    std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right", s.to_truth, s.to_right);
+    std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right; that way itself is {:.3f} from the truth",
+                                   s.to_truth, s.to_right, s.usual);
     if (s.nearest != kNoMistake)
         text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
     return text;
@@ -114,6 +115,7 @@ std::string conform_json(const Judgement& judgement)
                         {"flip_of_usual_way_to_truth", s.usual},
                         {"flip_to_usual_way", s.to_usual},
                         {"flip_with_mistakes", s.explained},
+                        {"eight_bits", s.from_eight_bits},
                         {"nearest", s.nearest == kNoMistake ? Json(nullptr) : Json(mistake_name(s.nearest))},
                         {"flip_to_nearest", s.nearest == kNoMistake ? Json(nullptr) : Json(s.to_nearest)}});
         scenes.push_back(std::move(row));
