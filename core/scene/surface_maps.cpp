@@ -56,24 +56,6 @@ bool normalize(double& x, double& y, double& z)
     return true;
 }
 
-// Returns the red channel of a picture where another one's texel lies, [0,65535]. An empty picture has the largest value.
-std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
-{
-    if (image.empty())
-        return 65535;
-    const auto along = [](int at, int count, int texels) {
-        return static_cast<std::size_t>((2 * static_cast<std::int64_t>(at) + 1) * texels / (2 * count));
-    };
-    const std::size_t texel = along(y, height, image.height) * static_cast<std::size_t>(image.width) + along(x, width, image.width);
-    const std::size_t at = texel * static_cast<std::size_t>(image.channels);
-    if (image.type == PixelType::u8)
-        return static_cast<std::uint16_t>(257 * std::to_integer<int>(image.bytes[at]));
-    if (image.type == PixelType::u16)
-        return reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at];
-    const float value = image.f32()[at];
-    return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
-}
-
 PixelType metal_rough_type(const Image& metallic, const Image& roughness)
 {
     const auto is_short = [](const Image& image) { return image.empty() || image.type == PixelType::u8; };
@@ -183,6 +165,23 @@ std::uint64_t metal_rough_bytes(const Image& metallic, const Image& roughness)
     const auto most = [](int a, int b) { return static_cast<std::uint64_t>(std::max(a, b)); };
     const std::uint64_t texel = metal_rough_type(metallic, roughness) == PixelType::u8 ? 3 : 6;
     return most(metallic.width, roughness.width) * most(metallic.height, roughness.height) * texel;
+}
+
+std::uint16_t red_at(const Image& image, int x, int y, int width, int height)
+{
+    if (image.empty())
+        return 65535;
+    const auto along = [](int at, int count, int texels) {
+        return static_cast<std::size_t>((2 * static_cast<std::int64_t>(at) + 1) * texels / (2 * count));
+    };
+    const std::size_t texel = along(y, height, image.height) * static_cast<std::size_t>(image.width) + along(x, width, image.width);
+    const std::size_t at = texel * static_cast<std::size_t>(image.channels);
+    if (image.type == PixelType::u8)
+        return static_cast<std::uint16_t>(257 * std::to_integer<int>(image.bytes[at]));
+    if (image.type == PixelType::u16)
+        return reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at];
+    const float value = image.f32()[at];
+    return static_cast<std::uint16_t>((value > 0.0f ? std::min(value, 1.0f) : 0.0f) * 65535.0f + 0.5f);
 }
 
 Image metal_rough_of(const Image& metallic, const Image& roughness)

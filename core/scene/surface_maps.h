@@ -39,6 +39,9 @@ SurfaceMap directions_of_rotations(const Image& rotations, RotationEncoding enco
 // become flat.
 SurfaceMap whole_normals(Image normals);
 
+// Returns the red channel of a picture where a texel of another size lies, [0,65535]. An empty picture has the largest value.
+std::uint16_t red_at(const Image& image, int x, int y, int width, int height);
+
 // Packs the red channels of two maps as glTF does: green roughness, blue metalness. The result has the larger width and height, and 8 bits
 // where both maps have no more. An empty map counts as 1.
 Image metal_rough_of(const Image& metallic, const Image& roughness);

@@ -80,6 +80,19 @@ class MaterialMaker {
         return static_cast<float>(std::sqrt(std::sqrt(2.0 / (static_cast<double>(exponent) + 2.0))));
     }
 
+    // Returns roughness, u16, of a picture whose red scales an exponent.
+    static Image roughness_of_exponents(const Image& scale, float exponent)
+    {
+        Image out = make_image(scale.width, scale.height, 1, PixelType::u16);
+        auto* to = reinterpret_cast<std::uint16_t*>(out.bytes.data());
+        for (int y = 0; y < scale.height; ++y)
+            for (int x = 0; x < scale.width; ++x)
+                *to++ = static_cast<std::uint16_t>(
+                    roughness_of(exponent * static_cast<float>(red_at(scale, x, y, scale.width, scale.height)) / 65535.0f) * 65535.0f +
+                    0.5f);
+        return out;
+    }
+
     static void emit(const glm::vec3& light, Material& m)
     {
         const float most = std::max({light.r, light.g, light.b, 1.0f});
@@ -172,6 +185,9 @@ class MaterialMaker {
         BN_TRY(put_map(from.emission_map, Content::colours, m.emissive_tex));
         if (m.emissive_tex.used() && !from.emission)
             m.emissive = glm::vec3(1.0f);
+        BN_TRY(put_map(from.specular_map, Content::colours, m.specular_color_tex));
+        if (m.specular_color_tex.used() && !from.specular)
+            m.specular_color = glm::vec3(2.0f); // Ks 1
         BN_TRY(put_map(from.normal_map, Content::normals, m.normal_tex));
         m.normal_scale = from.normal_map.strength;
         if (from.opacity_map.file.empty())
@@ -186,13 +202,22 @@ class MaterialMaker {
     Status put_metal_rough(const MtlMaterial& from, Material& m)
     {
         const Picture* parts[2] = {&none_, &none_};
-        const MtlMap* const maps[2] = {&from.metallic_map, &from.roughness_map};
+        const bool by_exponents = from.roughness_map.file.empty() && !from.roughness && !from.exponent_map.file.empty();
+        if (!by_exponents && !from.exponent_map.file.empty())
+            warn(fmt::format("material \"{}\": map_Ns is not read beside Pr or map_Pr", printable(from.name)));
+        const MtlMap* const maps[2] = {&from.metallic_map, by_exponents ? &from.exponent_map : &from.roughness_map};
         for (int i = 0; i < 2; ++i)
             if (!maps[i]->file.empty()) {
                 const Result<const Picture*> read = picture(maps[i]->file, false);
                 BN_TRY(read);
                 parts[i] = *read;
             }
+        Picture of_exponents;
+        if (by_exponents && !parts[1]->image.empty()) {
+            const float most = from.exponent.value_or(1000.0f);
+            of_exponents = {fmt::format("{} times {}", parts[1]->path, most), roughness_of_exponents(parts[1]->image, most)};
+            parts[1] = &of_exponents;
+        }
         const Image &metallic = parts[0]->image, &roughness = parts[1]->image;
         if (metallic.empty() && roughness.empty())
             return {};

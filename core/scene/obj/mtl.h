@@ -23,7 +23,7 @@ struct MtlMaterial { // numbers that the file does not name are empty
     std::optional<float> exponent, opacity, ior;                                     // Ns, d or 1 - Tr, Ni
     std::optional<float> roughness, metallic, clearcoat, clearcoat_roughness, sheen; // Pr, Pm, Pc, Pcr, Ps
     std::optional<float> anisotropy, rotation;                                       // aniso, [-1,1]; anisor, turns
-    MtlMap diffuse_map, emission_map, roughness_map, metallic_map, normal_map, opacity_map;
+    MtlMap diffuse_map, specular_map, exponent_map, emission_map, roughness_map, metallic_map, normal_map, opacity_map;
 };
 
 struct MtlLibrary {

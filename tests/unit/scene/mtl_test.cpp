@@ -127,6 +127,29 @@ TEST(mtl, pictures_become_textures)
     EXPECT_EQ(std::count(scene->files.begin(), scene->files.end(), folder.path("colour.png")), 1);
 }
 
+TEST(mtl, specular_pictures_and_exponents_become_textures)
+{
+    const TempFolder folder;
+    write_picture(folder.path("colour.png"), 2, 2, {255, 0, 0});
+    write_picture(folder.path("exponents.png"), 2, 2, {51, 0, 0}); // a fifth
+    const Result<Scene> scene = load_wearing(
+        folder, "newmtl a\nNs 490\nmap_Ks colour.png\nmap_Ns exponents.png\nnewmtl b\nKs .25 .25 .25\nmap_Ks colour.png\nPr .3\n");
+    ASSERT_TRUE(scene) << scene.error().line();
+    EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+    const Material& a = scene->materials[static_cast<std::size_t>(scene->primitives[0].material)];
+    const Material& b = scene->materials[static_cast<std::size_t>(scene->primitives[1].material)];
+    EXPECT_EQ(a.specular_color, glm::vec3(2.0f));
+    EXPECT_EQ(b.specular_color, glm::vec3(0.5f));
+    EXPECT_TRUE(a.specular_color_tex.used() && b.specular_color_tex.used());
+    EXPECT_EQ(a.roughness, 1.0f);
+    const auto& texture = scene->textures[static_cast<std::size_t>(a.metallic_roughness_tex.texture)];
+    const Image& packed = scene->images[static_cast<std::size_t>(texture.image)];
+    ASSERT_EQ(packed.type, PixelType::u16);
+    const float green = static_cast<float>(reinterpret_cast<const std::uint16_t*>(packed.bytes.data())[1]) / 65535.0f;
+    EXPECT_NEAR(green, std::pow(2.0f / (98.0f + 2.0f), 0.25f), 1e-4f);
+    EXPECT_NE(warnings_of("Pr .5\nmap_Ns exponents.png").find("map_Ns is not read"), std::string::npos);
+}
+
 TEST(mtl, wrong_numbers_are_errors_with_their_line)
 {
     for (const auto& [line, words] : {std::pair<std::string, std::string>{"Kd red", "'red' is no number"},
