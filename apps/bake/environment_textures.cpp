@@ -1,6 +1,7 @@
 #include "apps/bake/environment_textures.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -95,7 +96,9 @@ std::string vector_text(const float (&v)[3])
     return fmt::format("vec3({:#.9g}, {:#.9g}, {:#.9g})", v[0], v[1], v[2]);
 }
 
-// Returns the lights as constants of GLSL. An array has at least one element.
+constexpr std::size_t kBlockLights = 8; // of the uniform block, whatever the bake found
+
+// Returns the lights as constants of GLSL, and as a uniform block. An array has at least one element.
 std::string lights_glsl(const std::vector<ExtractedLight>& lights)
 {
     std::string text = "// Key lights of an environment: evenly bright ellipses on the sky, strongest first. Linear Rec.709.\n"
@@ -105,6 +108,16 @@ std::string lights_glsl(const std::vector<ExtractedLight>& lights)
                        "    vec3 axis_u, axis_v;   // half axes, as tangents\n"
                        "    float angular_radius;  // of a disc with the same area, radians\n"
                        "};\n";
+    text += fmt::format("#ifdef BURNISH_KEY_LIGHTS_BLOCK // fill it from key_lights.bin; BURNISH_KEY_LIGHTS_LAYOUT may add a binding\n"
+                        "#ifndef BURNISH_KEY_LIGHTS_LAYOUT\n"
+                        "#define BURNISH_KEY_LIGHTS_LAYOUT std140\n"
+                        "#endif\n"
+                        "layout(BURNISH_KEY_LIGHTS_LAYOUT) uniform burnish_key_lights_block {{\n"
+                        "    int burnish_key_light_count;\n"
+                        "    burnish_key_light burnish_key_lights[{}];\n"
+                        "}};\n"
+                        "#else\n",
+                        kBlockLights);
     text += fmt::format("const int burnish_key_light_count = {};\n", lights.size());
     text +=
         fmt::format("const burnish_key_light burnish_key_lights[{0}] = burnish_key_light[{0}](\n", std::max<std::size_t>(lights.size(), 1));
@@ -114,7 +127,28 @@ std::string lights_glsl(const std::vector<ExtractedLight>& lights)
             fmt::format("    burnish_key_light({}, {}, {}, {}, {:#.9g}){}\n", vector_text(light.direction), vector_text(light.irradiance),
                         vector_text(light.axis_u), vector_text(light.axis_v), light.angular_radius, i + 1 < lights.size() ? "," : ");");
     }
-    return text;
+    return text + "#endif\n";
+}
+
+// Returns the uniform block's bytes in the layout std140: the count and 12 bytes of padding, then 64 bytes a light.
+std::vector<std::uint8_t> lights_block(const std::vector<ExtractedLight>& lights)
+{
+    struct Row { // a vec3 takes 16 bytes, and a float after it the last 4
+        float direction[4], irradiance[4], axis_u[4], axis_v[3], angular_radius;
+    };
+    static_assert(sizeof(Row) == 64);
+    const std::size_t count = std::min(lights.size(), kBlockLights);
+    std::vector<std::uint8_t> bytes(16 + kBlockLights * sizeof(Row));
+    const auto number = static_cast<std::int32_t>(count);
+    std::memcpy(bytes.data(), &number, sizeof number);
+    for (std::size_t i = 0; i < count; ++i) {
+        Row row{};
+        std::copy_n(lights[i].direction, 3, row.direction), std::copy_n(lights[i].irradiance, 3, row.irradiance);
+        std::copy_n(lights[i].axis_u, 3, row.axis_u), std::copy_n(lights[i].axis_v, 3, row.axis_v);
+        row.angular_radius = lights[i].angular_radius;
+        std::memcpy(&bytes[16 + i * sizeof(Row)], &row, sizeof row);
+    }
+    return bytes;
 }
 
 class Writer {
@@ -137,6 +171,7 @@ class Writer {
         return write(name + (ktx2 ? ".ktx2" : ".dds"), bytes.data(), bytes.size());
     }
     Status write(const std::string& name, const std::string& text) { return write(name, text.data(), text.size()); }
+    Status write(const std::string& name, const std::vector<std::uint8_t>& bytes) { return write(name, bytes.data(), bytes.size()); }
 
     // Removes a texture of an earlier bake.
     void remove(const std::string& name) const
@@ -196,6 +231,7 @@ Result<EnvironmentTextures> write_environment_textures(const std::string& folder
     const std::vector<ExtractedLight> lights = turned_extracted_lights(environment);
     BN_TRY(writer.write("key_lights.json", json_text(extracted_lights_json(lights), 2) + "\n"));
     BN_TRY(writer.write("key_lights.glsl", lights_glsl(lights)));
+    BN_TRY(writer.write("key_lights.bin", lights_block(lights)));
     return std::move(writer.written);
 }
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import shutil
 import struct
 import subprocess
@@ -129,8 +130,18 @@ def lights(bench):
         check((bench.folder / name / "whole.ktx2").exists() == (count > 0), f"{name}: whole")
         if shutil.which("glslc"):
             scratch(bench, "lights.frag", ("#version 450\n" + text + "layout(location = 0) out vec4 c;\nvoid main() { c = vec4(burnish_key_lights[0].irradiance, burnish_key_light_count); }\n").encode())
-            done = subprocess.run(["glslc", bench.folder / "lights.frag", "-o", bench.folder / "lights.spv"], capture_output=True, text=True)
-            check(done.returncode == 0, done.stderr)
+            for block in ((), ("-DBURNISH_KEY_LIGHTS_BLOCK", "-DBURNISH_KEY_LIGHTS_LAYOUT=std140, binding = 3")):
+                done = subprocess.run(["glslc", *block, bench.folder / "lights.frag", "-o", bench.folder / "lights.spv"], capture_output=True, text=True)
+                check(done.returncode == 0, done.stderr)
+            if shutil.which("spirv-dis"):
+                text = subprocess.run(["spirv-dis", bench.folder / "lights.spv"], capture_output=True, text=True).stdout
+                offsets = [int(n) for n in re.findall(r"OpMemberDecorate %burnish_key_light \d Offset (\d+)", text)]
+                check(offsets == [0, 16, 32, 48, 60] and "ArrayStride 64" in text, f"{offsets}: another layout than the file's")
+        data = (bench.folder / name / "key_lights.bin").read_bytes()
+        check(len(data) == 16 + 8 * 64 and struct.unpack_from("<i", data)[0] == count, "the block")
+        for i, light in enumerate(json.loads((bench.folder / name / "key_lights.json").read_text())):
+            row = struct.unpack_from("<16f", data, 16 + 64 * i)
+            check(all(abs(a - b) < 1e-6 * max(1, abs(b)) for a, b in zip(row[0:3] + row[4:7], light["direction"] + light["irradiance"])), f"{row} {light}")
 
 
 @case("bake.textures_say_what_half_floats_lose", budget=5)
