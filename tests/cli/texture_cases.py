@@ -2,12 +2,14 @@
 
 import json
 import math
+import os
+import pathlib
 import re
 import shutil
 import struct
 import subprocess
 
-from harness import case, check, scratch
+from harness import Skipped, case, check, scratch
 
 BAKE = ("bake", "environment", "builtin:sky", "--env-size", "32", "--env-samples", "16", "-q")
 CUBES = ("specular", "box", "irradiance", "whole")
@@ -159,3 +161,42 @@ def beyond(bench):
     (bench.folder / "half/dfg.ktx2").unlink()
     (bench.folder / "half/dfg.ktx2").mkdir()
     bench.run(*words, "-q", "-o", "half").expect(7).expect_one_line("dfg.ktx2")
+
+
+READERS = """import { readFileSync } from 'fs';
+import { read } from 'three/examples/jsm/libs/ktx-parse.module.js';
+import { KTX2Loader } from 'three/examples/jsm/loaders/KTX2Loader.js';
+const out = {};
+for (const name of NAMES) {
+  const bytes = readFileSync(`tables/${name}.ktx2`), buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
+  const file = read(new Uint8Array(buffer));
+  const sum = level => new Float32Array(level.slice().buffer).reduce((a, v) => a + v, 0);
+  out[name] = { form: file.vkFormat, width: file.pixelWidth, faces: file.faceCount, sums: file.levels.map(l => sum(l.levelData)) };
+  if (file.faceCount === 1) {
+    const texture = await new Promise((done, failed) => { const loader = new KTX2Loader(); loader.workerConfig = {}; loader.parse(buffer, done, failed); });
+    out[name].loaded = [texture.image.width, texture.image.height, texture.type, texture.image.data.reduce((a, v) => a + v, 0)];
+  }
+}
+console.log(JSON.stringify(out));
+"""
+
+
+@case("bake.ktx2_files_are_read_by_the_readers_of_engines", tier="nightly")
+def other_readers(bench):
+    """ktx-parse reads each file, and three.js' loader the flat ones: sizes, faces, levels and sums of all texels."""
+    engines = os.environ.get("BURNISH_ENGINES", "")
+    if not engines or not shutil.which("node"):
+        raise Skipped("no node, or no engines: BURNISH_ENGINES is to name a folder with node_modules that holds three")
+    (bench.folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
+    bench.run(*BAKE, "--textures", "ktx2", "--texels", "float", "-o", "tables").expect(0)
+    names = sorted(path.stem for path in (bench.folder / "tables").glob("*.ktx2"))
+    check({"specular", "box", "whole", "irradiance", "dfg", "lobe_albedo", "ltc"} <= set(names), f"{names}")
+    (bench.folder / "read.mjs").write_text(READERS.replace("NAMES", json.dumps(names)))
+    done = subprocess.run(["node", "read.mjs"], cwd=bench.folder, capture_output=True, text=True)
+    check(done.returncode == 0, done.stderr[:1500])
+    for name, read in json.loads(done.stdout).items():
+        (width, faces, channels), levels = ktx2(bench.folder / f"tables/{name}.ktx2")
+        check((read["width"], read["faces"], len(read["sums"])) == (width, faces, len(levels)) and CHANNELS[read["form"]][0] == channels, f"{name}: {read}")
+        near = lambda a, b: abs(a - b) <= 1e-3 * max(1.0, abs(b))  # sums in another order and in floats
+        check(all(near(a, sum(b)) for a, b in zip(read["sums"], levels)), f"{name}: {read['sums']} and {[sum(level) for level in levels]}")
+        check(faces == 6 or (read["loaded"][0] == width and read["loaded"][2] == 1015 and near(read["loaded"][3], sum(levels[0]))), f"{name}: {read}")
