@@ -97,9 +97,9 @@ struct BakeArguments {
 };
 
 // Returns the requested size, or the default size for the baked data.
-PictureSize size_of(const BakeArguments& a, PictureSize usual)
+PictureSize size_of(const BakeArguments& a, PictureSize fallback)
 {
-    return a.size.width > 0 ? a.size : usual;
+    return a.size.width > 0 ? a.size : fallback;
 }
 
 OptionTable bake_option_table(BakeArguments& to)
@@ -416,9 +416,9 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     return write_map(a, table, warnings, preview_of_half_vectors);
 }
 
-int run_bake(const BakeArguments& usual, const OptionTable& given)
+int run_bake(const BakeArguments& by_default, const OptionTable& given)
 {
-    BakeArguments arguments = usual;
+    BakeArguments arguments = by_default;
     if (!given.given("--strokes")) // a picture shows grooves
         arguments.strokes = arguments.what == "direction" ? Strokes::grooves : Strokes::highlights;
     else if (!has_strokes(arguments))

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxResultsBytes = 256ull << 20;
 constexpr std::chrono::milliseconds kSaveEvery{300};
 
-// Whether a file has the name of a chart: NAME-NUMBER.svg.
+// Returns true for a chart's file name: NAME-NUMBER.svg.
 bool is_chart(const std::string& file)
 {
     const std::size_t dot = file.rfind('.'), dash = file.rfind('-');

@@ -183,9 +183,8 @@ std::string pair_html(const PairRows& pair, std::size_t& place_number)
 Status add_row(const ChartRow& row, Json& rows)
 {
     const Result<std::string> picture = data_uri(row.picture), error = data_uri(row.error_map);
-    for (const Result<std::string>* uri : {&picture, &error})
-        if (!*uri)
-            return uri->error();
+    BN_TRY(picture);
+    BN_TRY(error);
     rows[row.key] = {{"technique", row.setting.technique},
                      {"setting", setting_text(row)},
                      {"text", describe(row)},

@@ -8,7 +8,7 @@ namespace burnish {
 // Replaces this process by burnish-lab with these words. If burnish-lab cannot start, prints a line on standard error and returns
 // ExitCode::unavailable.
 int start_lab(const std::vector<std::string>& words);
-// The same with the words of keep_words().
+// Starts burnish-lab with the words of keep_words().
 int start_lab();
 void keep_words(const std::vector<std::string>& words);
 const std::vector<std::string>& kept_words();

@@ -77,7 +77,7 @@ Texts names_of(const std::vector<BuiltinInfo>& infos)
     return names;
 }
 
-// True for builtin:NAME=AMOUNT, a trial scene with an adjustable difficulty.
+// True for builtin:NAME=AMOUNT, a failure scene with an adjustable difficulty.
 bool is_failure_scene(const std::string& text)
 {
     return contains(names_of(builtin_failure_scenes()), text.substr(0, text.find('=')));

@@ -1,4 +1,4 @@
-// Whether pictures keep the limits of `burnish compare`, and how reports say so.
+// Verdicts on pictures by the limits of `burnish compare`, and their words in reports.
 #pragma once
 #include <string>
 #include <vector>

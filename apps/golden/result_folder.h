@@ -15,7 +15,7 @@ inline constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown",
 // Returns true for "FOLDER/NAME" with one of these folders.
 bool is_result_file(const std::string& path);
 
-// What a folder of results says of itself.
+// The marker in a folder of results.
 struct ResultOrigin {
     Share shard;
     std::string manifest;             // manifest_hash() of its rows

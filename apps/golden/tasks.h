@@ -1,4 +1,4 @@
-// What the kinds of `burnish golden` share.
+// The tasks of `burnish golden`, and code that they share.
 #pragma once
 #include <string>
 #include <vector>

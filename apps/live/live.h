@@ -16,7 +16,7 @@ void add_served(const OptionTable& given, DrawRequest& to);
 
 // Returns the request of options of `burnish render`. Returns nothing where one of them reads or writes a further file, or is no page's.
 std::optional<DrawRequest> live_request(const OptionTable& given);
-// The same, of words of a command line. Errors: those of reading the words.
+// Returns the request of a command line. Errors: those of reading its words.
 Result<std::optional<DrawRequest>> live_request(const std::vector<std::string>& words);
 
 struct LiveRow {

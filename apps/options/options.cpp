@@ -251,7 +251,7 @@ FloorSettings floor_of(const RenderOptions& options)
     case FloorChoice::mirror:
         floor.kind = FloorKind::mirror;
         break;
-    case FloorChoice::usual: {
+    case FloorChoice::automatic: {
         const bool shown = options.frame.background && options.scene.starts_with("builtin:");
         floor.kind = shown && builtin_is_staged(options.scene.substr(8)) ? FloorKind::stage : FloorKind::off;
         break;

@@ -25,7 +25,7 @@
 
 namespace burnish {
 
-enum class FloorChoice { off, shadow, stage, mirror, usual }; // usual: as floor_of() says
+enum class FloorChoice { off, shadow, stage, mirror, automatic }; // automatic: as floor_of() says
 
 struct RenderOptions {
     std::string scene = "builtin:teapot";
@@ -35,7 +35,7 @@ struct RenderOptions {
     std::string ltc_table;              // of area lights; empty: the program's own
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
-    FloorChoice floor = FloorChoice::usual;
+    FloorChoice floor = FloorChoice::automatic;
     int band_rows = 0;      // rows of a band, where the picture is drawn in bands; 0: it is drawn at once
     bool in_pieces = false; // a signal ends the process between blocks of a reference, as with a checkpoint
     std::vector<std::string> outputs;

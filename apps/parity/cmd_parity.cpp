@@ -135,9 +135,9 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     // Make both renderers, and the rays that judge them
     Result<Session> tile = Session::make(parts, of_tile), vulkan = Session::make(parts, of_device);
     Result<Session> rays = ray_session(parts, base.isa);
-    for (const Result<Session>* made : {&tile, &vulkan, &rays})
-        if (!*made)
-            return made->error();
+    BN_TRY(tile);
+    BN_TRY(vulkan);
+    BN_TRY(rays);
     // Compare every frame
     for (const RenderOptions& options : set.frames) {
         const Activity activity(row_text(out, named_row(bench, place, set, options)));

@@ -31,7 +31,7 @@ using Json = nlohmann::json;
 constexpr std::uint64_t kMostPieceBytes = std::uint64_t{1} << 34;
 constexpr char kMagic[8] = {'B', 'N', 'P', 'I', 'E', 'C', 'E', '1'};
 constexpr std::chrono::milliseconds kWait{500}, kLongestWait{8000}; // between two looks at other processes' pieces
-constexpr const char* kUsualFolder = "pieces";
+constexpr const char* kDefaultFolder = "pieces";
 
 std::string hex(std::uint64_t value)
 {
@@ -80,7 +80,7 @@ std::string command_of(const PieceOptions& options, const std::vector<std::strin
     std::vector<std::string> all = {"burnish"};
     const std::vector<std::string> bare = without_pieces(words);
     all.insert(all.end(), bare.begin(), bare.end());
-    all.insert(all.end(), {"--piece", key, "--work", options.folders.empty() ? kUsualFolder : options.folders.front()});
+    all.insert(all.end(), {"--piece", key, "--work", options.folders.empty() ? kDefaultFolder : options.folders.front()});
     return shell_words(all);
 }
 
@@ -328,7 +328,7 @@ std::vector<Option> piece_options(PieceOptions& to)
         {"--take", "", "Take pieces that no other process has, until all are there", flag(to.take)},
         {"--piece", "KEY", "Make one piece", text(to.piece)},
         {"--merge", "", "Put the pieces together, and write the command's files", flag(to.merge)},
-        {"--work", "DIR", "Folder of the pieces, shared by all processes; may be repeated for --merge", texts(to.folders), kUsualFolder}};
+        {"--work", "DIR", "Folder of the pieces, shared by all processes; may be repeated for --merge", texts(to.folders), kDefaultFolder}};
 }
 
 bool any_pieces(const PieceOptions& o)
@@ -366,7 +366,7 @@ std::string own_name_beside(const std::string& file, const std::string& extensio
 
 int run_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces, Report& report)
 {
-    const std::string folder = options.folders.empty() ? kUsualFolder : options.folders.front();
+    const std::string folder = options.folders.empty() ? kDefaultFolder : options.folders.front();
     const Status done = options.list ? list_pieces(options, words, pieces) : make_pieces(options, folder, words, pieces, report);
     if (!done)
         return fail(done.error());
@@ -389,7 +389,7 @@ bool holds_pieces(const std::string& folder)
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces)
 {
-    const std::vector<std::string> folders = options.folders.empty() ? std::vector<std::string>{kUsualFolder} : options.folders;
+    const std::vector<std::string> folders = options.folders.empty() ? std::vector<std::string>{kDefaultFolder} : options.folders;
     std::vector<std::string> files;
     std::string missing, refused; // commands; why a piece that is there does not count
     std::size_t absent = 0;

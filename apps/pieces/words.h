@@ -9,7 +9,7 @@ namespace burnish {
 std::string shell_words(const std::vector<std::string>& words);
 // Returns a command without its options of pieces.
 std::vector<std::string> without_pieces(const std::vector<std::string>& words);
-// The same without what changes no file of the job either: threads, instruction set, messages.
+// Returns the command without these, and without options that change no file: threads, instruction set, messages.
 std::vector<std::string> job_words(const std::vector<std::string>& words);
 
 } // namespace burnish

@@ -62,8 +62,8 @@ Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& prob
                       const std::vector<std::size_t>& seen)
 {
     FrameDesc cheap = desc;
-    const TechniqueInfo& usual = automatic_technique();
-    cheap.by_material.assign(probe.materials.size(), {usual.name, usual.default_samples});
+    const TechniqueInfo& automatic = automatic_technique();
+    cheap.by_material.assign(probe.materials.size(), {automatic.name, automatic.default_samples});
     Clock clock;
     double covered = 0.0;
     for (std::size_t h = 0; h < fronts.size(); ++h) {
@@ -113,7 +113,7 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget
         if (probe.materials[m].share > 0.0) {
             fronts.push_back(pareto_front(points_of(probe.materials[m], pixels)));
             seen.push_back(m);
-            plan.usual_cost += probe.materials[m].usual_cost * probe.materials[m].share * pixels;
+            plan.default_cost += probe.materials[m].default_cost * probe.materials[m].share * pixels;
         }
     if (fronts.empty()) {
         plan.aside = "no solid surface is seen";
@@ -128,11 +128,11 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget
     const std::vector<std::size_t> at = budget.error ? within_error(fronts, *budget.error / kPlanSafety)
                                                      : within_cost(fronts, clock->cost_within(*budget.cpu_ms / kTimeSafety));
     // Tell the choices, and the neighbours on the fronts
-    const TechniqueInfo& usual = automatic_technique();
+    const TechniqueInfo& automatic = automatic_technique();
     for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
-        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{usual.name, usual.default_samples}, 0.0, 0.0}, {}, {}, {}});
-    double usual_error = 0.0;
-    std::size_t with_usual = 0;
+        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{automatic.name, automatic.default_samples}, 0.0, 0.0}, {}, {}, {}});
+    double default_error = 0.0;
+    std::size_t with_default = 0;
     for (std::size_t h = 0; h < fronts.size(); ++h) {
         const ProbedMaterial& m = probe.materials[seen[h]];
         const std::vector<PlanPoint>& front = fronts[h];
@@ -146,11 +146,12 @@ Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget
             to.better = step_of(m, front[at[h] + 1]);
         plan.error += front[at[h]].error, plan.cost += front[at[h]].cost;
         for (std::size_t i = 0; i < m.settings.size(); ++i) // unless the user's technique or samples leave it out
-            if (m.settings[i].setting.technique == technique_of(FrameDesc()).name && m.settings[i].setting.samples == usual.default_samples)
-                usual_error += m.settings[i].error * m.share, ++with_usual;
+            if (m.settings[i].setting.technique == technique_of(FrameDesc()).name &&
+                m.settings[i].setting.samples == automatic.default_samples)
+                default_error += m.settings[i].error * m.share, ++with_default;
     }
-    if (with_usual == fronts.size())
-        plan.usual_error = usual_error;
+    if (with_default == fronts.size())
+        plan.default_error = default_error;
     if (clock)
         plan.cpu_ms = clock->ms_of(plan.cost);
     if (budget.error && !(plan.error * kPlanSafety <= *budget.error))
@@ -164,11 +165,11 @@ std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
     if (!plan.aside.empty())
         return {fmt::format("stands aside: {}", plan.aside)};
     std::vector<std::string> lines;
-    const double usual = std::max(1.0, plan.usual_cost);
+    const double of_default = std::max(1.0, plan.default_cost);
     const std::string wanted = budget.error ? fmt::format("mean HDR-FLIP {:.4g}", *budget.error) : fmt::format("{:g} ms", *budget.cpu_ms);
     lines.push_back(fmt::format("{}: predicted {:.4f}{}, shading at {:.2f} of the default's instructions{}", wanted, plan.error,
-                                plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / usual,
-                                plan.usual_error ? fmt::format("; the default: predicted {:.4f}", *plan.usual_error) : ""));
+                                plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / of_default,
+                                plan.default_error ? fmt::format("; the default: predicted {:.4f}", *plan.default_error) : ""));
     if (!budget.error)
         lines.push_back("times are those of this machine: another one may get another plan and another hash");
     for (const PlannedMaterial& m : plan.materials) {

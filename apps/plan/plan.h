@@ -30,8 +30,8 @@ struct PlannedMaterial {
 struct Plan {
     std::vector<PlannedMaterial> materials; // by index in the scene
     double error = 0.0;                     // predicted mean HDR-FLIP of the picture
-    double cost = 0.0, usual_cost = 0.0;    // instructions for shading, and those of the default technique
-    std::optional<double> usual_error;      // predicted for the default technique; none: the probe has it not
+    double cost = 0.0, default_cost = 0.0;  // instructions for shading, and those of the default technique
+    std::optional<double> default_error;    // predicted for the default technique; none: the probe has it not
     int probe_width = 0, probe_height = 0;
     std::optional<double> cpu_ms; // predicted; only for a budget of time
     std::string aside;            // why nothing was planned: then `materials` is empty

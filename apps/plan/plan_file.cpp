@@ -41,9 +41,9 @@ std::string plan_json(const Plan& plan, const PlanSubject& subject)
     for (const auto& [name, value] : members(subject))
         json[name] = value;
     json["predicted_flip"] = plan.error;
-    json["instructions"] = plan.cost, json["usual_instructions"] = plan.usual_cost;
-    if (plan.usual_error)
-        json["usual_predicted_flip"] = *plan.usual_error;
+    json["instructions"] = plan.cost, json["usual_instructions"] = plan.default_cost;
+    if (plan.default_error)
+        json["usual_predicted_flip"] = *plan.default_error;
     json["materials"] = Json::array();
     for (const PlannedMaterial& m : plan.materials) {
         Json row = {{"name", m.name}, {"share", m.share}};

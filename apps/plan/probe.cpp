@@ -252,11 +252,11 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
     for (std::size_t m = 0; m < count; ++m)
         instructions += materials.pixels[m] * random_over_fetch(kRandomSamples);
     probe.ms_per_instruction = std::max(0.0, noisy_ms - fetch_ms) / std::max(1.0, instructions);
-    const TechniqueInfo& usual = technique_of(FrameDesc{});
-    const std::vector<double> usual_costs = mean_costs({usual.name, usual.default_samples}, lobes, materials.of, count);
+    const TechniqueInfo& automatic = technique_of(FrameDesc{});
+    const std::vector<double> default_costs = mean_costs({automatic.name, automatic.default_samples}, lobes, materials.of, count);
     for (std::size_t m = 0; m < count; ++m)
         probe.materials[m].share = materials.pixels[m] / static_cast<double>(materials.of.size()),
-        probe.materials[m].usual_cost = usual_costs[m];
+        probe.materials[m].default_cost = default_costs[m];
     for (const MaterialTechnique& s : settings) {
         const std::vector<double> costs = mean_costs(s, lobes, materials.of, count);
         const std::size_t at = static_cast<std::size_t>(

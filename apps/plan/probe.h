@@ -16,7 +16,7 @@ struct ProbedSetting {
 
 struct ProbedMaterial {
     double share = 0.0;                  // of the picture's pixels; 0: not seen, or through blended surfaces alone
-    double usual_cost = 0.0;             // of the default technique, instructions a fragment
+    double default_cost = 0.0;           // of the default technique, instructions a fragment
     std::vector<ProbedSetting> settings; // empty where the share is 0
 };
 

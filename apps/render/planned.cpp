@@ -99,7 +99,7 @@ void note_plan(const RenderOptions& options, const FrameDesc& desc, const std::o
 {
     figures.planned = !desc.by_material.empty();
     if (plan && plan->aside.empty())
-        figures.plan = PlanFigures{options.budget, options.budget_ms, plan->error, plan->cost, plan->usual_cost, plan->cpu_ms};
+        figures.plan = PlanFigures{options.budget, options.budget_ms, plan->error, plan->cost, plan->default_cost, plan->cpu_ms};
 }
 
 Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Session& session, const Image& color,

@@ -11,8 +11,8 @@ using Json = nlohmann::ordered_json; // floats go into it by shortest_decimal(),
 // the operating system. NaN and infinities become null.
 std::string json_text(const Json& json, int indent);
 
-// Of an array of objects: a line of names, then one an object, by commas (RFC 4180). Members of objects in them are named a.b; arrays
-// and what is null are left out.
+// Returns an array of objects as CSV (RFC 4180): a line of names, then a line an object. Inner members are named a.b. Arrays and null are
+// left out.
 std::string csv_text(const Json& rows);
 
 } // namespace burnish

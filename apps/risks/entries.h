@@ -16,7 +16,7 @@ struct AtlasEntry {
     const char *id, *group, *breaks;
     const char* words; // options of `burnish render`
     bool geometric;
-    const char* path; // in the syntax of --animate; "amount" follows a trial's name: builtin:NAME=AMOUNT
+    const char* path; // in the syntax of --animate; "amount" follows a failure scene's name: builtin:NAME=AMOUNT
     AtlasTruth truth;
     const char* truth_words; // further options of the ground truth
     double threshold;

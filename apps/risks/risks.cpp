@@ -74,7 +74,7 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
-// Describes the onset of an entry for any scene. The eye of a trial scene and a tilt by two angles become an angle.
+// Describes the onset of an entry for any scene. The eye of a failure scene and a tilt by two angles become an angle.
 std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 {
     if (setting.options.eye && setting.values.starts_with("eye "))

@@ -19,7 +19,7 @@ class Jobs {
     // Calls body(index, worker) for index in [0, count). worker in [0, threads()) only selects scratch memory. Throws Stopped where the
     // caller's work is to stop (core/jobs/control.h).
     void parallel_for(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
-    // The same without stops and progress, for functions that cannot fail.
+    // Runs like parallel_for(), without stops and progress, for functions that cannot fail.
     void parallel_for_whole(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
 
   private:

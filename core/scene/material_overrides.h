@@ -1,4 +1,4 @@
-// What a caller puts over the materials of a scene, as if their file had named it.
+// Values in place of those of a scene's materials, as if their file had named them.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>

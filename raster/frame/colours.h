@@ -19,7 +19,7 @@ Image linear_map(const Image& image, const Grid& grid, bool srgb, std::size_t fi
 // Returns (n.v)(n.l) per texel, seen and lit from above the surface. One channel.
 Image facing_of(const MipSource& source, const Jobs& jobs);
 
-// Whether colours of a texture of the material are weighted by its normals: it wants that, and they lie alike.
+// Returns true if normals weigh the colours of a material's texture: the material wants weights, and both maps lie alike.
 bool is_coupled(const Scene& scene, const Material& material, const MaterialMips& mips, const TextureRef& colours);
 // Where base colours are not, though the material wants it, why; else empty.
 std::string why_uncoupled(const Scene& scene, const Material& material, const MaterialMips& mips);

@@ -12,8 +12,7 @@ namespace burnish {
 
 float mean_roughness(const Scene& scene, const Material& material); // estimated from up to 1024 texels of the roughness map
 
-// What the facets of its normal map keep of their light. None where heights lie in its alpha, and where gains have been measured in its
-// place.
+// Returns the share of light that each facet of the normal map keeps. Returns none where alpha holds heights, or where gains are measured.
 KeptWeights kept_weights_of(const Scene& scene, const Material& material, const MaterialMips& mips);
 
 // Makes the normal map's pyramid, with the facets' light share in its levels' alpha.

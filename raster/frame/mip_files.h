@@ -25,8 +25,8 @@ Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, cons
 Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limits& limits);
 // Materials take the filters that the levels of their maps are by, and colours what they are averaged and weighted by.
 void take_filters_of_mips(const Scene& scene, SceneMips& mips);
-// Whether the file has levels of everything that filters of the scene would make levels of, and of these materials' base colours, metalness
-// and heights.
+// Checks that the file has all levels that the scene's filters would make, and levels of those materials' base colours, metalness and
+// heights.
 Status check_mips(const Scene& scene, const SceneMips& mips, const std::string& path);
 
 } // namespace burnish

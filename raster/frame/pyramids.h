@@ -61,15 +61,15 @@ MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const 
 std::vector<std::size_t> filtered_materials(const Scene& scene, const SceneMips& mips);
 bool is_metal(const Scene& scene, const Material& material); // more than half of it
 
-// Where the filter of the material makes no levels of its maps, why: empty where it does, or has nothing to do.
+// Returns the reason why the material's filter makes no levels. Returns an empty text where levels are made or not needed.
 std::string why_unfiltered(const Scene& scene, const Material& material, const MaterialMips& mips);
-// Whether its levels have gains; what lets light through would pass no less by them.
+// Returns true if the material's levels have gains. Materials that let light through have none.
 bool has_gains(const Material& material, const MaterialMips& mips);
-// What a filter makes levels of, of a material that it makes any of.
+// The maps of a material from which a filter makes levels.
 bool is_filtered(const Scene& scene, const Material& material, const MaterialMips& mips);
 MipHelp mip_help(const Scene& scene, const Material& material, const MaterialMips& mips, const OptimisedTexels& advance = {});
 MipSource mip_source(const Scene& scene, const Material& material);
-// Whether levels that were baked beforehand are of these maps and filters.
+// Returns true if levels baked beforehand belong to these maps and filters.
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material,
           const MaterialMips& mips);
 

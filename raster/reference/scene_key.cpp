@@ -53,7 +53,7 @@ void add_textures(Key& key, const Scene& scene)
             0);
 }
 
-// What a mip filter makes levels of is in the textures; what it makes of them, here.
+// Textures hold the maps of mip filters. Add the filters' settings.
 void add_filters(Key& key, const Scene& scene, const SceneMips& mips)
 {
     for (std::size_t i = 0; i < scene.materials.size(); ++i)

@@ -94,7 +94,7 @@ Result<std::shared_ptr<const PhongFiles>> load_phong_tables(const std::vector<st
 
 namespace {
 
-// What mip filters need to know of maps and heights that are all in their places.
+// Facts for mip filters, once all maps and heights are in place.
 Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings& asked, const Limits& limits)
 {
     if (data.mips.baked && given.filter == MipFilter{})

@@ -34,7 +34,7 @@ OwnPixels own_pixels(int width, const Band& band);
 
 // Throws ExitCode::unavailable where a device takes less of something than is needed. limit: the API's name of it.
 void require_limit(const Context& context, const char* field, const char* limit, std::uint64_t need, std::uint64_t have);
-// What pictures of this width need.
+// Requires the limits that pictures of this width need.
 void require_width(const Context& context, int width);
 
 } // namespace burnish

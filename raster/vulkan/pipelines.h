@@ -43,7 +43,7 @@ struct GraphicsState {
     VkFormat color = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     VkCompareOp compare = VK_COMPARE_OP_GREATER;
-    // Of shaders that a caller brings, the same for equal names. Null: the layout of all stages, which fetch vertices themselves.
+    // Layout for shaders that a caller brings, one for equal names. Null: the layout of all stages, which fetch vertices themselves.
     VkPipelineLayout layout = VK_NULL_HANDLE;
     const VkPipelineVertexInputStateCreateInfo* vertices = nullptr;
 };

@@ -66,7 +66,7 @@ BN_FN shared_sample_record unshared_record(real3 colour)
     return r;
 }
 
-// What a pixel shows its neighbours: the place of its first record, and the mean light of all its records that are similar
+// A pixel's part that its neighbours see: the place of its first record, and the mean light of all its records that are similar
 // to the first. Triangles of one surface thus count as one.
 struct shared_pixel {
     shared_sample_record record;

@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-// What a picture still lacks.
+// Rows that a picture still lacks.
 class RowsLeft {
   public:
     RowsLeft(std::string path, const StreamedPicture& picture) : path_(std::move(path)), width_(picture.width), left_(picture.height) {}

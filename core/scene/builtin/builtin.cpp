@@ -67,19 +67,19 @@ template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[
 std::optional<Result<Scene>> make_failure_scene(const std::string& name)
 {
     const std::size_t at = name.find('=');
-    for (const FailureSceneMaker& trial : failure_scene_makers()) {
-        if (name.substr(0, at) != trial.info.name)
+    for (const FailureSceneMaker& maker : failure_scene_makers()) {
+        if (name.substr(0, at) != maker.info.name)
             continue;
-        double amount = trial.usual;
+        double amount = maker.by_default;
         if (at != std::string::npos) {
             const char *from = name.data() + at + 1, *to = name.data() + name.size();
             const std::from_chars_result read = std::from_chars(from, to, amount);
-            if (read.ec != std::errc() || read.ptr != to || !(amount >= trial.least && amount <= trial.most))
+            if (read.ec != std::errc() || read.ptr != to || !(amount >= maker.least && amount <= maker.most))
                 return Error{ExitCode::bad_input, "builtin:" + name, "",
-                             fmt::format("what follows = is no number from {:g} to {:g}", trial.least, trial.most)};
+                             fmt::format("what follows = is no number from {:g} to {:g}", maker.least, maker.most)};
         }
-        Scene scene = trial.make(amount);
-        scene.name = trial.info.name;
+        Scene scene = maker.make(amount);
+        scene.name = maker.info.name;
         return Result<Scene>(std::move(scene));
     }
     return std::nullopt;
@@ -91,8 +91,8 @@ const std::vector<BuiltinInfo>& builtin_failure_scenes()
 {
     static const std::vector<BuiltinInfo> list = [] {
         std::vector<BuiltinInfo> infos;
-        for (const FailureSceneMaker& trial : failure_scene_makers())
-            infos.push_back(trial.info);
+        for (const FailureSceneMaker& maker : failure_scene_makers())
+            infos.push_back(maker.info);
         return infos;
     }();
     return list;
@@ -120,8 +120,8 @@ bool builtin_is_staged(const std::string& name)
 
 Result<Scene> make_builtin_scene(const std::string& name)
 {
-    std::optional<Result<Scene>> trial = make_failure_scene(name);
-    Result<Scene> scene = trial ? std::move(*trial) : make_named(kScenes, name, "scene");
+    std::optional<Result<Scene>> failure = make_failure_scene(name);
+    Result<Scene> scene = failure ? std::move(*failure) : make_named(kScenes, name, "scene");
     if (scene)
         update_world(*scene);
     return scene;

@@ -1,4 +1,4 @@
-// What the generated scenes are made with, besides grids (core/scene/grid.h).
+// Parts of generated scenes, besides grids (core/scene/grid.h).
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -19,7 +19,7 @@ void add_part(Scene& scene, const Material& material, const glm::vec3& at, void 
 // Returns metal with GGX widths roughness^2 (1 +- eta) along and across the tangent.
 Material brushed_metal(double roughness, double eta, const glm::vec3& colour);
 
-// What shines along -Z, or looks there, from `eye` at `target`, not along +Y.
+// Returns a node at `eye`, for a light or a camera, that faces `target` along -Z. The direction must not be +Y.
 Node looking(const char* name, const glm::vec3& eye, const glm::vec3& target);
 
 // Returns noise in [0,1) without a visible pattern, equal everywhere.
@@ -63,7 +63,7 @@ Scene make_anodised();
 Scene make_shaderballs();
 struct FailureSceneMaker {
     BuiltinInfo info;
-    double usual, least, most; // default and range of the amount
+    double by_default, least, most; // default and range of the amount
     Scene (*make)(double amount);
 };
 const std::vector<FailureSceneMaker>& failure_scene_makers();

@@ -1,4 +1,4 @@
-// What the surfaces of MaterialX have in common, as the values of one list of parts.
+// The surfaces of MaterialX as values of one list of parts.
 #pragma once
 #include <array>
 #include <string>

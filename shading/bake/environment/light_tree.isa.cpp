@@ -10,7 +10,7 @@ namespace {
 constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
 constexpr double kPlaceError = 1e-6;             // above the rounding of a place to single precision
 
-// What all blocks do with a part.
+// Adds a part to all blocks.
 using Way = unsigned char;
 constexpr long long take_it = 0, leave_out = 1, open_it = 2, differ = 3;
 

@@ -1,4 +1,4 @@
-// What is asked of mip filters for a scene, and what they are for each of its materials.
+// Settings of mip filters for a scene, and the filter of each material.
 #pragma once
 #include <cstddef>
 #include <memory>

@@ -1,4 +1,4 @@
-// What rays of our own give to pictures: references as by Embree, and contact shadows as by closed forms.
+// Pictures by burnish's own rays: references as by Embree, and contact shadows as by closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

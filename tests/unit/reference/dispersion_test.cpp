@@ -105,7 +105,7 @@ TEST(dispersion, paths_keep_all_light_and_split_it)
     EXPECT_GT(std::abs(split.mean.x / split.mean.z - 1.0), 0.08) << "nothing is tested";
 }
 
-// What lies behind both kinds of glass in one frame is drawn as if each were alone: lanes mix them.
+// Draws two kinds of glass in one frame as if each were alone: lanes mix them.
 TEST(dispersion, beside_plain_glass_leaves_it_alone)
 {
     BN_NEEDS_EMBREE();
