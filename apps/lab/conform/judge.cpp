@@ -31,6 +31,7 @@ constexpr double kExplained = 0.25;       // of what is wrong in a way, which it
 constexpr double kWellExplained = 0.05;   // the same, where another way is far from about as few scenes
 constexpr int kAboutAsFew = 2;            // scenes
 constexpr double kHopeful = 0.85;         // of the distance before, which it may leave there
+constexpr double kAlike = 1.05;           // mistakes that look alike in a scene: the named one counts as the nearest
 constexpr double kLeastExposure = 0.12;   // stops
 constexpr double kLeastNamed = 1.0 / 3.0; // share of the wrong scenes that mistakes explain, from which they are named
 
@@ -287,7 +288,7 @@ Status Judge::find_mistakes(bool pairs, Judgement& to)
             SceneJudgement& scene = to.scenes[i];
             if (best->left[i] < left[i] && best->left[i] <= kExplains * left[i])
                 scene.outcome = SceneJudgement::Outcome::wrong;
-            if (best->set.size() == 1 && to.mistakes.size() == 1 && best->left[i] < left[i] && best->left[i] <= scene.to_nearest)
+            if (best->set.size() == 1 && to.mistakes.size() == 1 && best->left[i] < left[i] && best->left[i] <= kAlike * scene.to_nearest)
                 scene.nearest = best->set.front(), scene.to_nearest = best->left[i], scene.nearest_ev = exposure_ev_;
             scene.explained = best->left[i];
             Result<std::optional<Image>> drawn = shown_with(i, known);
