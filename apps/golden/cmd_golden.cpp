@@ -12,6 +12,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
 #include "apps/golden/golden_pieces.h"
 #include "apps/golden/tasks.h"
@@ -91,8 +92,8 @@ GoldenSetting setting_of(const GoldenArguments& arguments, const std::string& re
     return setting;
 }
 
-// Makes some rows, or puts finished ones together.
-int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& manifest, Report& report)
+// Makes some rows, or puts finished ones together. of_all: manifest_hash() of all rows.
+int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& manifest, const std::string& of_all, Report& report)
 {
     if (arguments.jobs > 0)
         return fail(usage_error("--jobs", "a process makes its pieces one after the other; several processes may use --take"));
@@ -107,7 +108,7 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
     if (!files)
         return fail(files.error());
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(inputs_of(arguments, manifest), {Share(), manifest_hash(manifest)}); !made)
+    if (const Status made = fresh.make(inputs_of(arguments, manifest), {Share(), of_all}); !made)
         return fail(made.error());
     Result<std::vector<GoldenResult>> results = take_golden_pieces(manifest, *files, *pieces, fresh.folder());
     if (!results)
@@ -115,6 +116,19 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
     report.promise_stdout({"-"}); // to the commands of missing pieces
     report.release();
     return conclude_golden(std::move(*results), &manifest, fresh, arguments, report);
+}
+
+// Keeps the rows that the user names.
+Status keep_rows(const std::vector<std::string>& names, GoldenManifest& manifest)
+{
+    std::vector<std::string> known;
+    for (const GoldenRow& row : manifest.rows)
+        known.push_back(row.name);
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return usage_error("--row", "there is no row '" + printable(name) + "'" + did_you_mean(name, known));
+    std::erase_if(manifest.rows, [&](const GoldenRow& row) { return std::find(names.begin(), names.end(), row.name) == names.end(); });
+    return {};
 }
 
 // Warns of rows without a tolerance whose bits depend on the machine.
@@ -143,16 +157,20 @@ int check(const GoldenArguments& arguments, Report& report)
     Result<GoldenManifest> manifest = manifest_at(arguments);
     if (!manifest)
         return fail(manifest.error());
+    const std::string of_all = manifest_hash(*manifest); // also with some rows: bless looks for changes of the manifest
+    if (!arguments.rows.empty())
+        if (const Status kept = keep_rows(arguments.rows, *manifest); !kept)
+            return fail(kept.error());
     warn_of_machines(*manifest, report);
     if (wants_pieces(arguments.pieces))
-        return check_in_pieces(arguments, *manifest, report);
+        return check_in_pieces(arguments, *manifest, of_all, report);
     std::vector<GoldenRow> rows;
     for (std::size_t i = 0; i < manifest->rows.size(); ++i)
         if (shard->holds(i))
             rows.push_back(manifest->rows[i]);
     NewResults fresh(arguments.results);
-    if (const Status made = fresh.make(inputs_of(arguments, *manifest), {*shard, manifest_hash(*manifest),
-                                                                         shard->count > 1 ? words_of_shard() : std::vector<std::string>()});
+    if (const Status made =
+            fresh.make(inputs_of(arguments, *manifest), {*shard, of_all, shard->count > 1 ? words_of_shard() : std::vector<std::string>()});
         !made)
         return fail(made.error());
     report.release();
@@ -184,6 +202,7 @@ int run_golden(const GoldenArguments& arguments, const OptionTable& given)
                                        {"--merge", check_rows},
                                        {"--work", check_rows},
                                        {"--jobs", check_rows},
+                                       {"--row", check_rows},
                                        {"--live", check_rows},
                                        {"--renderer", check_rows}})
         if (given.given(option) && arguments.task != task)
@@ -223,6 +242,7 @@ OptionTable golden_option_table(GoldenArguments& to)
     table.add("Goldens",
               {{"-o,--output", "FOLDER", "Folder of the results", folder(to.results)},
                {"--jobs", "N", "Pictures made side by side", integer(to.jobs, 1, 1024), "all cores"},
+               {"--row", "NAME", "check: makes this row alone; may be given several times", texts(to.rows), "all rows"},
                {"--live", "", "check: put the renderer into the page, which then draws scenes that differ anew: see burnish export page",
                 flag(to.live)},
                {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),

@@ -16,7 +16,7 @@ enum class GoldenTask { check_rows, bless, merge };
 
 struct GoldenArguments {
     GoldenTask task = GoldenTask::check_rows;
-    std::vector<std::string> paths;
+    std::vector<std::string> paths, rows; // rows: names, where not all are made
     std::string results = "golden-results", from, mask;
     GoldenLimits limits; // of folders and patterns, as is the mask
     PieceOptions pieces;

@@ -100,6 +100,18 @@ def stale(bench):
         check(("other bits on another machine" in done.err) == told, f"{options} {held}: {done.err}")
 
 
+@case("golden.makes_the_rows_that_are_named", budget=10)
+def named_rows(bench):
+    write(bench, ROWS)
+    bench.run("golden", "check", "m.json", "--row", "plate", "--row", "ball").expect(5)
+    check(verdicts(bench) == {"plate": "missing", "ball": "missing"}, verdicts(bench))
+    bench.run("golden", "bless", "m.json").expect(0)
+    bench.run("golden", "check", "m.json", "--row", "ball").expect(0)
+    check(verdicts(bench) == {"ball": "passed"}, verdicts(bench))
+    bench.run("golden", "check", "m.json", "--row", "bal").expect(2).expect_one_line("--row", "did you mean 'ball'")
+    bench.run("golden", "bless", "m.json", "--row", "ball").expect(2).expect_one_line("--row", "golden check")
+
+
 @case("golden.draws_with_any_program", budget=10)
 def commands(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))
