@@ -256,7 +256,7 @@ std::string module_text(const TechniqueInfo& technique, int samples, const Expor
     return text;
 }
 
-Result<std::string> technique_text(const ExportArguments& arguments, const OptionTable& given)
+Result<std::string> technique_text(const ExportArguments& arguments, const OptionTable& given, Report& report)
 {
     if (!given.given("--technique"))
         return usage_error("--technique", "is missing");
@@ -271,6 +271,8 @@ Result<std::string> technique_text(const ExportArguments& arguments, const Optio
     const int asked = arguments.samples > 0 ? arguments.samples : alone ? technique.most_samples : technique.default_samples;
     if (asked > technique.most_samples)
         return usage_error("--samples", fmt::format("{} takes at most {}", technique.name, technique.most_samples));
+    if (arguments.samples > 0 && technique.sampling == Sampling::none)
+        report.warning(fmt::format("--samples has no effect: {} takes none", technique.name));
     const int samples = effective_samples(technique, asked);
     for (const ExportLanguage& language : kLanguages)
         if (arguments.what == language.name) {
@@ -324,7 +326,8 @@ int run_export(const ExportArguments& arguments, const OptionTable& given)
     if (Status path = check_text_path("-o", arguments.output, {}); !path)
         return fail(path.error());
     Report report(arguments.quiet, arguments.verbosity);
-    const Result<std::string> text = arguments.what == "page" ? exported_page(arguments, given, report) : technique_text(arguments, given);
+    const Result<std::string> text =
+        arguments.what == "page" ? exported_page(arguments, given, report) : technique_text(arguments, given, report);
     if (!text)
         return fail(text.error());
     if (Status written = write_text(arguments.output, *text); !written)

@@ -6,7 +6,8 @@ Usage: conform.py --program build/release/burnish --engines FOLDER [--work FOLDE
 FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. Each engine draws the scenes of a conformance folder in headless
 Chromium, as its page there does, with a piece of code that makes the mistake. Scenes that the engine draws wrongly by itself are left out.
 Prints a row for each: the mistake made, the mistakes named. Mistakes that begin with "unknown" are none of burnish's: none may be named. --modules draws with the
-exported modules of burnish in three.js and Babylon.js, and prints each scene's distance to the truth before and after. Exit code: 0 measured; 2 something could not be run.
+exported modules of burnish in three.js and Babylon.js, and prints each scene's distance to the truth before and after, and to the tile
+renderer's picture. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
@@ -214,11 +215,11 @@ def picture_of(folder, scene):
     return next(file for file in folder.glob(f"{scene}.*") if "variance" not in file.name)
 
 
-def distances(program, folder, pictures):
-    """Returns each scene's mean FLIP to its truth."""
+def distances(program, folder, pictures, truths=None):
+    """Returns each scene's mean FLIP to its truth, or to the pictures of another folder."""
     found = {}
     for scene in (s["name"] for s in json.loads((folder / "conform.json").read_text())["scenes"]):
-        run = subprocess.run([program, "compare", picture_of(folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
+        run = subprocess.run([program, "compare", picture_of(truths or folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
                              capture_output=True, text=True)
         if run.returncode:
             raise RuntimeError(run.stderr.strip())
@@ -236,8 +237,12 @@ def improve(program, folder, work, engine, technique, samples, server):
         with tempfile.TemporaryDirectory() as profile, Browser(profile, webgl=True) as browser:
             draw(browser, server.address(f"/pages/{engine}.html{query}"), pictures)
         found[name] = distances(program, folder, pictures)
+    tile = work / f"tile-{technique}"
+    if not tile.exists():
+        subprocess.run([program, "conform", folder, tile, "--draw", "--technique", technique, "--quiet"], check=True)
+    found["module_to_tile"] = distances(program, folder, work / f"{engine}-module", tile)
     for scene, before in found["as_it_is"].items():
-        print(f"{engine:8} {scene:22} {before:.3f} {found['module'][scene]:.3f}", flush=True)
+        print(f"{engine:8} {scene:22} {before:.3f} {found['module'][scene]:.3f}   to the tile renderer {found['module_to_tile'][scene]:.3f}", flush=True)
     means = {name: sum(scenes.values()) / len(scenes) for name, scenes in found.items()}
     print(f"{engine:8} {'mean':22} {means['as_it_is']:.3f} {means['module']:.3f}", flush=True)
     return found

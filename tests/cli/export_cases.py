@@ -165,4 +165,6 @@ def wrong(bench):
                                 (("babylon", "--ltc", "--technique", "lobe_line", "-o", "a.js"), 2, "--ltc"),
                                 (("glsl", "--technique", "mc", "-o", "no/a.glsl"), 7, "no/a.glsl")):
         bench.run("export", *words).expect(code).expect_one_line(needle)
+    check("no effect" in bench.run("export", "glsl", "--technique", "bent_normal", "--samples", "5", "-o", "b.glsl").expect(0).err, "samples of a technique that takes none")
+    (bench.folder / "b.glsl").unlink()
     check(bench.left_behind() == [], f"left {bench.left_behind()}")

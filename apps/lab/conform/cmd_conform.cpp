@@ -135,6 +135,8 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
                            fmt::format("{} is drawn without mistakes alone; {} are drawn with them", a.technique, ways_in_words()));
     if (a.without.size() >= conform_scenes().size())
         return usage_error("--without", "leaves no scene");
+    if (a.write.empty() && same_file(a.pictures, a.folder))
+        return usage_error("PICTURES", "is the conformance folder: give a folder of its own");
     if (same_file(a.pictures, a.folder + "/truth"))
         return usage_error("PICTURES", "is the folder of truths");
     for (const std::string& name : a.mistakes)
@@ -146,7 +148,13 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
             return usage_error(option, "does not go with --draw");
     std::vector<std::string> inputs = {a.folder + "/conform.json", a.folder + "/environment.exr", a.folder + "/environment.hdr"};
     for (const FolderScene& scene : conform_folder(a.folder).scenes)
-        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).truth_of(scene.name)});
+        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).truth_of(scene.name),
+                                     conform_folder(a.folder).variance_of(scene.name)});
+    for (const char* name : {"/README.md", "/pages/three.html", "/pages/babylon.html", "/pages/pictures.js"})
+        inputs.push_back(a.folder + name);
+    for (const std::string& name : scene_names())
+        for (const char* extension : kPictureExtensions)
+            inputs.push_back(a.pictures + "/" + name + extension);
     return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, inputs);
 }
 
@@ -276,10 +284,8 @@ void tell(const Judgement& judgement, Report& report)
             report.figure(s.name, s.reason);
             continue;
         }
-        std::string line =
-            fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right", outcome_name(s.outcome), s.to_truth, s.to_right);
-        if (s.outcome == SceneJudgement::Outcome::wrong)
-            line += fmt::format(" ({:.3f} from the truth)", s.usual);
+        std::string line = fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right ({:.3f} from the truth)",
+                                       outcome_name(s.outcome), s.to_truth, s.to_right, s.usual);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
             line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
         report.figure(s.name, line);

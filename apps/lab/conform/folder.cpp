@@ -9,12 +9,15 @@
 #include "apps/lab/conform/scenes.h"
 #include "apps/report/json.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/io/image_io.h"
 
 namespace burnish {
 namespace {
+
+constexpr std::uint64_t kMostSceneBytes = 1u << 28;
 
 Json numbers(const glm::vec3& v)
 {
@@ -30,7 +33,22 @@ Json area_light_json()
     return {{"corners", corners}, {"radiance", numbers(light.radiance)}};
 }
 
-Json folder_json()
+// Returns a hash of the files that truths belong to: scenes and environments.
+Result<std::string> content_of(const std::string& path)
+{
+    std::vector<std::string> names = {"environment.exr", "environment.hdr"};
+    for (const ConformScene& scene : conform_scenes())
+        names.push_back("scenes/" + scene.name + ".gltf");
+    std::uint64_t hash = 0;
+    for (const std::string& name : names) {
+        const Result<std::vector<std::uint8_t>> bytes = read_file(path + "/" + name, kMostSceneBytes);
+        BN_TRY(bytes);
+        hash = hash_bytes(bytes->data(), bytes->size(), hash);
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+Json folder_json(const std::string& content)
 {
     Json scenes = Json::array();
     for (const ConformScene& scene : conform_scenes())
@@ -39,8 +57,8 @@ Json folder_json()
                           {"file", "scenes/" + scene.name + ".gltf"},
                           {"environment", scene.environment},
                           {"area_light", scene.area_light ? area_light_json() : Json(nullptr)}});
-    return {{"burnish_conform", kConformVersion}, {"width", kConformWidth},           {"height", kConformHeight},
-            {"exposure_ev", kConformEv},          {"environment", "environment.hdr"}, {"scenes", scenes}};
+    return {{"burnish_conform", kConformVersion}, {"width", kConformWidth}, {"height", kConformHeight}, {"exposure_ev", kConformEv},
+            {"environment", "environment.hdr"},   {"content", content},     {"scenes", scenes}};
 }
 
 Error bad_folder(const std::string& file, const std::string& place, const std::string& reason)
@@ -79,6 +97,18 @@ Result<ConformFolder> read_conform_folder(const std::string& path)
                                       version.get<std::int64_t>(), kConformVersion));
     if (json.value("width", Json()) != kConformWidth || json.value("height", Json()) != kConformHeight)
         return bad_folder(file, "/width", fmt::format("pictures are not {}x{}: write the folder anew", kConformWidth, kConformHeight));
+    Json names = Json::array();
+    for (const Json& scene : json.value("scenes", Json::array()))
+        names.push_back(scene.is_object() ? scene.value("name", Json()) : Json());
+    if (names != Json(scene_names()))
+        return bad_folder(file, "/scenes", "are others than this program's: write the folder anew");
+    if (json.value("exposure_ev", Json()) != kConformEv)
+        return bad_folder(file, "/exposure_ev", fmt::format("is not {}: write the folder anew", kConformEv));
+    const Result<std::string> content = content_of(path);
+    if (!content)
+        return bad_folder(content.error().file, "", content.error().reason + ": write the folder anew");
+    if (json.value("content", Json()) != *content)
+        return bad_folder(file, "/content", "a scene or the environment has changed since its truth was made: write the folder anew");
     return conform_folder(path);
 }
 
@@ -109,7 +139,9 @@ Status write_conform_files(const std::string& path)
 
 Status write_conform_list(const std::string& path)
 {
-    return write_text(path + "/conform.json", json_text(folder_json(), 1) + "\n");
+    const Result<std::string> content = content_of(path);
+    BN_TRY(content);
+    return write_text(path + "/conform.json", json_text(folder_json(*content), 1) + "\n");
 }
 
 } // namespace burnish

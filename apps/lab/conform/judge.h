@@ -26,8 +26,8 @@ struct SceneJudgement {
     enum class Outcome { right, wrong, unusable, missing };
     std::string name;
     Outcome outcome = Outcome::missing;
-    std::string reason;       // for unusable and missing ones
-    bool not_finite = false;  // the picture holds NaN or infinities
+    std::string reason;      // for unusable and missing ones
+    bool not_finite = false; // the picture holds NaN or infinities
     bool from_eight_bits = false;
     double to_truth = 0.0;    // mean LDR-FLIP of the picture to the truth
     double usual = 0.0;       // of Judgement::way to the truth

@@ -161,10 +161,11 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
         mistakes += fmt::format("<li><strong>None of ours</strong> looks like {}.</li>\n", escaped(join(names)));
     for (std::size_t i = 0; i < judgement.scenes.size(); ++i) {
         const SceneJudgement& s = judgement.scenes[i];
-        rows += fmt::format(
-            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td><strong class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td></tr>\n",
-            escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
-            is_compared(s) ? fmt::format("{:.3f}", s.to_truth) : "", is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "");
+        rows += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td><strong "
+                            "class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td><td>{5}</td></tr>\n",
+                            escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
+                            is_compared(s) ? fmt::format("{:.3f}", s.to_truth) : "",
+                            is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "", is_compared(s) ? fmt::format("{:.3f}", s.usual) : "");
         const Result<std::string> shown = pictures_of(s, i, judgement, pictures, drawer, jobs);
         BN_TRY(shown);
         walls += fmt::format(
@@ -182,7 +183,7 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
         "<p>An engine's pictures against the reference's. {6}A picture is right where it looks like the truth, or like the engine's way of "
         "drawing image light without a mistake.</p>\n"
         "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP to the truth</th><th>to what is "
-        "right</th></tr>\n{4}</table>\n{5}"
+        "right</th><th>what is right, to the truth</th></tr>\n{4}</table>\n{5}"
         "</main>\n</body>\n</html>\n",
         title, kChartPageStyle.bytes, kConformStyle.bytes, mistakes.empty() ? "" : "<h2>Mistakes found</h2>\n<ol>\n" + mistakes + "</ol>\n",
         rows, walls, way);

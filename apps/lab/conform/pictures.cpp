@@ -37,11 +37,15 @@ Image three_channels(const Image& image)
 EnginePicture read_engine_picture(const std::string& folder, const std::string& name, const Limits& limits)
 {
     EnginePicture picture;
-    for (const char* extension : {".exr", ".hdr", ".pfm", ".png"})
+    for (const char* extension : kPictureExtensions)
         if (exists(folder + "/" + name + extension)) {
-            picture.file = folder + "/" + name + extension;
-            break;
+            if (!picture.file.empty())
+                picture.fault = fmt::format("is there twice, as {} too: keep one", extension);
+            else
+                picture.file = folder + "/" + name + extension;
         }
+    if (!picture.fault.empty())
+        return picture;
     if (picture.file.empty())
         return picture;
     PictureNotes notes;

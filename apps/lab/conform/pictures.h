@@ -10,6 +10,8 @@
 
 namespace burnish {
 
+inline constexpr const char* kPictureExtensions[] = {".exr", ".hdr", ".pfm", ".png"}; // of an engine's pictures
+
 struct ConformPictures {
     std::vector<Image> truths;         // f32 RGB, by scene
     std::vector<EnginePicture> engine; // by scene

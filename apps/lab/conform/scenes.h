@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-inline constexpr int kConformVersion = 1;                       // of the folder: scenes, environment and views
+inline constexpr int kConformVersion = 2;                       // of the folder: scenes, environment and views
 inline constexpr int kConformWidth = 256, kConformHeight = 192; // of its pictures
 inline constexpr float kConformEv = -1.0f;                      // exposure at which pictures are compared, stops
 

@@ -14,6 +14,7 @@ namespace burnish::obj {
 namespace {
 
 constexpr std::size_t kNamedBytes = 40;
+constexpr std::size_t kMostSaid = 20; // kinds of warnings
 constexpr float kAny = 3.4e38f;
 
 struct ColourStatement {
@@ -88,7 +89,7 @@ class MtlParser {
     }
     void warn_once(std::string_view kind, const std::string& text)
     {
-        if (said_.insert(std::string(kind)).second)
+        if (said_.size() < kMostSaid && said_.insert(std::string(kind)).second)
             out_.warnings.push_back(fmt::format("{}: line {}: {}", path_, lines_.number(), text));
     }
     static std::string shown(std::string_view word) { return printable(std::string(word), kNamedBytes); }
@@ -109,7 +110,7 @@ class MtlParser {
         if (const auto at = find(kMaps, word); at != std::end(kMaps))
             return map(rest, m.*at->to);
         if (std::find(std::begin(kWithoutEffect), std::end(kWithoutEffect), word) == std::end(kWithoutEffect))
-            warn_once("unknown", fmt::format("'{}' is not read", shown(word)));
+            warn_once("unknown " + std::string(word.substr(0, kNamedBytes)), fmt::format("'{}' is not read", shown(word)));
     }
 
     void begin(std::string_view name)

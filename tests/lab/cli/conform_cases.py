@@ -67,7 +67,13 @@ def requests(bench):
     check((bench.folder / "mine/README.md").read_text() == "mine", "a user's file is lost")
     bench.run("conform", "a", "b", "--html", "nowhere/a.html").expect(7).expect_one_line("nowhere")
     folder = bench.folder / "a"
-    folder.mkdir()
+    (folder / "truth").mkdir(parents=True)
+    for name in ("README.md", "truth/mirror.variance.exr", "mirror.exr", "lamp.png"):
+        scratch(bench, f"a/{name}", "mine")
+    for pictures, out in (("b", "a/README.md"), ("b", "a/truth/mirror.variance.exr"), ("a/", "a/mirror.exr")):
+        bench.run("conform", "a" if pictures == "b" else "c", pictures, "--html", out).expect(2).expect_one_line(out)
+        check((bench.folder / out).read_text() == "mine", f"{out} is lost")
+    bench.run("conform", "a", "a", "--draw").expect(2).expect_one_line("PICTURES")
     (folder / "conform.json").write_text('{"burnish_conform": 99}')
     bench.run("conform", "a", "b", "--html", "a/conform.json").expect(2).expect_one_line("a/conform.json")
     bench.run("conform", "a", "b").expect(4).expect_one_line("/burnish_conform", "99", "write the folder anew")
@@ -94,6 +100,14 @@ def folder_is_whole(bench):
             check((folder / f"truth/{scene['name']}.{kind}").is_file(), f"no {kind} of {scene}")
     for name in ("README.md", "pages/three.html", "pages/babylon.html", "pages/pictures.js"):
         check((folder / name).stat().st_size > 500, name)
+    # A folder whose scenes, list or exposure changed is no longer one
+    for name, old, new, words in (("conform.json", '"rotation_30"', '"rotation_31"', "/scenes"), ("conform.json", '"exposure_ev": -1', '"exposure_ev": 5', "/exposure_ev"),
+                                  ("scenes/rotation_30.gltf", '"version"', '"Version"', "/content")):
+        text = (folder / name).read_text()
+        check(old in text, f"{name} has no {old}")
+        (folder / name).write_text(text.replace(old, new, 1))
+        bench.run("conform", folder, "own").expect(4).expect_one_line(words, "write the folder anew")
+        (folder / name).write_text(text)
     # Both environments are the same light
     done = bench.run("compare", "folder/environment.exr", "folder/environment.hdr", "--metric", "rel-mse", "--json", "-").expect(0)
     check(json.loads(done.out)["rel_mse"] < 1e-4, done.out)
@@ -254,6 +268,10 @@ def missing_or_unusable(bench):
     check([s["outcome"] for s in json.loads(done.out)["scenes"]] == ["missing", "right"], done.out)
     suite = xml.etree.ElementTree.parse(bench.folder / "j.xml").getroot()
     check(len(suite.findall(".//testcase")) == 2 and len(suite.findall(".//error")) == 1, "JUnit")
+    # Two pictures of one scene
+    shutil.copy(pictures / "lamp.exr", pictures / "lamp.hdr")
+    done = bench.run("conform", "folder", "pictures", *kept, "-q").expect(4).expect_one_line("lamp", "twice")
+    (pictures / "lamp.hdr").unlink()
     # NaN, another size, and an end that comes too early
     picture = pictures / "rotation_0.pfm"
     picture.write_bytes(b"PF\n256 192\n-1.0\n" + b"\0\0\xc0\x7f" * (256 * 192 * 3))

@@ -179,6 +179,7 @@ TEST(mtl, what_is_not_drawn_is_said)
                                       {"map_d alpha.png", "map_d is read only where it is map_Kd"},
                                       {"newmtl a", "stands here again"}})
         EXPECT_NE(warnings_of(line).find(words), std::string::npos) << line << ": " << warnings_of(line);
+    EXPECT_NE(warnings_of("Pz 0.5\nbump a.png").find("'bump' is not read"), std::string::npos);
     const std::string twice = warnings_of("Pz 0.5\nPz 0.6");
     EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 1) << twice;
 }
