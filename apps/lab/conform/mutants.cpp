@@ -117,7 +117,7 @@ bool direction_green_down(Scene& scene)
     return each_direction(scene, [](float* t) { t[1] = 1.0f - t[1]; });
 }
 
-// Gives a map that repeats often one texel: the mean of its directions at full length.
+// Gives a map that repeats often one texel: the mean of its directions at full length. The mean of angles is the same here.
 bool directions_averaged(Scene& scene)
 {
     constexpr float kOften = 8.0f; // times across a surface
@@ -379,7 +379,7 @@ const std::vector<Mutant>& mutants()
         {"direction_map_srgb", "the texture of directions is read as sRGB", 0, direction_map_srgb},
         {"direction_green_down", "the texture's directions have green down", 0, direction_green_down},
         {"map_strength_ignored", "the strength in the texture's blue is ignored", 0, strength_of_map_ignored},
-        {"directions_averaged", "mip levels average directions, and keep their length", 0, directions_averaged},
+        {"directions_averaged", "mip levels average directions or angles, and keep the length", 0, directions_averaged},
         {"first_coordinates", "the second texture coordinates are ignored", 0, first_coordinates},
         {"transform_ignored", "KHR_texture_transform is ignored", 0, no_texture_transform},
         {"normal_map_ignored", "the normal map is ignored", 0, no_normal_map},
