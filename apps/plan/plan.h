@@ -39,7 +39,7 @@ struct Plan {
 };
 
 // Factor on predictions before they are held to a budget; the notebook has errors over predictions.
-inline constexpr double kPlanSafety = 1.6;
+inline constexpr double kPlanSafety = 1.3;
 inline constexpr double kTimeSafety = 1.05; // the same for times
 
 // A budget of time draws the cheapest plan once, to measure. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage
