@@ -21,8 +21,8 @@ struct ChildRun {
 };
 
 // Returns success if the program ends with 0. Else the Error's reason says how it ended. Its code is not_finite or output_failed for that
-// exit code, and unavailable where the program did not start, was killed from outside or took too long: another machine may do better.
-// Thread-safe.
+// exit code. Its code is unavailable for a program that did not start, was killed from outside or took too long: another machine may
+// succeed. Thread-safe.
 Status run_child(const ChildRun& run);
 
 } // namespace burnish
