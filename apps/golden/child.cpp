@@ -181,6 +181,49 @@ bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, Descri
     return false;
 }
 
+// A process that waits for the end of this one, even by signal 9, and kills a group of processes then.
+class Guard {
+  public:
+    explicit Guard(pid_t group)
+    {
+        int ends[2];
+        if (pipe2(ends, O_CLOEXEC) != 0)
+            return; // without a guard the group outlives this process
+        const Descriptor watched(ends[0]);
+        here_.reset(ends[1]);
+        pid_ = fork();
+        if (pid_ == 0)
+            watch(watched.get(), group);
+    }
+    Guard(const Guard&) = delete;
+    Guard& operator=(const Guard&) = delete;
+    ~Guard()
+    {
+        if (pid_ <= 0)
+            return;
+        kill(pid_, SIGKILL);
+        while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+        }
+    }
+
+  private:
+    // Calls only what is safe in the child of a process with threads. Other descriptors close: among them are those of other guards.
+    [[noreturn]] static void watch(int watched, pid_t group)
+    {
+        if (watched > 0)
+            close_range(0, static_cast<unsigned>(watched) - 1, 0);
+        close_range(static_cast<unsigned>(watched) + 1, ~0u, 0);
+        char byte;
+        while (read(watched, &byte, 1) < 0 && errno == EINTR) {
+        }
+        kill(-group, SIGKILL);
+        _exit(0);
+    }
+
+    Descriptor here_; // closed by the kernel when this process ends
+    pid_t pid_ = -1;
+};
+
 } // namespace
 
 Status run_child(const ChildRun& run)
@@ -218,7 +261,10 @@ Status run_child(const ChildRun& run)
         return not_here(fmt::format("{} cannot be started: {}", name, std::strerror(error)));
     int status = 0;
     input.reset();
-    const bool in_time = wait_for(child, run.seconds, run.stop, output, log, status);
+    const bool in_time = [&] {
+        const Guard guard(child);
+        return wait_for(child, run.seconds, run.stop, output, log, status);
+    }();
     kill(-child, SIGKILL); // whatever it left running
     for (int part = 0; part < kMostLastParts && read_part(output, log); ++part) {
     }

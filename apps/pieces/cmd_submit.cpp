@@ -16,8 +16,8 @@ namespace burnish {
 namespace {
 
 constexpr const char* kSubmitFooter =
-    R"(The command stands behind "--". Slurm's tasks take pieces from each other's rest, so a slow or dead one holds nobody. All scripts
-end with a merge, which judges. It makes what is missing; that of k8s waits for it. The folder of the pieces must be one that all machines see.
+    R"(The command stands behind "--". Tasks of slurm and k8s take pieces from each other's rest, so a slow or dead one holds nobody. All scripts
+end with a merge, which judges, and makes what is missing. The folder of the pieces must be one that all machines see.
 
 Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
@@ -42,7 +42,7 @@ bool is_large(const std::vector<std::string>& words)
 }
 
 // True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table,
-// figures of nets, or goldens.
+// nets, or goldens.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {
@@ -58,7 +58,7 @@ bool has_pieces(const std::vector<std::string>& words)
     if (words[0] == "golden")
         return words.size() > 2 && words[1] == "check";
     if (words[0] == "train")
-        return has("--evaluate");
+        return true;
     return (words[0] == "chart" && !has("--mip")) || (words[0] == "atlas" && !has("--list")) || (words[0] == "conform" && has("--write"));
 }
 
@@ -72,7 +72,7 @@ int run_submit(const SubmitOptions& given)
         return fail(usage_error(
             "COMMAND",
             "has no pieces: render --backend reference, --animate, --turntable and --band-rows, chart, atlas, conform --write, bake mip, "
-            "bake ltc, train mip --evaluate and golden check have"));
+            "bake ltc, train mip and golden check have"));
     if (options.words[0] == "golden" && std::any_of(options.words.begin(), options.words.end(),
                                                     [](const std::string& w) { return w == "--jobs" || w.starts_with("--jobs="); }))
         return fail(usage_error("COMMAND", "has --jobs, and a process makes its pieces one after the other"));

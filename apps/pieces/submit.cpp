@@ -17,14 +17,15 @@ namespace {
 // A script, with places:
 //   @COMMAND@                the burnish command as shell words
 //   @TAKE@                   the command that takes pieces, as one shell word
-//   @SHARD@, @ARGS@          the command with one share: as JSON, and as a list of words in JSON
+//   @TAKEJSON@               the same as JSON
+//   @ARGS@                   the command with one share, as a list of words in JSON
 //   @WORK@, @WORKJSON@       the folder of the pieces
 //   @SHARDS@, @LAST@         the number of shares, and one less
 //   @SHARES@                 1, 2, ... with commas
 //   @MOST@                   how many run at once
 //   @OUTPUTS@                lines with the command's outputs
 //   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes what is missing, and merges again
-//   @AWAITJSON@              a shell line that merges when all pieces are there
+//   @TAKEMERGE@              a shell line in JSON that takes pieces too, then merges
 struct Script {
     const char *name, *text;
     bool limits = true;  // how many run at once
@@ -52,13 +53,13 @@ parallel --jobs @MOST@ --retries 2 --joblog @WORK@/joblog < @WORK@/commands || t
 @MERGE@
 )"},
     {"k8s",
-     R"(# Put in the image that holds burnish, and the claim of a volume with the scene, which all pods can write. The second job waits for the first.
+     R"(# Put in the image that holds burnish, and the claim of a volume with the scene, which all pods can write. The second job takes pieces
+# too, and merges when all are there.
 apiVersion: batch/v1
 kind: Job
 metadata:
   name: burnish-pieces
 spec:
-  completionMode: Indexed
   completions: @SHARDS@
   parallelism: @MOST@
   backoffLimit: @SHARDS@
@@ -69,7 +70,7 @@ spec:
         - name: burnish
           image: IMAGE
           workingDir: /job
-          command: ["sh", "-c", @SHARD@]
+          command: ["sh", "-c", @TAKEJSON@]
           volumeMounts: [{name: job, mountPath: /job}]
       volumes: [{name: job, persistentVolumeClaim: {claimName: CLAIM}}]
 ---
@@ -86,7 +87,7 @@ spec:
         - name: burnish
           image: IMAGE
           workingDir: /job
-          command: ["sh", "-c", @AWAITJSON@]
+          command: ["sh", "-c", @TAKEMERGE@]
           volumeMounts: [{name: job, mountPath: /job}]
       volumes: [{name: job, persistentVolumeClaim: {claimName: CLAIM}}]
 )"},
@@ -236,31 +237,30 @@ std::string submit_script(const SubmitOptions& options)
     const std::string command = "burnish " + shell_words(options.words);
     const std::string once = command + " --merge --work " + work;
     // Where pieces are missing, a merge prints their commands alone
-    const std::string tried = "left=$(" + once + ") && code=0 || code=$?; case $left in 'burnish '*) ";
-    const std::string merge = tried + "printf '%s\\n' \"$left\" | sh || true; " + once +
+    const std::string merge = "left=$(" + once +
+                              ") && code=0 || code=$?; case $left in 'burnish '*) printf '%s\\n' \"$left\" | sh || true; " + once +
                               " && code=0 || code=$?;; ?*) printf '%s\\n' \"$left\";; esac; exit $code";
-    const std::string await = "while :; do " + tried + "sleep 20;; *) printf '%s\\n' \"$left\"; exit $code;; esac; done";
+    const std::string take = command + " --take --work " + work;
     std::vector<std::string> args = options.words;
     args.insert(args.end(), {"--shard", "{{Task.Param.Share}}/" + shards, "--work", options.work});
     std::string shares;
     for (int i = 1; i <= options.shards; ++i)
         shares += (i > 1 ? ", " : "") + std::to_string(i);
-    const std::pair<const char*, std::string> places[] = {
-        {"@COMMAND@", command},
-        {"@TAKE@", shell_words({command + " --take --work " + work})},
-        {"@SHARD@", for_kubernetes(command + " --shard auto/" + shards + " --work " + work)},
-        {"@MERGEWORD@", shell_words({merge})},
-        {"@MERGEJSON@", as_json(merge)},
-        {"@AWAITJSON@", for_kubernetes(await)},
-        {"@MERGE@", merge},
-        {"@OUTPUTS@", output_lines(options.words)},
-        {"@ARGS@", as_json(args)},
-        {"@WORKJSON@", as_json(options.work)},
-        {"@WORK@", work},
-        {"@SHARDS@", shards},
-        {"@SHARES@", shares},
-        {"@LAST@", std::to_string(options.shards - 1)},
-        {"@MOST@", std::to_string(options.at_once ? options.at_once : options.shards)}};
+    const std::pair<const char*, std::string> places[] = {{"@COMMAND@", command},
+                                                          {"@TAKEJSON@", for_kubernetes(take)},
+                                                          {"@TAKEMERGE@", for_kubernetes(take + " || true; " + merge)},
+                                                          {"@TAKE@", shell_words({take})},
+                                                          {"@MERGEWORD@", shell_words({merge})},
+                                                          {"@MERGEJSON@", as_json(merge)},
+                                                          {"@MERGE@", merge},
+                                                          {"@OUTPUTS@", output_lines(options.words)},
+                                                          {"@ARGS@", as_json(args)},
+                                                          {"@WORKJSON@", as_json(options.work)},
+                                                          {"@WORK@", work},
+                                                          {"@SHARDS@", shards},
+                                                          {"@SHARES@", shares},
+                                                          {"@LAST@", std::to_string(options.shards - 1)},
+                                                          {"@MOST@", std::to_string(options.at_once ? options.at_once : options.shards)}};
     return filled(script_of(options.engine).text, places);
 }
 

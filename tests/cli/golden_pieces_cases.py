@@ -1,9 +1,11 @@
 """burnish golden in pieces: rows of a manifest by processes that share a folder."""
 
 import json
+import pathlib
 import shlex
 import shutil
 import subprocess
+import time
 
 import gltf_files
 from environment_files import hdr, rgbe
@@ -123,10 +125,34 @@ def machines_that_fail(bench):
     check(done.returncode == 7 and "No space left" in done.stderr, f"{done.returncode} {done.stderr}")
 
 
+@case("golden.a_killed_check_ends_its_programs", budget=20)
+def killed(bench):
+    """Signal 9 to a process that makes rows ends their programs, and what these started: no program goes on beside its successor."""
+    here = bench.folder / "go"
+    write(bench, [{"name": f"row{i}", "command": ["sh", "-c", f"sleep 60 & echo $! > {here}.{i}; echo $$ >> {here}.{i}; wait"], "picture": f"out{i}.ppm"} for i in range(2)])
+    for words in (("--jobs", "2"), ("--take", "--work", "w")):
+        maker = subprocess.Popen([bench.program, "golden", "check", "m.json", *words], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        count = 2 if "--jobs" in words else 1
+        until = time.monotonic() + 20
+        pids = []
+        while len(pids) < 2 * count and time.monotonic() < until:
+            time.sleep(0.02)
+            pids = [int(line) for path in bench.folder.glob("go.*") for line in path.read_text().split()]
+        check(len(pids) == 2 * count and all(pathlib.Path(f"/proc/{pid}").exists() for pid in pids), f"{words}: {pids}")
+        maker.kill()
+        maker.wait()
+        alive = lambda pid: pathlib.Path(f"/proc/{pid}").exists() and pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+        while any(map(alive, pids)) and time.monotonic() < until:
+            time.sleep(0.02)
+        check(not any(map(alive, pids)), f"{words}: a program goes on")
+        for path in bench.folder.glob("go.*"):
+            path.unlink()
+
+
 @case("golden.merges_of_scripts_end_with_the_verdict", budget=20)
 def merges_of_scripts(bench):
     """A merge makes what is missing, and its exit code is that of one process: 0, or the verdict of golden pictures. No word of a picture's
-    name is run. A job that waits ends when the last piece is there."""
+    name is run. A merge of k8s takes what no pod makes."""
     import yaml
     name = "$(touch run) `touch run`; touch run"
     (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": name, "scene": "builtin:plate", "options": ["--size", "48x32", "--env-size", "16", "--env-samples", "16"]}]}))
@@ -138,8 +164,6 @@ def merges_of_scripts(bench):
         line = list(yaml.safe_load_all(text))[1]["spec"]["template"]["spec"]["containers"][0]["command"][2].replace("$$", "$") if engine == "k8s" else text.splitlines()[-1]
         if engine == "slurm":
             line = shlex.split(line)[-1]
-        if engine == "k8s":
-            bench.run(*golden, "--take", "--work", engine).expect(0)
         done = subprocess.run(["sh", "-c", line], cwd=bench.folder, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=100)
         check(done.returncode == 5 and "1 have no golden" in done.stderr, f"{engine}: {done.returncode} {done.stdout}{done.stderr}")
         check((bench.folder / "results/index.html").exists(), engine)

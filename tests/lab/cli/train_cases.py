@@ -10,6 +10,7 @@ import time
 from compare_cases import png
 from detail_cases import bumps
 from harness import case, check
+from pieces_cases import one_and_pieces, pieces_of
 
 SMALL = ("train", "mip", "--steps", "20")
 SHIPPED = pathlib.Path(__file__).resolve().parents[3] / "shading/bake/mipnet"
@@ -41,6 +42,43 @@ def killed(bench):
     check(bench.left_behind() == ["straight.mipnet", "w.mipnet"], f"left {bench.left_behind()}")
 
 
+@case("train.pieces_of_seeds_make_the_best_weights", budget=20)
+def seeds(bench):
+    """One seed is a piece: more seeds share the pieces of fewer, and the best weights are those of its seed alone."""
+    words = ("train", "mip", "--steps", "40", "--size", "1x8", "--seed", "5", "-q")
+    three = (*words, "--seeds", "3")
+    one_and_pieces(bench, three, ("best.mipnet",), machine=("--threads", "1"))
+    alone = {}
+    for seed in range(5, 8):
+        bench.run(*words, "--seed", str(seed), "-o", f"{seed}.mipnet").expect(0)
+        alone[seed] = (bench.folder / f"{seed}.mipnet").read_bytes()
+    best = (bench.folder / "one/best.mipnet").read_bytes()
+    check(best in alone.values(), "the best weights are those of no seed")
+    for seed in alone:
+        bench.run("train", "mip", "--evaluate", f"{seed}.mipnet", "--validation", "-q", "--json", f"{seed}.json").expect(0)
+    error = {seed: [row["mean"]["l1"] for row in json.loads((bench.folder / f"{seed}.json").read_text())["rows"] if row["filter"] == "mipnet"] for seed in alone}
+    check(best == alone[min(error, key=lambda seed: sum(error[seed]))], f"not the lowest error: { {seed: sum(e) for seed, e in error.items()} }")
+    keys = [key for key, _, _ in pieces_of(bench, (*three, "-o", "a.mipnet"))]
+    check(keys[:2] == [key for key, _, _ in pieces_of(bench, (*words, "--seeds", "2", "-o", "b.mipnet"))], "two seeds have other pieces")
+    check(keys[1:] == [key for key, _, _ in pieces_of(bench, (*words, "--seed", "6", "--seeds", "2", "-o", "b.mipnet"))], "a later first seed has other pieces")
+    check(not set(keys) & {key for key, _, _ in pieces_of(bench, (*three, "--light", "1", "-o", "a.mipnet"))}, "another loss has the same pieces")
+    bench.run(*three, "-o", "a.mipnet", "--pieces", "--checkpoint", "c.part").expect(2).expect_one_line("--checkpoint")
+    # A killed maker's checkpoint is used by the next: it ends at the same bytes
+    long = (*words, "--steps", "3000", "-o", "long.mipnet")
+    maker = subprocess.Popen([bench.program, *long, "--take", "--work", "k"], cwd=bench.folder, env=bench.environment({}))
+    time.sleep(1.0)
+    maker.send_signal(signal.SIGTERM)
+    code = maker.wait()
+    check(code in (0, 128 + signal.SIGTERM, -signal.SIGTERM), f"it ended with {code}")
+    check(code != 128 + signal.SIGTERM or list((bench.folder / "k").glob("*.part")), "no checkpoint stays")
+    bench.run(*long, "--take", "--work", "k", timeout=100).expect(0)
+    check(not list((bench.folder / "k").glob("*.part")), "a checkpoint stays beside its piece")
+    bench.run("merge", "k").expect(0)
+    merged = (bench.folder / "long.mipnet").read_bytes()
+    bench.run(*long, timeout=100).expect(0)
+    check((bench.folder / "long.mipnet").read_bytes() == merged, "other bytes after a stop")
+
+
 @case("train.what_is_wrong_says_one_line", "input")
 def wrong(bench):
     (bench.folder / "bad.mipnet").write_bytes(b"bnmip01\n" + b"\1\0\0\0" * 20)
@@ -54,7 +92,7 @@ def wrong(bench):
             (("-o", "w.mipnet", "--from", "bad.mipnet"), 4, "bad.mipnet"), (("-o", "w.mipnet", "--from", "none"), 4, "none"),
             (("-o", "w.mipnet", "--taught-by", "bad.mipnet"), 4, "bad.mipnet"), (("-o", "w.mipnet", "--taught-by", SHIPPED / "beckmann.mipnet"), 4, "beckmann"),
             (("-o", "w.mipnet", "--footprint", "8", "--size", "2x8"), 2, "--footprint"), (("-o", "w.mipnet", "--footprint", "6"), 2, "--footprint"),
-            (("-o", "w.mipnet", "--light", "-1"), 2, "--light"),
+            (("-o", "w.mipnet", "--light", "-1"), 2, "--light"), (("-o", "w.mipnet", "--seeds", "0"), 2, "--seeds"),
             (("-o", "w.mipnet", "--from", SHIPPED / "beckmann.mipnet"), 4, "beckmann"), (("-o", "w.mipnet", "--from", SHIPPED / "ggx_aniso.mipnet", "--size", "2x8"), 4, "2x32/2x64"), (("-o", "-"), 2, "-o"), (("-o", "no/w.mipnet"), 7, "no/w.mipnet"),
             (("-o", "t.mipnet"), 4, "t.mipnet.part"), (("-o", "w.mipnet", "--steps", "0"), 2, "--steps")):
         bench.run("train", "mip", *words).expect(code).expect_one_line(needle)
