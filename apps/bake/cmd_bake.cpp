@@ -45,7 +45,7 @@ holds the highlight's. See render --rotation-map.
 half-vectors: half vectors that an Ashikhmin-Shirley lobe samples, over both random numbers; an .exr also holds their density.
 brdf-lut: directional albedo of that lobe, f0 red + green, over the eye's azimuth and the square root of its cosine. render --as-table reads
 both tables; exponents count to five digits.
-environment: a baked environment in a folder. render --env FOLDER reads it. --textures adds files for engines: prefiltered levels (specular),
+environment: a baked environment in a folder. render --env FOLDER reads it. --format adds files for engines: prefiltered levels (specular),
 box-filtered levels (box), irradiance, the environment with its key lights (whole), the DFG table, and the key lights as JSON and GLSL.
 mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
 render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
@@ -66,10 +66,12 @@ Examples:
   burnish bake half-vectors --nu 70 --nv 400 --size 64x64 -o half_vectors.exr
   burnish bake brdf-lut --nu 70 --nv 400 -o albedo.exr
   burnish bake environment workshop.hdr -o workshop
-  burnish bake environment workshop.hdr --textures ktx2 -o workshop
+  burnish bake environment workshop.hdr --format ktx2 -o workshop
   burnish bake mip copper_brushed --mip-filter kappa -o copper.mip --preview levels
   burnish bake mip copper_brushed --mip-filter kappa --format png-levels -o textures
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
+
+enum class BakeFormat { none, pyramid, exr_mip, png_levels, ktx2, dds, exr }; // the levels of mip, then the textures of environment
 
 struct BakeArguments {
     std::string what = "ltc", picture, heights, output, preview;
@@ -82,6 +84,7 @@ struct BakeArguments {
     PictureSize size = {0, 0};
     AzimuthAxis azimuth = AzimuthAxis::root;
     EnvironmentOptions environment;
+    BakeFormat format = BakeFormat::none;
     TextureFormat textures = TextureFormat::none;
     TexelType texels = TexelType::half;
     RotationEncoding encoding = RotationEncoding::vector;
@@ -155,16 +158,21 @@ OptionTable bake_option_table(BakeArguments& to)
          {"--key-lights", "N", "Small strong lights to extract from the environment, at most: {}",
           extracted_lights(to.environment.extracted_lights)},
          {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)},
-         {"--textures", "NAME", "Also textures for engines: {}; cubes with all levels, the DFG table, key lights",
-          choice(to.textures, {"none", "ktx2", "dds", "exr"})},
-         {"--texels", "NAME", "Numbers in --textures ktx2 and dds: {} (16 or 32 bits)", choice(to.texels, {"half", "float"})}});
+         {"--textures", "NAME", "An older name of --format for textures: {}", choice(to.textures, {"none", "ktx2", "dds", "exr"})},
+         {"--texels", "NAME", "Numbers in --format ktx2 and dds: {} (16 or 32 bits)", choice(to.texels, {"half", "float"})}});
     table.add(
         "Output",
         {Option("-o,--output", "FILE",
                 "Table or map to write: .png or .tif, for quaternion, tpr and half-vectors also .exr, for displaced .glb", file(to.output))
              .is_output(),
+         {"--format", "NAME",
+          "Of mip: pyramid (a file for render --mip-pyramid), exr-mip or png-levels (a folder of textures for other programs). Of "
+          "environment, also textures for engines: ktx2, dds or exr (cubes with all levels, the DFG table, key lights), or none",
+          choice(to.format, {"none", "pyramid", "exr-mip", "png-levels", "ktx2", "dds", "exr"}), "mip pyramid, environment none"},
          Option("--preview", "FOLDER", "Folder for .png pictures of the result, to look at", folder(to.preview)).is_output(),
-         quiet_option(to.quiet), verbose_option(to.verbosity), threads_option(to.threads)});
+         quiet_option(to.quiet),
+         verbose_option(to.verbosity),
+         threads_option(to.threads)});
     table.add("Pieces of ltc and mip, for several processes", piece_options(to.pieces));
     table.take(limits, "Limits on input",
                {{"--limit-image-side", "Width and height of the input picture"}, {"--limit-file-bytes", "Size of one input file"}});
@@ -416,6 +424,28 @@ int run_phong(const BakeArguments& a, const OptionTable& given)
     return write_map(a, table, warnings, preview_of_half_vectors);
 }
 
+// Gives --format to the part that has such an output.
+Status take_format(BakeArguments& a, const OptionTable& given)
+{
+    if (!given.given("--format"))
+        return {};
+    const bool levels = a.format >= BakeFormat::pyramid && a.format <= BakeFormat::png_levels;
+    if (a.what == "mip" && levels) {
+        a.mip.format = static_cast<MipFormat>(static_cast<int>(a.format) - static_cast<int>(BakeFormat::pyramid));
+        return {};
+    }
+    if (a.what != "environment" || levels)
+        return usage_error("--format", a.what == "mip"           ? "is pyramid, exr-mip or png-levels for mip"
+                                       : a.what == "environment" ? "is none, ktx2, dds or exr for environment"
+                                                                 : "is of mip and environment");
+    if (given.given("--textures"))
+        return usage_error("--textures", "is an older name of --format: one of them");
+    a.textures = a.format == BakeFormat::none
+                     ? TextureFormat::none
+                     : static_cast<TextureFormat>(static_cast<int>(a.format) - static_cast<int>(BakeFormat::ktx2) + 1);
+    return {};
+}
+
 int run_bake(const BakeArguments& by_default, const OptionTable& given)
 {
     BakeArguments arguments = by_default;
@@ -429,8 +459,10 @@ int run_bake(const BakeArguments& by_default, const OptionTable& given)
                 return fail(usage_error(option, "is of half-vectors and brdf-lut"));
     if (given.given("--brdf") && arguments.what != "ltc" && arguments.what != "mip")
         return fail(usage_error("--brdf", "is of ltc and mip"));
+    if (const Status format = take_format(arguments, given); !format)
+        return fail(format.error());
     if (given.given("--texels") && arguments.textures != TextureFormat::ktx2 && arguments.textures != TextureFormat::dds)
-        return fail(usage_error("--texels", "is of --textures ktx2 and dds"));
+        return fail(usage_error("--texels", "is of --format ktx2 and dds"));
     if (given.given("--azimuth") && arguments.what != "brdf-lut")
         return fail(usage_error("--azimuth", "is of brdf-lut"));
     if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")

@@ -225,9 +225,6 @@ std::vector<Option> mip_options(MipArguments& to)
              "For the ssgt, kappa, mipnet and teacher filters: {}; on scales each level's colours to reflect as much lamp light as "
              "the finest level",
              choice(to.gains, {"off", "on"})},
-            {"--format", "NAME",
-             "Output: pyramid (a file for render --mip-pyramid), or exr-mip or png-levels (a folder of textures for other programs)",
-             choice(to.format, {"pyramid", "exr-mip", "png-levels"})},
             {"--couple", "NAME", "Weights of base colours and metalness: none, or albedo (texels that face light and eye weigh more)",
              choice(to.couple_albedo, {"none", "albedo"})},
             {"--color-kernel", "NAME", "Averaging kernel for base colours and metalness: {}", choice(to.color_kernel, {"box", "kaiser"})}};

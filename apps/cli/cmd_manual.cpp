@@ -38,14 +38,15 @@ namespace {
 
 struct ManualArguments {
     std::string what = "man", subcommand;
+    bool markdown = false;
 };
 
 Status print_markdown(const std::string& name)
 {
     bool found = false;
     for (const Command& command : all_commands()) {
-        if (!name.empty() && command.name != name)
-            continue;
+        if (name.empty() ? !command.run : command.name != name)
+            continue; // burnish-lab prints the laboratory's
         std::fputs(((found ? "\n" : "") + markdown_page(command)).c_str(), stdout);
         found = true;
     }
@@ -61,7 +62,9 @@ bool asks_lab(const std::string& name)
 
 int run_manual(const ManualArguments& arguments)
 {
-    if (arguments.what == "markdown") {
+    if (arguments.markdown && arguments.what != "man" && arguments.what != "markdown")
+        return fail(usage_error("--markdown", "is the reference, and no completion for a shell"));
+    if (arguments.markdown || arguments.what == "markdown") {
         if (asks_lab(arguments.subcommand))
             return start_lab({"manual", "markdown", arguments.subcommand});
         const Status printed = print_markdown(arguments.subcommand);
@@ -85,7 +88,8 @@ Command manual_command()
     auto arguments = std::make_shared<ManualArguments>();
     OptionTable table;
     table.add("", {{"WHAT", "", "{}", choice(arguments->what, {"man", "bash", "zsh", "fish", "markdown"})},
-                   {"SUBCOMMAND", "", "Subcommand for a markdown page of the reference", text(arguments->subcommand), "all of them"}});
+                   {"SUBCOMMAND", "", "Subcommand for a markdown page of the reference", text(arguments->subcommand), "all of them"},
+                   {"--markdown", "", "The same as markdown: all pages of the reference", flag(arguments->markdown)}});
     return {"manual", "Print the manual page, a page of the reference, or completions for a shell", table,
             "Examples:\n  burnish manual | man -l -\n  source <(burnish manual bash)\n  burnish manual fish > "
             "~/.config/fish/completions/burnish.fish\n  burnish manual markdown render > render.md",

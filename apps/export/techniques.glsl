@@ -1,11 +1,12 @@
-// The source of `burnish export`: all techniques, with a stage (shading/lang/stage.h) that has no buffers, only user-supplied
+// The source of `burnish export`: all techniques, with a stage (shading/inputs/stage.h) that has no buffers, only user-supplied
 // fetches. The C preprocessor flattens this file at build time, and apps/export keeps the parts of one technique.
 #define BN_FRAME_H
 #define BN_STAGE_GLSL
 #define BN_CUBE_FILTER_K_H
 #define BN_OWN_TEXELS
+#define BN_LTC_CORNERS 4
 
-// You provide this function: texel (at % 192, at / 192) of the texture ltc of `burnish bake environment --textures`, without filtering.
+// You provide this function: texel (at % 192, at / 192) of the texture ltc of `burnish bake environment --format`, without filtering.
 vec4 ltc_texel(int at);
 
 vec4 bn_texel(int texels, int at)
@@ -181,7 +182,7 @@ aniso_lobe lobe_of_widths(vec3 n, vec3 tangent, float roughness, float anisotrop
     return lobe;
 }
 
-// Returns the place of a lobe's directional albedo in the texture lobe_albedo of `burnish bake environment --textures`. xy: coordinates of
+// Returns the place of a lobe's directional albedo in the texture lobe_albedo of `burnish bake environment --format`. xy: coordinates of
 // a bilinear fetch; z, w: weights of the tiles to the right and below, 0.1 further. With t() for the fetch, the argument dfg of point_of()
 // is
 //     mix(mix(t(x, y), t(x + 0.1, y), z), mix(t(x, y + 0.1), t(x + 0.1, y + 0.1), z), w)
@@ -208,10 +209,10 @@ shaded_point point_of(settings f, vec3 n, vec3 v, vec3 tangent, vec3 f0, vec3 f9
     x.diffuse = false;
     x.dielectric_f0 = f0;
     x.dielectric_f90 = lit(1.0);
-    x.refracts = false;
-    x.disperses = false;
-    x.samples_interface = false;
-    x.body = false;
+    x.transmission.refracts = false;
+    x.transmission.disperses = false;
+    x.transmission.samples_interface = false;
+    x.transmission.body = false;
     x.lobe = lobe_of_widths(n, tangent, roughness, anisotropy);
     x.s.n = n;
     x.s.v = v;

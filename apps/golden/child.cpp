@@ -207,12 +207,17 @@ class Guard {
     }
 
   private:
-    // Calls only what is safe in the child of a process with threads. Other descriptors close: among them are those of other guards.
+    // Calls only what is safe in the child of a process with threads. Leaves the parent's group, which a signal may end as a whole. Closes
+    // other descriptors: among them are this pipe's other end, and those of other guards.
     [[noreturn]] static void watch(int watched, pid_t group)
     {
-        if (watched > 0)
-            close_range(0, static_cast<unsigned>(watched) - 1, 0);
-        close_range(static_cast<unsigned>(watched) + 1, ~0u, 0);
+        setsid();
+        const long most = sysconf(_SC_OPEN_MAX);
+        if ((watched > 0 && close_range(0, static_cast<unsigned>(watched) - 1, 0) != 0) ||
+            close_range(static_cast<unsigned>(watched) + 1, ~0u, 0) != 0)
+            for (int fd = 0; fd < most; ++fd) // a kernel without close_range()
+                if (fd != watched)
+                    close(fd);
         char byte;
         while (read(watched, &byte, 1) < 0 && errno == EINTR) {
         }
@@ -263,9 +268,10 @@ Status run_child(const ChildRun& run)
     input.reset();
     const bool in_time = [&] {
         const Guard guard(child);
-        return wait_for(child, run.seconds, run.stop, output, log, status);
+        const bool ended = wait_for(child, run.seconds, run.stop, output, log, status);
+        kill(-child, SIGKILL); // whatever it left running
+        return ended;
     }();
-    kill(-child, SIGKILL); // whatever it left running
     for (int part = 0; part < kMostLastParts && read_part(output, log); ++part) {
     }
     log.end();

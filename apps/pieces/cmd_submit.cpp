@@ -73,6 +73,10 @@ int run_submit(const SubmitOptions& given)
             "COMMAND",
             "has no pieces: render --backend reference, --animate, --turntable and --band-rows, chart, atlas, conform --write, bake mip, "
             "bake ltc, train mip and golden check have"));
+    for (const std::string option : {"--checkpoint", "--target-error"})
+        if (std::any_of(options.words.begin(), options.words.end(),
+                        [&](const std::string& w) { return w == option || w.starts_with(option + "="); }))
+            return fail(usage_error("COMMAND", "has " + option + ", which is of a single process"));
     if (options.words[0] == "golden" && std::any_of(options.words.begin(), options.words.end(),
                                                     [](const std::string& w) { return w == "--jobs" || w.starts_with("--jobs="); }))
         return fail(usage_error("COMMAND", "has --jobs, and a process makes its pieces one after the other"));

@@ -42,14 +42,12 @@ std::uint64_t hash_of_files(const std::string& path)
 
 } // namespace
 
-std::string text_of_given(const OptionTable& given, std::initializer_list<std::string_view> but)
+std::string text_of_given(const OptionTable& given)
 {
     std::string text;
     for (const Option& option : given.options()) {
-        const bool elsewhere =
-            option.output || option.group.starts_with("Pieces") || option.name.starts_with("--limit-") ||
-            std::find(std::begin(kChangesNothing), std::end(kChangesNothing), option.name) != std::end(kChangesNothing) ||
-            std::find(but.begin(), but.end(), option.name) != but.end();
+        const bool elsewhere = option.output || option.group.starts_with("Pieces") || option.name.starts_with("--limit-") ||
+                               std::find(std::begin(kChangesNothing), std::end(kChangesNothing), option.name) != std::end(kChangesNothing);
         if (!option.given || elsewhere)
             continue;
         const bool file = option.value.kind == ValueKind::file || option.value.kind == ValueKind::folder;

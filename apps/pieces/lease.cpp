@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
 #include <memory>
@@ -19,14 +20,16 @@
 namespace burnish {
 namespace {
 
-// Returns this machine's name without blanks.
+// Returns this machine's name without blanks, and its space of process numbers: containers of one machine have their own.
 std::string host_name()
 {
     char host[256] = {};
     const bool known = ::gethostname(host, sizeof host - 1) == 0 && host[0] != '\0';
     std::string name = known ? host : "unknown";
     std::replace(name.begin(), name.end(), ' ', '-');
-    return name;
+    std::error_code failed;
+    const std::string numbers = std::filesystem::read_symlink("/proc/self/ns/pid", failed).string();
+    return failed ? name : name + "/" + numbers;
 }
 
 // True if a lease's owner ran on this machine and runs no more. content: MACHINE PROCESS RANDOM COUNT.

@@ -80,6 +80,10 @@ metadata:
   name: burnish-merge
 spec:
   backoffLimit: 4
+  podFailurePolicy: # a verdict is no reason to try again
+    rules:
+      - action: FailJob
+        onExitCodes: {containerName: burnish, operator: In, values: [1, 2, 4, 5, 6]}
   template:
     spec:
       restartPolicy: Never

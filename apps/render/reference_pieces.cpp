@@ -76,6 +76,7 @@ std::vector<JobPiece> reference_pieces(const RenderOptions& options, const Frame
     while (blocks * ((passes + node - 1) / node) > kMostPieces && node < passes)
         node *= 2;
     const std::uint64_t picture = reference_key(session.parts().input(), session.drawn(desc), options.reference);
+    options.reference.part->key = picture;
     const auto rate = std::make_shared<std::optional<double>>();
     std::vector<JobPiece> pieces;
     const auto add = [&](Range of_blocks, Range of_passes) {
@@ -106,7 +107,9 @@ std::vector<JobPiece> reference_pieces(const RenderOptions& options, const Frame
 Status take_reference_pieces(const RenderOptions& options, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
 {
     ReferencePart& part = *options.reference.part;
+    const std::uint64_t key = part.key;
     part = {};
+    part.key = key;
     for (std::size_t i = 0; i < files.size(); ++i) {
         Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
         BN_TRY(content);

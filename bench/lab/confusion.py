@@ -17,8 +17,8 @@ import sys
 import tempfile
 
 MISTAKES = ("anisotropy_ignored", "rotation_clockwise", "rotation_in_degrees", "axes_swapped", "handedness_ignored", "bend_factor", "no_bend", "no_specular_image",
-            "strength_squared_twice", "alpha_is_roughness", "direction_map_srgb", "directions_averaged", "normal_map_ignored", "geometric_normals", "no_fresnel",
-            "no_energy_share", "sky_mirrored_x", "sky_mirrored_z", "tonemapped_neutral", "upside_down", "field_of_view")
+            "strength_squared_twice", "alpha_is_roughness", "direction_map_srgb", "directions_averaged", "directions_unnormalised", "normal_map_ignored", "geometric_normals", "no_fresnel",
+            "no_energy_share", "sky_mirrored_x", "sky_mirrored_y", "sky_mirrored_z", "exposure", "tonemapped_neutral", "upside_down", "field_of_view")
 
 
 def run(program, *words, codes=(0,)):

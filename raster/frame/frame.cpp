@@ -551,6 +551,8 @@ Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_id
 
 std::uint64_t count_not_finite(const Image& image)
 {
+    if (image.bytes.empty())
+        return 0;
     BN_CHECK(image.type == PixelType::f32);
     const std::size_t channels = static_cast<std::size_t>(image.channels), words = image.bytes.size() / sizeof(float);
     const float* const v = image.f32();

@@ -267,7 +267,7 @@ Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // che
 
 // Returns a 64-bit hash over the size and every colour word's bits. Equal pictures have equal hashes on every machine.
 std::uint64_t pixel_hash(const Image& image);
-std::uint64_t count_not_finite(const Image& image); // number of pixels with a NaN or Inf channel
+std::uint64_t count_not_finite(const Image& image); // number of pixels with a NaN or Inf channel; an empty image has none
 // Returns a frame as RGBA. The frame must be drawn with triangle_ids and without background. Alpha is the mean coverage of a pixel's
 // samples (1 under a solid triangle, 1 - through elsewhere). Colours are associated (multiplied by alpha), as in `color`. through:
 // Frame::through, may be empty.

@@ -19,21 +19,30 @@ std::size_t pixel_count(const Accumulator& a)
 Accumulator::Accumulator(int w, int h)
     : width(w), height(h), blocks_x((w + kBlockSide - 1) / kBlockSide), blocks_y((h + kBlockSide - 1) / kBlockSide)
 {
+    pixels = pixel_count(*this);
     sums.resize(kMostSums);
     passes.resize(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y));
+}
+
+void hold_blocks(Accumulator& a, std::size_t first, std::size_t count)
+{
+    const auto row = static_cast<std::size_t>(a.blocks_x), width = static_cast<std::size_t>(a.width);
+    const std::size_t begin = first / row * kBlockSide, end = ((first + count - 1) / row + 1) * kBlockSide;
+    a.first_pixel = begin * width;
+    a.pixels = std::min(end, static_cast<std::size_t>(a.height)) * width - a.first_pixel;
 }
 
 void reserve_sums(Accumulator& a, std::uint32_t passes)
 {
     for (int k = 0; k < kMostSums; ++k)
         if (passes >> k & 1u && a.sums[static_cast<std::size_t>(k)].size() == 0)
-            a.sums[static_cast<std::size_t>(k)].resize(pixel_count(a));
+            a.sums[static_cast<std::size_t>(k)].resize(a.pixels);
 }
 
 void keep_totals(Accumulator& a, std::uint32_t passes)
 {
     a.last_passes = passes;
-    a.totals.resize(pixel_count(a));
+    a.totals.resize(a.pixels);
 }
 
 std::uint32_t bits_of_passes(const Accumulator& a)
@@ -58,6 +67,7 @@ PixelBlock block_of(const Accumulator& a, std::size_t index, std::uint32_t until
     b.y0 = static_cast<int>(index / static_cast<std::size_t>(a.blocks_x)) * kBlockSide;
     b.width = std::min(kBlockSide, a.width - b.x0);
     b.height = std::min(kBlockSide, a.height - b.y0);
+    b.first_pixel = a.first_pixel;
     b.first_pass = a.first_pass;
     b.done = a.passes[index];
     b.passes = until > b.done ? until - b.done : 0;

@@ -18,12 +18,16 @@ struct Accumulator {
     Accumulator(int width, int height);
     int width = 0, height = 0;
     int blocks_x = 0, blocks_y = 0;
-    std::uint32_t first_pass = 0;         // of the sums
-    std::vector<Column<PixelState>> sums; // kMostSums: of 2^k passes, by pixel, row-major; empty where no block's passes have bit k
-    Column<std::uint32_t> passes;         // by block, row-major
-    std::uint32_t last_passes = 0;        // blocks with so many have totals in place of sums; 0: none
-    Column<PixelState> totals;            // by pixel, row-major
+    std::size_t first_pixel = 0, pixels = 0; // that the columns hold, row-major
+    std::uint32_t first_pass = 0;            // of the sums
+    std::vector<Column<PixelState>> sums;    // kMostSums: of 2^k passes, by pixel; empty where no block's passes have bit k
+    Column<std::uint32_t> passes;            // by block, row-major
+    std::uint32_t last_passes = 0;           // blocks with so many have totals in place of sums; 0: none
+    Column<PixelState> totals;               // by pixel
 };
+
+// Restricts a new accumulator's columns to the rows of some blocks: a part of a picture takes memory and time by its own size.
+void hold_blocks(Accumulator& a, std::size_t first, std::size_t count);
 
 // Keeps totals alone of blocks that reach `passes`, after which nothing is added to them. Sums of several sizes would take more memory.
 void keep_totals(Accumulator& a, std::uint32_t passes);

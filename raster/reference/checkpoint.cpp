@@ -112,7 +112,8 @@ template <class Use> void each_row(const Accumulator& a, std::size_t index, cons
 {
     const PixelBlock block = block_of(a, index, 0);
     for (int y = 0; y < block.height; ++y)
-        use(static_cast<std::size_t>(block.y0 + y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(block.x0),
+        use(static_cast<std::size_t>(block.y0 + y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(block.x0) -
+                block.first_pixel,
             static_cast<std::size_t>(block.width));
 }
 

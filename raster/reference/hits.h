@@ -323,12 +323,12 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
     r.x.energy.gain = select(m, a.x.energy.gain, b.x.energy.gain);
     r.o = select(m, a.o, b.o), r.horizon = select(m, a.horizon, b.horizon);
     r.diffuse = select(m, a.diffuse, b.diffuse);
-    if (a.x.refracts || b.x.refracts) {
-        r.x.refracts = true;
-        r.x.disperses = a.x.disperses || b.x.disperses;
-        r.x.through.tint = select(m, a.x.through.tint, b.x.through.tint);
-        r.x.through.dispersion = select(m, a.x.through.dispersion, b.x.through.dispersion);
-        r.x.through.parts = select_parts(m, a.x.through.parts, b.x.through.parts);
+    if (a.x.transmission.refracts || b.x.transmission.refracts) {
+        r.x.transmission.refracts = true;
+        r.x.transmission.disperses = a.x.transmission.disperses || b.x.transmission.disperses;
+        r.x.transmission.inputs.tint = select(m, a.x.transmission.inputs.tint, b.x.transmission.inputs.tint);
+        r.x.transmission.inputs.dispersion = select(m, a.x.transmission.inputs.dispersion, b.x.transmission.inputs.dispersion);
+        r.x.transmission.inputs.parts = select_parts(m, a.x.transmission.inputs.parts, b.x.transmission.inputs.parts);
         r.refracts = either(both(m, a.refracts), both(not_(m), b.refracts));
     }
     select_coatings(m, a, b, r);
@@ -387,8 +387,8 @@ BN_STAGE MaterialAtHits material_at_hits(const ReferenceParams& f, const Materia
     make_shaded_point(f, m, at, lobe_shape_of(f, m, at), g.fragment, int_lit(0), x);
     if (m.facets > 0)
         choose_facets(f, m, at, g, x);
-    if (!x.refracts)
-        x.through = interface_inputs(); // lanes with other materials may refract
+    if (!x.transmission.refracts)
+        x.transmission.inputs = interface_inputs(); // lanes with other materials may refract
     real reflected;
     r.r = make_surface_bsdf(f, x, reflected);
     r.emission = own_light(m, at);

@@ -68,7 +68,7 @@ BN_INLINE real3 open_light(const ReferenceParams& f, const SurfaceBsdf& r, const
 // place where light leaves.
 BN_INLINE mask sees_through(const ReferenceParams& f, const SurfaceBsdf& r, real3 wi)
 {
-    if (!r.x.refracts || f.mode == ReferenceMode::path)
+    if (!r.x.transmission.refracts || f.mode == ReferenceMode::path)
         return mask_from_bits(0);
     return both(r.refracts, k_dot3(r.x.geometric_axes.n, wi) < lit(0.0));
 }
@@ -119,7 +119,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
     const ReferenceParams& f = p.f;
     const bsdf_lobe lobe = bsdf_lobe_under_lights(f.lobe, s.r.x.lobe, s.r.x.s, s.r.x.geometric_axes);
     rough_interface through;
-    if (s.r.x.refracts)
+    if (s.r.x.transmission.refracts)
         through = rough_interface_at(s.r.x);
     CoatingUnderLamps coatings[kCoatings];
     for (int k = 0; k < kCoatings; ++k)
@@ -130,7 +130,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
         const light_sample towards = light_towards(f, s.position, i);
         // Evaluate lobe, interface and coatings
         punctual_light light = light_from(f, s.r.x, lobe, s.r.diffuse, towards, i);
-        if (s.r.x.refracts)
+        if (s.r.x.transmission.refracts)
             light.radiance =
                 select(s.r.refracts, light_from_interface(f, s.r.x, through, s.r.diffuse, towards, i).radiance, light.radiance);
         mask lit_lanes = both(both(s.reflects, k_dot3(s.r.horizon, light.l) > lit(0.0)), any_light(light.radiance));
@@ -142,7 +142,7 @@ BN_STAGE real3 punctual_lights(const PixelFrame& p, const LaneSurface& s)
             lit_lanes = both(s.reflects, any_light(light.radiance));
         }
         // In path mode, light from behind enters through the interface
-        if (s.r.x.refracts && f.mode == ReferenceMode::path) {
+        if (s.r.x.transmission.refracts && f.mode == ReferenceMode::path) {
             const mask behind = both(both(s.reflects, s.r.refracts), k_dot3(s.r.x.geometric_axes.n, light.l) < lit(0.0));
             const real3 arriving = splat3(l.radiant) * towards.attenuation;
             light.radiance = select(behind, reflect(s.r, light.l).value * arriving, light.radiance);
@@ -234,9 +234,9 @@ BN_STAGE real3 refract_one_channel(const PixelFrame& p, SurfaceBsdf& r, integer 
     const integer path = position * int_lit(p.f.shades) + int_lit(shade);
     const real u = k_unit_from_bits(k_hash_u32(k_hash_u32(path) ^ int_lit(static_cast<std::int32_t>(p.seed))));
     const real channel = min(floor(u * lit(3.0)), lit(2.0));
-    const mask disperses = both(r.refracts, r.x.through.dispersion > lit(0.0));
-    const interface_inputs own = interface_of_channel(r.x.through, channel);
-    r.x.through.parts = select_parts(disperses, own.parts, r.x.through.parts);
+    const mask disperses = both(r.refracts, r.x.transmission.inputs.dispersion > lit(0.0));
+    const interface_inputs own = interface_of_channel(r.x.transmission.inputs, channel);
+    r.x.transmission.inputs.parts = select_parts(disperses, own.parts, r.x.transmission.inputs.parts);
     const mask first = both(disperses, not_(single));
     const auto part = [&](double at) { return select(first, select(channel == lit(at), lit(3.0), lit(0.0)), lit(1.0)); };
     single = either(single, disperses);
@@ -253,7 +253,7 @@ BN_STAGE real3 traced_light(const PixelFrame& p, const LaneSurface& first, integ
     LaneSurface s = first;
     mask single = mask_from_bits(0);
     for (int depth = 0; any(s.reflects); ++depth) {
-        if (s.r.x.disperses)
+        if (s.r.x.transmission.disperses)
             throughput = throughput * refract_one_channel(p, s.r, position, shade, single);
         const ShadeSample x = shade_sample(*f.sobol, p.seed, position, shade, f.shades, depth);
         // Sample the environment
@@ -315,7 +315,7 @@ BN_STAGE real3 direct_light_of(const PixelFrame& p, const LaneSurface& s, intege
 
 BN_STAGE real3 direct_light(const PixelFrame& p, const LaneSurface& s, integer position, int shade)
 {
-    if (!s.r.x.disperses)
+    if (!s.r.x.transmission.disperses)
         return direct_light_of(p, s, position, shade);
     LaneSurface own = s;
     mask single = mask_from_bits(0);
@@ -385,7 +385,7 @@ PixelState state_of_pass(const ReferenceParams& f, ReferenceScratch& scratch, in
 
 void add_passes_to_pixel(const ReferenceParams& f, const PixelBlock& b, ReferenceScratch& scratch, int x, int y, PixelState* const* sums)
 {
-    const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(y) * f.width + x;
+    const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(y) * f.width + x - static_cast<std::ptrdiff_t>(b.first_pixel);
     PixelState own[kMostSums];
     for (int k = 0; k < kMostSums; ++k)
         if (b.done >> k & 1u)

@@ -203,8 +203,10 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     const std::uint32_t round = passes_in_round(desc, pass_samples(), options_.target_error > 0.0);
     Accumulator a(desc.width, desc.height);
     a.first_pass = part ? part->first_pass : 0;
+    if (part && part->count && part->others.empty())
+        hold_blocks(a, part->first, part->count);
     const bool kept_up = keeps(options_);
-    const std::uint64_t key = kept_up || part ? reference_key(input_, desc, options_) : 0;
+    const std::uint64_t key = part && part->key ? part->key : kept_up || part ? reference_key(input_, desc, options_) : 0;
     const std::string file = kept_up ? file_of(options_, key) : "";
     // Resume from a checkpoint
     if (kept_up) {
@@ -276,10 +278,12 @@ Status ReferenceRenderer::add_light(const FrameDesc& desc, const ReferenceParams
     const Result<Accumulator> a = integrate(desc, f, s);
     BN_TRY(a);
     const double seconds = seconds_since(begin);
-    frame.color = mean_image(*a);
-    frame.variance = variance_image(*a);
     s.samples = least_passes(*a) * pass_samples();
-    s.relative_error = mean_relative_error(*a);
+    if (!options_.part || options_.part->count == 0) {
+        frame.color = mean_image(*a);
+        frame.variance = variance_image(*a);
+        s.relative_error = mean_relative_error(*a);
+    }
     RayCount count = {};
     for (const ReferenceScratch& w : workers_) {
         count.rays += w.count.rays;

@@ -22,7 +22,8 @@ enum class ReferenceStrategy : std::int32_t { mis, brdf, light }; // choice of d
 // A part of a picture: some passes of blocks of 8x8 pixels, in rows from the top left. Parts put together in order of their passes give the
 // bits of a picture that one process makes.
 struct ReferencePart {
-    std::uint32_t first = 0, count = 0;            // blocks to integrate; count 0: all
+    std::uint32_t first = 0, count = 0;            // blocks to integrate, without a picture in the frame; count 0: all
+    std::uint64_t key = 0;                         // the picture's reference_key() where it is known; else 0
     std::uint32_t first_pass = 0;                  // of a pixel; a multiple of the least power of two that is not below its passes
     std::uint64_t samples = 0;                     // a pixel, in place of ReferenceOptions::samples; 0: those
     std::vector<std::uint8_t> made;                // filled by Renderer::render(): the blocks' state

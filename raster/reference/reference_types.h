@@ -82,14 +82,15 @@ static inline __attribute__((always_inline)) PixelState total_of_sums(const Pixe
 
 struct PixelBlock {
     std::int32_t x0, y0, width, height;
+    std::size_t first_pixel;        // of the columns, row-major
     std::uint32_t first_pass, done; // the first pass of the sums, and how many they hold
     std::uint32_t passes;           // to add
-    PixelState* totals;             // of the whole picture: takes the pixels' totals in place of their sums; null: sums are kept
+    PixelState* totals;             // a column of all pixels: takes the pixels' totals in place of their sums; null: sums are kept
 };
 
 struct ReferenceFns { // one table per instruction set
-    // Adds passes to a block's pixels. sums: a column of the whole picture for each bit that is set in the block's passes, before or,
-    // without totals, afterwards.
+    // Adds passes to a block's pixels. sums: a column of pixels, from first_pixel on, for each bit that is set in the block's passes,
+    // before or, without totals, afterwards.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* const* sums);
     // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of
     // blended surfaces before them, [0,1]; through may be null.

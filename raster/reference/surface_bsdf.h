@@ -19,7 +19,7 @@ struct SurfaceBsdf {
     bool phong_diffuse;
     real choose_specular;           // probability
     mask mirror;                    // the lobe has no width: only samples meet it
-    mask refracts;                  // an interface replaces the lobe; empty if !x.refracts
+    mask refracts;                  // an interface replaces the lobe; empty if !x.transmission.refracts
     int coatings;                   // bit i: some lanes have coating i of shading/coatings.def
     coating coats[kCoatings];       // valid where the bit is set; share 0 in lanes without the coating
     real choose_coating[kCoatings]; // probability, once no higher coating is chosen
@@ -67,11 +67,11 @@ BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_poin
     r.mirror = x.lobe.sigma_u + x.lobe.sigma_v <= lit(1e-6);
     if (lobe_has(f.lobe, kBroadLobe)) // has a least width
         r.mirror = mask_from_bits(0);
-    r.refracts = mask_from_bits(x.refracts ? (1u << kLanes) - 1u : 0u);
+    r.refracts = mask_from_bits(x.transmission.refracts ? (1u << kLanes) - 1u : 0u);
     // Choose terms by their reflected energy
     real specular = luminance_of((s.f0 * x.energy.dfg.scale + s.f90 * x.energy.dfg.bias) * x.energy.gain);
-    if (x.refracts)
-        specular = specular + luminance_of(x.through.tint) * passed;
+    if (x.transmission.refracts)
+        specular = specular + luminance_of(x.transmission.inputs.tint) * passed;
     const real rest = luminance_of(s.diffuse) * passed;
     const real share = specular / max(specular + rest, lit(1e-20));
     r.choose_specular = select(rest > lit(1e-6), select(specular > lit(1e-6), min(max(share, lit(0.1)), lit(0.9)), lit(0.0)), lit(1.0));
@@ -172,7 +172,7 @@ BN_INLINE Reflection reflect_below(const SurfaceBsdf& r, real3 wi)
     const real cosine = max(k_dot3(r.x.s.n, wi), lit(0.0));
     real3 specular = fresnel * r.x.energy.gain * lobe;
     real specular_pdf = select(r.mirror, lit(0.0), l.pdf);
-    if (r.x.refracts) {
+    if (r.x.transmission.refracts) {
         const Reflection s = scatter(r, wi);
         specular = select(r.refracts, s.value, specular);
         specular_pdf = select(r.refracts, s.pdf, specular_pdf);
@@ -251,7 +251,7 @@ BN_INLINE SurfaceBsdfSample sample_below(const SurfaceBsdf& r, real2 xi, real ch
     SurfaceBsdfSample s;
     s.wi = k_normalize3(select(specular, select(r.mirror, mirrored, shiny), dull));
     InterfaceSample through;
-    if (r.x.refracts) {
+    if (r.x.transmission.refracts) {
         through = sample_interface(r, xi, choice / max(r.choose_specular, lit(1e-6)));
         s.wi = select(both(specular, r.refracts), k_normalize3(through.wi), s.wi);
     }
@@ -264,7 +264,7 @@ BN_INLINE SurfaceBsdfSample sample_below(const SurfaceBsdf& r, real2 xi, real ch
     const real3 of_mirror = whole * bsdf_lobe_mirror_albedo(lobe_of(r, r.lobe));
     const mask seen = k_dot3(r.horizon, s.wi) > lit(0.0);
     s.weight = select(s.exact, select(seen, of_mirror, vec3_all(lit(0.0))), at.value * inv);
-    if (r.x.refracts) {
+    if (r.x.transmission.refracts) {
         const mask alone = both(both(specular, r.refracts), through.alone);
         s.weight = select(alone, through.weight / max(r.choose_specular, lit(1e-6)), s.weight);
         s.pdf = select(alone, through.pdf * r.choose_specular, s.pdf);

@@ -63,7 +63,7 @@ BN_INLINE void load_setup(const TileScratch& scratch, integer triangle, std::int
         unclip_setup(scratch, r.piece, r);
 }
 
-// Customization points of shading/lang/triangle.h:
+// Customization points of shading/inputs/triangle.h:
 
 // Blends words c to c + 3 if all fragments share one whole triangle.
 BN_INLINE void blend_common(any_frame f, const LaneSetup& t, real3 b, int c, real to[4])

@@ -33,7 +33,7 @@ BN_FN const auto& the_material(material_ref m)
 } // namespace BN_ISA_NS
 } // namespace burnish
 #else
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 
 #define frame_ref int // there is one frame
 #define any_frame int

@@ -36,7 +36,7 @@
 //    member called length.
 //  - Keep values that matter above 1e-30: GPUs may flush subnormals.
 // Assembly (NAME.t.h) is text in the same language. It combines kernels into a technique, a surface or a light. Assembly
-// knows the frame and fetches (shading/lang/stage.h). It has, beyond the kernel language:
+// knows the frame and fetches (shading/inputs/stage.h). It has, beyond the kernel language:
 //  - uniform_real, a float that all lanes share, with literals 0.5f and float(i);
 //  - BN_STAGE instead of BN_FN for long, rare functions, which lanes call instead of inlining;
 //  - BN_IN(T) x for large structs, BN_INOUT(T) x for structs that a function changes; void functions; early returns on

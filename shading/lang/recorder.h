@@ -7,7 +7,7 @@
 #ifdef __cplusplus
 #define recorder auto
 #else
-#include "shading/stages/recorder.glsl"
+#include "shading/lang/recorder.glsl"
 #endif
 
 #endif

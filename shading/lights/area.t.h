@@ -4,8 +4,8 @@
 #ifndef BN_AREA_T_H
 #define BN_AREA_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/area_picture.t.h"
 #include "shading/lights/area_point.t.h"
 #include "shading/lights/area_sample.t.h"
@@ -254,7 +254,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
     bsdf_lobe lobe = bsdf_lobe_under_lights(model, x.lobe, x.s, x.geometric_axes);
     bool apart = lobe_has(lobe.model, kLies_surface + kLies_thread); // its value includes the cosine
     rough_interface through;
-    if (x.refracts)
+    if (x.transmission.refracts)
         through = rough_interface_at(x);
     int n = the_frame(f).light_samples;
     uniform_real inv = 1.0f / float(n);
@@ -295,7 +295,7 @@ BN_FN real3 area_light_by_samples(frame_ref f, BN_IN(shaded_point) x, int model,
             real3 fresnel = reflectance_of(x.s, punctual_v_dot_h(x.s, s.wi));
             real part = value * weight;
             real3 reflected = fresnel * part;
-            if (x.refracts)
+            if (x.transmission.refracts)
                 reflected = interface_value(through, s.wi) * weight;
             specular = specular + radiance * reflected;
             // Add the diffuse irradiance

@@ -3,8 +3,8 @@
 #ifndef BN_AREA_PICTURE_T_H
 #define BN_AREA_PICTURE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/area_point.t.h"
 #include "shading/lights/ltc_texture.k.h"
 

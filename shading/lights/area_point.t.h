@@ -2,8 +2,8 @@
 #ifndef BN_AREA_POINT_T_H
 #define BN_AREA_POINT_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 
 BN_KERNELS_BEGIN
 

@@ -2,9 +2,9 @@
 #ifndef BN_AREA_SAMPLE_T_H
 #define BN_AREA_SAMPLE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/area_point.t.h"
 
 BN_KERNELS_BEGIN

@@ -2,9 +2,9 @@
 #ifndef BN_BACKGROUND_T_H
 #define BN_BACKGROUND_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/camera.t.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 
 BN_KERNELS_BEGIN
 

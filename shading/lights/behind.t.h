@@ -3,9 +3,9 @@
 #ifndef BN_BEHIND_T_H
 #define BN_BEHIND_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/camera.t.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 
 BN_KERNELS_BEGIN
 

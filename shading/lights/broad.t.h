@@ -3,8 +3,8 @@
 #ifndef BN_BROAD_T_H
 #define BN_BROAD_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/area.t.h"
 #include "shading/models/charlie.k.h"
 #include "shading/surface/shaded_point.t.h"

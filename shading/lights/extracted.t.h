@@ -3,8 +3,8 @@
 #ifndef BN_EXTRACTED_T_H
 #define BN_EXTRACTED_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/extracted.k.h"
 #include "shading/surface/shaded_point.t.h"
 
@@ -130,7 +130,7 @@ BN_FN extracted_light_reflection extracted_light_reflection_of(frame_ref f, BN_I
 BN_FN real3 extracted_light_through(frame_ref f, BN_IN(shaded_point) x, BN_IN(extracted_light_lobe) lobe, int light)
 {
     // Find the normal that refracts the light to the eye
-    real ior = x.through.parts.ior;
+    real ior = x.transmission.inputs.parts.ior;
     real side = select(ior >= lit(1.0), -ior, ior); // changes of that normal per change of the light's direction
     real towards = select(ior >= lit(1.0), lit(-1.0), lit(1.0));
     real3 l = to_lobe(lobe.lobe, x.s.n, splat3(the_frame(f).extracted_lights[light].direction));
@@ -146,17 +146,17 @@ BN_FN real3 extracted_light_through(frame_ref f, BN_IN(shaded_point) x, BN_IN(ex
     real up = lit(1.0) / max(h.z, lit(1e-4));
     real share = share_of_slopes(lobe, h, up, u, v);
     real value = lit(4.0) * eye_side * up * share * bsdf_lobe_masking(lobe.bsdf, vec3_of(l.x, l.y, -l.z));
-    real3 passed = interface_passes(x.through, eye_side / sqrt(max(k_dot3(h, h), lit(1e-20))));
+    real3 passed = interface_passes(x.transmission.inputs, eye_side / sqrt(max(k_dot3(h, h), lit(1e-20))));
     return select(passes, passed * value, vec3_all(lit(0.0)));
 }
 
 // Returns the extracted lights through clear glass: the picture with them minus the picture without.
 BN_FN real3 extracted_lights_clear(frame_ref f, BN_IN(shaded_point) x)
 {
-    refracted_ray ray = refracted_ray_of(x.s.n, x.s.v, x.s.n_dot_v, x.s.roughness * x.s.roughness, x.through.parts.ior);
+    refracted_ray ray = refracted_ray_of(x.s.n, x.s.v, x.s.n_dot_v, x.s.roughness * x.s.roughness, x.transmission.inputs.parts.ior);
     real3 with = cube_sample_level(full_env(f), ray.direction, 0) * splat(the_frame(f).whole.scale);
     real3 without = cube_sample_level(prefiltered_env(f), ray.direction, 0) * splat(the_frame(f).specular.scale);
-    return (with - without) * x.through.tint * diffuse_energy_share(f, x);
+    return (with - without) * x.transmission.inputs.tint * diffuse_energy_share(f, x);
 }
 
 // Returns transmitted light from all extracted lights. model, layer: see light_from_extracted_lights(); mirror: share of a lobe
@@ -221,8 +221,9 @@ BN_FN real3 light_from_extracted_lights(frame_ref f, BN_IN(shaded_point) x, int 
         specular = specular + (extracted_lights_mirrored(f, x, lobe.bsdf) - specular) * mirror;
     // Apply gain and occlusion; add transmitted light and the diffuse part
     real3 sum = specular * x.energy.gain;
-    if (x.refracts && !x.samples_interface && any_lane(not_(x.body))) // transmitted_light() adds them behind bodies
-        sum = sum + select(x.body, vec3_all(lit(0.0)), extracted_lights_through(f, x, model, layer, mirror));
+    if (x.transmission.refracts && !x.transmission.samples_interface &&
+        any_lane(not_(x.transmission.body))) // transmitted_light() adds them behind bodies
+        sum = sum + select(x.transmission.body, vec3_all(lit(0.0)), extracted_lights_through(f, x, model, layer, mirror));
     if (x.diffuse) {
         real passed = diffuse_energy_share(f, x) * lit(0.31830988618379067);
         sum = sum + x.s.diffuse * irradiance * passed;

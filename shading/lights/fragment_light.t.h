@@ -2,8 +2,8 @@
 #ifndef BN_FRAGMENT_LIGHT_T_H
 #define BN_FRAGMENT_LIGHT_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lang/techniques.h"
 #include "shading/lights/area.t.h"
 #include "shading/lights/broad.t.h"

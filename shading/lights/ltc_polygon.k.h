@@ -8,10 +8,15 @@
 #include "shading/lang/lang.h"
 #include "shading/lights/ltc_table.k.h"
 
+// Most corners of a polygon: 16, and one more where a plane clips the polygon.
+#ifndef BN_LTC_CORNERS
+#define BN_LTC_CORNERS 17
+#endif
+
 BN_KERNELS_BEGIN
 
 struct ltc_polygon {
-    real3 corner[17]; // 16, and one more where a plane clips the polygon
+    real3 corner[BN_LTC_CORNERS];
 };
 
 struct ltc_light {
@@ -53,13 +58,15 @@ BN_FN ltc_polygon ltc_polygon_to_cosine(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon)
     return u;
 }
 
-// Makes the light from the sum of arcs around the visible part.
-BN_FN ltc_light ltc_light_of(real3 sum)
+// Makes the light from the sum of arcs around the visible part, along the horizon and upwards. Apart, since callers that want the share
+// alone leave no undefined part of a vector to an optimiser.
+BN_FN ltc_light ltc_light_of(real2 along, real up)
 {
+    real scale = select(up < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
+    real height = up * scale;
     ltc_light light;
-    real3 flow = sum * select(sum.z < lit(0.0), lit(-0.15915494309189534), lit(0.15915494309189534));
-    light.part = k_saturate(flow.z);
-    light.flow = flow;
+    light.part = k_saturate(height);
+    light.flow = vec3_of(along.x * scale, along.y * scale, height);
     return light;
 }
 
@@ -70,8 +77,9 @@ BN_FN ltc_light ltc_uncut_light(BN_IN(ltc_polygon) u, int corners)
     for (int i = 0; i < corners; ++i) {
         sum = sum + ltc_arc(u.corner[i], u.corner[i + 1 < corners ? i + 1 : 0]);
     }
-    sum.z = sum.z + lit(0.0); // adds the missing arc along the horizon, for the same bits as a clipped polygon
-    return ltc_light_of(select(u.corner[0].z > lit(0.0), sum, vec3_all(lit(0.0))));
+    real up = sum.z + lit(0.0); // adds the missing arc along the horizon, for the same bits as a clipped polygon
+    mask shown = u.corner[0].z > lit(0.0);
+    return ltc_light_of(vec2_of(select(shown, sum.x, lit(0.0)), select(shown, sum.y, lit(0.0))), select(shown, up, lit(0.0)));
 }
 
 // Clips at the horizon of the cosine's space, exactly; corners on the horizon count as below. A convex polygon goes down at
@@ -81,7 +89,7 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
 {
     ltc_polygon u = ltc_polygon_to_cosine(lobe, polygon, corners);
     real2 rise = vec2_all(lit(0.0)); // where the boundary came up
-    real2 cut[17];
+    real2 cut[BN_LTC_CORNERS];
     // Return early where no edge crosses the horizon
     mask crosses = lit(1.0) < lit(0.0);
     for (int i = 0; i < corners; ++i) {
@@ -105,7 +113,8 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
         rise = select(both(b_up, not_(a_up)), cut[i], rise);
     }
     // Sum the arcs, and close the pieces along the horizon
-    real3 sum = vec3_all(lit(0.0));
+    real2 along = vec2_all(lit(0.0));
+    real up = lit(0.0);
     real2 fall = vec2_all(lit(0.0)); // where the boundary goes down, and where it came up before: at most once in two edges
     real2 risen = vec2_all(lit(0.0));
     for (int i = 0; i < corners; ++i) {
@@ -116,18 +125,20 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
         real3 on_horizon = vec3_of(cut[i].x, cut[i].y, lit(0.0));
         real3 from = select(a_up, a, on_horizon);
         real3 to = select(b_up, b, on_horizon);
-        sum = sum + select(either(a_up, b_up), ltc_arc(from, to), vec3_all(lit(0.0)));
+        real3 arc = select(either(a_up, b_up), ltc_arc(from, to), vec3_all(lit(0.0)));
+        along = along + vec2_of(arc.x, arc.y);
+        up = up + arc.z;
         mask falls = both(a_up, not_(b_up));
         fall = select(falls, cut[i], fall);
         risen = select(falls, rise, risen);
         rise = select(both(b_up, not_(a_up)), cut[i], rise);
         if ((i & 1) == 1 || i + 1 == corners) {
-            sum.z = sum.z + ltc_horizon_arc(fall, risen);
+            up = up + ltc_horizon_arc(fall, risen);
             fall = vec2_all(lit(0.0));
             risen = fall;
         }
     }
-    return ltc_light_of(sum);
+    return ltc_light_of(along, up);
 }
 
 // Clips a convex polygon at a plane through the shading point; the result has one more corner. Corners below move to where
@@ -137,7 +148,7 @@ BN_FN ltc_polygon ltc_polygon_above(BN_IN(ltc_polygon) polygon, int corners, rea
 {
     // Measure heights over the plane
     ltc_polygon r;
-    real height[17];
+    real height[BN_LTC_CORNERS];
     for (int i = 0; i < corners; ++i) {
         height[i] = k_dot3(polygon.corner[i], normal);
     }

@@ -2,8 +2,8 @@
 #ifndef BN_PUNCTUAL_T_H
 #define BN_PUNCTUAL_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/punctual.k.h"
 #include "shading/surface/shaded_point.t.h"
 
@@ -73,7 +73,7 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
     if (x.diffuse)
         diffuse = diffuse_brdf(f, x);
     rough_interface through;
-    if (x.refracts)
+    if (x.transmission.refracts)
         through = rough_interface_at(x);
     // Visit the lights in reach
     light_reach reach = lights_reaching(f, position);
@@ -83,7 +83,7 @@ BN_FN real3 light_from_punctual(frame_ref f, BN_IN(shaded_point) x, int model, r
             continue;
         // Shade the light, and cut light from below the surface's horizon
         punctual_light light;
-        if (x.refracts)
+        if (x.transmission.refracts)
             light = light_from_interface(f, x, through, diffuse, at, i);
         else
             light = light_from(f, x, lobe, diffuse, at, i);

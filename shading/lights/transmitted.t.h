@@ -3,8 +3,8 @@
 #ifndef BN_TRANSMITTED_T_H
 #define BN_TRANSMITTED_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/lights/behind.t.h"
 #include "shading/surface/shaded_point.t.h"
 
@@ -74,7 +74,7 @@ BN_STAGE real3 fetch_transmitted(any_frame f, any_material m, BN_IN(shaded_point
     light = light + (elsewhere - light) * back;
     // Absorb light inside; the second interface takes the tint again
     real3 decay = splat3(the_material(m).body_decay) * way.distance;
-    real3 left = vec3_of(k_exp2(decay.x), k_exp2(decay.y), k_exp2(decay.z)) * x.through.tint;
+    real3 left = vec3_of(k_exp2(decay.x), k_exp2(decay.y), k_exp2(decay.z)) * x.transmission.inputs.tint;
     return select(at.body, light * left, one);
 }
 
@@ -85,7 +85,7 @@ BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point
 {
     transmitting_place at;
     at.position = position;
-    at.body = x.body;
+    at.body = x.transmission.body;
     view_params view = view_params_of(the_frame(f).view);
     real away = select(view.orthographic, lit(1.0), k_dot3(view.forward, position - view.eye));
     at.pixel = away / (view.inv_tan_y * splat(the_frame(f).half_height));
@@ -100,24 +100,24 @@ BN_STAGE real3 transmitted_light(any_frame f, any_material m, BN_IN(shaded_point
     real3 radiance = vec3_all(lit(0.0));
     bool wide_lobe = any_lane(slope > lit(0.0));
     int fetches = wide_lobe ? 3 : 1;
-    for (int k = 0; k < (x.disperses ? 3 * fetches : fetches); ++k) {
+    for (int k = 0; k < (x.transmission.disperses ? 3 * fetches : fetches); ++k) {
         int i = k % fetches;
         real side = to_real(int_lit(i == 0 ? 0 : i * 2 - 3)); // 0, -1, 1
         real3 n = k_normalize3(x.s.n + beside * side);
         real weight = select(slope > lit(0.0), lit(i == 0 ? 0.5 : 0.25), lit(i == 0 ? 1.0 : 0.0));
         // Refract each channel by its own index where they differ
         int channel = k / fetches;
-        interface_inputs through = x.through;
-        if (x.disperses)
-            through = interface_of_channel(x.through, to_real(int_lit(channel)));
+        interface_inputs through = x.transmission.inputs;
+        if (x.transmission.disperses)
+            through = interface_of_channel(x.transmission.inputs, to_real(int_lit(channel)));
         real3 light = fetch_transmitted(f, m, x, at, n, width, through.parts) * weight;
-        if (x.disperses)
+        if (x.transmission.disperses)
             light = channel_alone(light, channel);
         radiance = radiance + light;
     }
     if (film_used() && the_material(m).film != 0)
-        return radiance * x.through.tint * transmittance_under_film(f, x) * x.s.occlusion;
-    return radiance * x.through.tint * (diffuse_energy_share(f, x) * x.s.occlusion);
+        return radiance * x.transmission.inputs.tint * transmittance_under_film(f, x) * x.s.occlusion;
+    return radiance * x.transmission.inputs.tint * (diffuse_energy_share(f, x) * x.s.occlusion);
 }
 
 BN_KERNELS_END

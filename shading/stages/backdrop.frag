@@ -1,7 +1,7 @@
 // The environment behind the scene.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/lights/background.t.h"
 #include "shading/stages/pass.glsl"
 

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #define BN_PEEL_ACCESS
 #define BN_RECORDS_ACCESS readonly
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/surface/material.t.h"
 #include "shading/surface/relief.t.h"
 #include "shading/surface/visible_point.t.h"

@@ -2,7 +2,7 @@
 // is four of a fragment's recorded words instead of its colour (kGpuForwardGroups).
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/coverage.t.h"

@@ -2,7 +2,7 @@
 // indexed, so that the vertex number gives the triangle.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/kernels/camera.t.h"
 
 layout(location = 0) out vec3 normal;

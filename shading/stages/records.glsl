@@ -3,7 +3,7 @@
 #ifndef BN_RECORDS_GLSL
 #define BN_RECORDS_GLSL
 
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/stages/pass.glsl"
 
 layout(constant_id = 2) const int kRecords = 0; // a sum of kGpuRecord... bits

@@ -3,7 +3,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 
 layout(std430, set = 0, binding = 9) buffer BnCounts { int counts[]; };
 layout(std430, set = 0, binding = 10) writeonly buffer BnDraw { GpuDraw draw; };

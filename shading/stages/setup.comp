@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #define BN_SETUP_ACCESS writeonly
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/kernels/clip.t.h"
 #include "shading/kernels/pixel_range.k.h"
 #include "shading/stages/pass.glsl"

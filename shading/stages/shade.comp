@@ -3,7 +3,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/lights/background.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/relief.t.h"

@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/stages/shared_samples.glsl"
 #include "shading/stages/pass.glsl"
 #include "shading/stages/records.glsl"

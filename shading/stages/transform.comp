@@ -4,7 +4,7 @@
 layout(local_size_x = 64) in;
 #define BN_COMPUTE
 #define BN_VERTEX_ACCESS writeonly
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/kernels/camera.t.h"
 
 void main()

@@ -2,7 +2,7 @@
 // from there. Without BN_EXACT_DEPTH the rasterizer interpolates depth.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #ifdef BN_EXACT_DEPTH
 #include "shading/kernels/depth_plane.k.h"
 #endif

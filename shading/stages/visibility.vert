@@ -1,7 +1,7 @@
 // Passes the snapped corners of setups to the rasterizer. Every operation here and in the viewport transform is exact.
 #version 460
 #extension GL_EXT_buffer_reference_uvec2 : require
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/stages/pass.glsl"
 
 layout(location = 0) flat out int slot;

@@ -4,9 +4,9 @@
 #ifndef BN_BSDF_LOBE_T_H
 #define BN_BSDF_LOBE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/surface/surface.k.h"
 #define BN_LOBE_TEXTS

@@ -4,9 +4,9 @@
 #ifndef BN_CLEARCOAT_T_H
 #define BN_CLEARCOAT_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/coating.t.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/material_inputs.t.h"

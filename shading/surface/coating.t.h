@@ -2,8 +2,8 @@
 #ifndef BN_COATING_T_H
 #define BN_COATING_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/surface.k.h"
 

@@ -2,8 +2,8 @@
 #ifndef BN_COATING_POINT_T_H
 #define BN_COATING_POINT_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/coating.t.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/shaded_point.t.h"
@@ -48,9 +48,9 @@ BN_FN void make_coating_point(BN_IN(coating) layer, BN_IN(dfg_value) albedo, BN_
     // Use the coating's reflectance for all light
     c.dielectric_f0 = layer.reflectance;
     c.dielectric_f90 = layer.share;
-    c.refracts = false;
-    c.disperses = false;
-    c.samples_interface = false;
+    c.transmission.refracts = false;
+    c.transmission.disperses = false;
+    c.transmission.samples_interface = false;
 }
 
 BN_KERNELS_END

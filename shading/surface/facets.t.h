@@ -3,8 +3,8 @@
 #ifndef BN_FACETS_T_H
 #define BN_FACETS_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/lobe_energy.t.h"
 #include "shading/surface/lobe_shape.t.h"
 #include "shading/surface/material.t.h"

@@ -2,8 +2,8 @@
 #ifndef BN_FRAME_BY_MAP_T_H
 #define BN_FRAME_BY_MAP_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/surface.k.h"
 
 BN_KERNELS_BEGIN

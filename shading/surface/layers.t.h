@@ -2,11 +2,11 @@
 #ifndef BN_LAYERS_T_H
 #define BN_LAYERS_T_H
 
+#include "shading/inputs/stage.h"
+#include "shading/kernels/texture_place.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/recorded.t.h"
 #include "shading/surface/specular_aa.t.h"
-#include "shading/surface/texture_place.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -2,8 +2,8 @@
 #ifndef BN_LOBE_ENERGY_T_H
 #define BN_LOBE_ENERGY_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/bsdf_lobe.t.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/energy.k.h"

@@ -2,8 +2,8 @@
 #ifndef BN_LOBE_SHAPE_T_H
 #define BN_LOBE_SHAPE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/covariance.k.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/surface/material.t.h"

@@ -2,8 +2,9 @@
 #ifndef BN_MAKE_SHADED_POINT_T_H
 #define BN_MAKE_SHADED_POINT_T_H
 
+#include "shading/inputs/stage.h"
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/frame_by_map.t.h"
 #include "shading/surface/lobe_energy.t.h"
 #include "shading/surface/lobe_shape.t.h"
@@ -12,7 +13,6 @@
 #include "shading/surface/refraction.t.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/surface/surface.k.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -27,15 +27,15 @@ BN_FN mask enters_body(frame_ref f, material_ref m, mask front)
 // own gain replaces x.energy.gain.
 BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs) at, mask front, BN_INOUT(shaded_point) x)
 {
-    x.through.parts = fresnel_parts_of(f, m, at);
+    x.transmission.inputs.parts = fresnel_parts_of(f, m, at);
     mask enters = enters_body(f, m, front);
-    x.through.parts.ior = index_of_far_side(splat(the_material(m).ior), enters);
-    x.through.parts.film_side = x.through.parts.ior;
-    x.body = both(enters, int_lit(the_frame(f).glass) != int_lit(0));
-    x.through.tint = x.s.diffuse * at.transmission;
-    x.through.dispersion = splat(the_material(m).dispersion);
+    x.transmission.inputs.parts.ior = index_of_far_side(splat(the_material(m).ior), enters);
+    x.transmission.inputs.parts.film_side = x.transmission.inputs.parts.ior;
+    x.transmission.body = both(enters, int_lit(the_frame(f).glass) != int_lit(0));
+    x.transmission.inputs.tint = x.s.diffuse * at.transmission;
+    x.transmission.inputs.dispersion = splat(the_material(m).dispersion);
     x.s.diffuse = x.s.diffuse * (lit(1.0) - at.transmission);
-    if (!x.samples_interface)
+    if (!x.transmission.samples_interface)
         return;
     x.energy.gain = vec3_all(lit(1.0));
     if (the_frame(f).energy_compensation != 0)
@@ -74,7 +74,7 @@ BN_STAGE void put_film(any_frame f, any_material m, BN_IN(material_inputs) at, B
     // Keep Schlick's approximation for what has no film, unless the frame wants it exact
     if (x.s.exact == 0) {
         real ior = splat(the_material(m).ior);
-        if (the_material(m).refracts != 0 && !x.samples_interface)
+        if (the_material(m).refracts != 0 && !x.transmission.samples_interface)
             ior = x.s.parts.ior;
         x.s.parts = fresnel_parts_of(f, m, at);
         x.s.parts.dielectric = lit(0.0);
@@ -84,7 +84,7 @@ BN_STAGE void put_film(any_frame f, any_material m, BN_IN(material_inputs) at, B
         x.s.parts.rest_f90 = x.s.f90;
     }
     x.s.exact = x.s.exact + kFilmReflects;
-    if (the_material(m).refracts != 0 && !x.samples_interface)
+    if (the_material(m).refracts != 0 && !x.transmission.samples_interface)
         x.s.parts.film_side = x.s.parts.ior;
     x.s.f0 = schlick_f0_of(exact_reflectance(x.s.parts, x.s.n_dot_v), x.s.f90, x.s.n_dot_v);
 }
@@ -113,9 +113,9 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
         x.s.f0 = exact_reflectance(x.s.parts, lit(1.0));
     }
     // Reflect from within as a mirror does, with total reflection
-    x.refracts = the_material(m).refracts != 0;
-    x.disperses = x.refracts && the_material(m).dispersion > 0.0f;
-    x.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
+    x.transmission.refracts = the_material(m).refracts != 0;
+    x.transmission.disperses = x.transmission.refracts && the_material(m).dispersion > 0.0f;
+    x.transmission.samples_interface = (the_material(m).technique_traits & kSamplesInterface) != 0;
     if (the_material(m).refracts != 0 && (the_material(m).technique_traits & kSamplesInterface) == 0) {
         mask enters = enters_body(f, m, p.front);
         real ior = index_of_far_side(splat(the_material(m).ior), enters);
@@ -127,7 +127,7 @@ BN_FN void make_shaded_point(frame_ref f, material_ref m, BN_IN(material_inputs)
     if (film_used() && the_material(m).film != 0)
         put_film(f, m, at, x);
     find_energy(f, m, at, x);
-    if (the_material(m).refracts != 0) // x.refracts would not fold away here, and x would leave registers
+    if (the_material(m).refracts != 0) // x.transmission.refracts would not fold away here, and x would leave registers
         make_interface(f, m, at, p.front, x);
 }
 

@@ -2,10 +2,10 @@
 #ifndef BN_MATERIAL_T_H
 #define BN_MATERIAL_T_H
 
+#include "shading/inputs/stage.h"
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/material_inputs.t.h"
-#include "shading/surface/visible_point.k.h"
 #define BN_COATING_TEXTS
 #include "shading/coatings.def"
 

@@ -2,8 +2,8 @@
 #ifndef BN_MATERIAL_INPUTS_T_H
 #define BN_MATERIAL_INPUTS_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 
 BN_KERNELS_BEGIN
 

@@ -3,10 +3,10 @@
 #ifndef BN_RECORDED_T_H
 #define BN_RECORDED_T_H
 
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/recorder.h"
 #include "shading/surface/material.t.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -3,10 +3,10 @@
 #ifndef BN_REFLECTANCE_T_H
 #define BN_REFLECTANCE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/fresnel.k.h"
 #include "shading/kernels/thin_film.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/material_inputs.t.h"
 #include "shading/surface/surface.k.h"

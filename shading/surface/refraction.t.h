@@ -6,8 +6,8 @@
 #ifndef BN_REFRACTION_T_H
 #define BN_REFRACTION_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/models/ellipsoid_dielectric.k.h"
 #include "shading/surface/bsdf_lobe.t.h"
 #include "shading/surface/reflectance.t.h"

@@ -5,12 +5,12 @@
 #ifndef BN_RELIEF_T_H
 #define BN_RELIEF_T_H
 
+#include "shading/inputs/stage.h"
+#include "shading/kernels/texture_place.k.h"
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/relief.k.h"
 #include "shading/surface/surface.k.h"
-#include "shading/surface/texture_place.k.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

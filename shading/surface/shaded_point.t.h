@@ -2,8 +2,8 @@
 #ifndef BN_SHADED_POINT_T_H
 #define BN_SHADED_POINT_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/bsdf_lobe.t.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/diffuse.k.h"
@@ -27,6 +27,15 @@ struct lobe_energy_terms {
     real3 gain;         // factor on the specular lobe: energy compensation, loss by widening, and light that facets keep
 };
 
+// The interface of a point that transmits light.
+struct transmission_terms {
+    bool refracts;           // transmits light; else the others do not count
+    bool disperses;          // refracts each channel by an index of its own
+    bool samples_interface;  // then the technique samples both sides of the interface; others fetch transmitted light once
+    mask body;               // then transmitted light enters a body here and leaves it by a second interface
+    interface_inputs inputs; // of both sides
+};
+
 struct shaded_point {
     surface s;
     aniso_lobe lobe;
@@ -39,11 +48,7 @@ struct shaded_point {
     int samples;                // of the technique
     real3 normal_dx, normal_dy; // of visible_point; only for techniques that share samples
     lobe_energy_terms energy;
-    bool refracts;            // transmits light
-    bool disperses;           // refracts each channel by an index of its own
-    bool samples_interface;   // then the technique samples both sides of the interface; others fetch transmitted light once
-    interface_inputs through; // for transmissive surfaces
-    mask body;                // then transmitted light enters a body here and leaves it by a second interface
+    transmission_terms transmission;
 };
 
 // Returns the frame's lobe on the surface.
@@ -55,13 +60,13 @@ BN_FN bsdf_lobe bsdf_lobe_at(frame_ref f, BN_IN(shaded_point) x)
 // Returns true where samples of an interface replace the lobe.
 BN_FN bool interface_is_sampled(BN_IN(shaded_point) x)
 {
-    return x.refracts && x.samples_interface;
+    return x.transmission.refracts && x.transmission.samples_interface;
 }
 
 // Returns the transmissive surface's interface.
 BN_FN rough_interface rough_interface_at(BN_IN(shaded_point) x)
 {
-    return rough_interface_of(x.through, x.lobe, x.s.n, x.s.v, x.geometric_axes);
+    return rough_interface_of(x.transmission.inputs, x.lobe, x.s.n, x.s.v, x.geometric_axes);
 }
 
 // A layer of a material, as lights see it: its lobe's index in shading/models.def, and the lobe's traits.
@@ -134,7 +139,7 @@ BN_FN real diffuse_lit(frame_ref f, real n_dot_l)
 // Shirley uses f0 instead, with phong_diffuse_lit() for the light.)
 BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
 {
-    if (the_frame(f).diffuse_model != 0 && the_frame(f).energy_compensation == 0 && !x.refracts) {
+    if (the_frame(f).diffuse_model != 0 && the_frame(f).energy_compensation == 0 && !x.transmission.refracts) {
         real3 own = x.dielectric_f0;
         return phong_diffuse_seen(max(own.x, max(own.y, own.z)), x.s.n_dot_v);
     }
@@ -145,19 +150,19 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
     }
     real3 dielectric = dielectric_albedo_of(x.s, x.dielectric_f0, x.dielectric_f90, x.energy.whole) * energy_gain(f, f0, x.energy.whole);
     real passed = lit(1.0) - max(dielectric.x, max(dielectric.y, dielectric.z));
-    if (!x.refracts)
+    if (!x.transmission.refracts)
         return BN_MUTANT(no_energy_share, passed, lit(1.0));
     // Glass reflects by Fresnel's equations, the table's lobe by Schlick's approximation: scale by the ratio of both in a
     // mirror. No table has the albedo from inside, so a mirror's replaces it there.
-    real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
+    real3 r = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.transmission.inputs.parts.ior, x.s.n_dot_v);
     real3 schlick = fresnel_schlick(x.dielectric_f0, vec3_all(x.dielectric_f90), x.s.n_dot_v);
     if (film_used() && x.s.exact >= kFilmReflects) {
-        r = filmed_dielectric(x.through.parts, r, x.s.n_dot_v);
-        schlick = filmed_dielectric(x.through.parts, schlick, x.s.n_dot_v);
+        r = filmed_dielectric(x.transmission.inputs.parts, r, x.s.n_dot_v);
+        schlick = filmed_dielectric(x.transmission.inputs.parts, schlick, x.s.n_dot_v);
     }
     real mirrored = max(r.x, max(r.y, r.z));
     real rough = (lit(1.0) - passed) / max(max(schlick.x, max(schlick.y, schlick.z)), lit(1e-4));
-    real reflected = select(x.through.parts.ior >= lit(1.0), mirrored * rough, mirrored);
+    real reflected = select(x.transmission.inputs.parts.ior >= lit(1.0), mirrored * rough, mirrored);
     return k_saturate(lit(1.0) - reflected);
 }
 
@@ -165,8 +170,8 @@ BN_FN real diffuse_energy_share(frame_ref f, BN_IN(shaded_point) x)
 BN_FN real3 transmittance_under_film(frame_ref f, BN_IN(shaded_point) x)
 {
     real passed = diffuse_energy_share(f, x);
-    real3 bare = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.through.parts.ior, x.s.n_dot_v);
-    real3 r = filmed_dielectric(x.through.parts, bare, x.s.n_dot_v);
+    real3 bare = dielectric_reflectance(x.dielectric_f0, x.dielectric_f90, x.transmission.inputs.parts.ior, x.s.n_dot_v);
+    real3 r = filmed_dielectric(x.transmission.inputs.parts, bare, x.s.n_dot_v);
     real most = max(r.x, max(r.y, r.z));
     real scale = (lit(1.0) - passed) / max(most, lit(1e-4));
     return vec3_all(lit(1.0)) - r * scale;

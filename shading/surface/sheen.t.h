@@ -3,8 +3,8 @@
 #ifndef BN_SHEEN_T_H
 #define BN_SHEEN_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/models/charlie.k.h"
 #include "shading/surface/coating.t.h"
 #include "shading/surface/dfg.k.h"

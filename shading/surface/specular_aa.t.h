@@ -6,8 +6,8 @@
 #ifndef BN_SPECULAR_AA_T_H
 #define BN_SPECULAR_AA_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/make_shaded_point.t.h"
 
 BN_KERNELS_BEGIN

@@ -4,14 +4,14 @@
 #ifndef BN_VISIBLE_POINT_T_H
 #define BN_VISIBLE_POINT_T_H
 
+#include "shading/inputs/stage.h"
+#include "shading/inputs/triangle.h"
 #include "shading/kernels/camera.t.h"
 #include "shading/kernels/interpolate.k.h"
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
-#include "shading/lang/triangle.h"
 #include "shading/surface/coverage.t.h"
 #include "shading/surface/relief.k.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

@@ -14,8 +14,8 @@
 #ifndef BN_AS_MC_T_H
 #define BN_AS_MC_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/models/ashikhmin_shirley.k.h"
 #include "shading/surface/energy.k.h"
 #include "shading/techniques/shared_samples.k.h"

@@ -2,8 +2,8 @@
 #ifndef BN_BENT_NORMAL_T_H
 #define BN_BENT_NORMAL_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/techniques/bent_normal.k.h"
 #include "shading/techniques/technique.t.h"
 

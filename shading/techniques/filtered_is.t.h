@@ -2,8 +2,8 @@
 #ifndef BN_FILTERED_IS_T_H
 #define BN_FILTERED_IS_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/energy.k.h"
 #include "shading/techniques/filtered_is.k.h"
 #include "shading/techniques/technique.t.h"

@@ -2,8 +2,8 @@
 #ifndef BN_LOBE_LINE_T_H
 #define BN_LOBE_LINE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/shaded_point.t.h"
 #include "shading/techniques/lobe_line.k.h"
 #include "shading/techniques/shared_samples.k.h"

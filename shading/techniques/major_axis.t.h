@@ -3,8 +3,8 @@
 #ifndef BN_MAJOR_AXIS_T_H
 #define BN_MAJOR_AXIS_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/techniques/major_axis.k.h"
 #include "shading/techniques/technique.t.h"
 

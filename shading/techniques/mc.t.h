@@ -3,8 +3,8 @@
 #ifndef BN_MC_T_H
 #define BN_MC_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/bsdf_lobe.t.h"
 #include "shading/techniques/technique.t.h"
 
@@ -94,12 +94,12 @@ BN_FN real3 mc_specular(frame_ref f, BN_IN(shaded_point) x)
     if (interface_is_sampled(x)) {
         // Sample each channel by its own index where they differ, by one text
         real3 light = vec3_all(lit(0.0));
-        for (int c = 0; c < (x.disperses ? 3 : 1); ++c) {
-            interface_inputs through = x.through;
-            if (x.disperses)
-                through = interface_of_channel(x.through, to_real(int_lit(c)));
+        for (int c = 0; c < (x.transmission.disperses ? 3 : 1); ++c) {
+            interface_inputs through = x.transmission.inputs;
+            if (x.transmission.disperses)
+                through = interface_of_channel(x.transmission.inputs, to_real(int_lit(c)));
             real3 own = mc_of_interface(f, x, rough_interface_of(through, x.lobe, x.s.n, x.s.v, x.geometric_axes));
-            if (x.disperses)
+            if (x.transmission.disperses)
                 own = channel_alone(own, c);
             light = light + own;
         }

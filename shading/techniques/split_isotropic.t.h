@@ -2,8 +2,8 @@
 #ifndef BN_SPLIT_ISOTROPIC_T_H
 #define BN_SPLIT_ISOTROPIC_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/techniques/split_isotropic.k.h"
 #include "shading/techniques/technique.t.h"
 

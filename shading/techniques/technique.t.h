@@ -3,8 +3,8 @@
 #ifndef BN_TECHNIQUE_T_H
 #define BN_TECHNIQUE_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/shaded_point.t.h"
 
 BN_KERNELS_BEGIN

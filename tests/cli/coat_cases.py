@@ -99,6 +99,10 @@ def devices(bench):
     check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4"))
     light = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided")
     check_equal(parity(bench, mapped, *small, *light, "--msaa", "1", "--technique", "bent_normal"))
+    # Other indices, and normals of the coat that mip filters widen
+    dense = scene(bench, "dense", textures=("clearcoatNormal",), extras={"burnish": {"clearcoat": {"ior": 2.2}}})
+    check(bench.figures(dense, *CLOSE)["pixel_hash"] != bench.figures(scene(bench, "usual", textures=("clearcoatNormal",)), *CLOSE)["pixel_hash"], "the index is not seen")
+    check_equal(parity(bench, dense, *small, "--msaa", "1", "--technique", "auto", "--mip-filter", "kappa", also=[(*light, "--mip-filter", "box")]))
 
 @case("coat.mip_filters_widen_it_by_its_normals", budget=30)
 def widened(bench):

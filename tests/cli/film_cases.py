@@ -1,5 +1,7 @@
 """KHR_materials_iridescence: in files, in both renderers, in the reference, on a device."""
 
+import struct
+
 import gltf_files as files
 from brdf_cases import against_files
 from fresnel_cases import CLOSE
@@ -8,6 +10,7 @@ from input_cases import refuse, scratch
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
+QUAD = ("--light", "quad:points=-1,-0.2,0.1/-1,0.8,0.1/-1,0.8,0.7/-1,-0.2,0.7:radiance=5,5,5:two-sided")
 PLACE = "/materials/0/extensions/KHR_materials_iridescence"
 
 
@@ -78,6 +81,7 @@ def devices(bench):
     check_equal(parity(bench, mapped, *small, "--msaa", "1", "--technique", "mc", "--samples", "4", also=[("--fresnel", "dielectric")]))
     glass = scene(bench, "glass", metallic=0, below={"KHR_materials_transmission": {"transmissionFactor": 1}})
     check_equal(parity(bench, glass, *small, "--msaa", "1", "--technique", "lobe_line"))
+    check_equal(parity(bench, mapped, *small, *QUAD, "--msaa", "1", "--technique", "bent_normal"))
 
 
 def prism(bench, name, dispersion):
@@ -95,8 +99,34 @@ def dispersed(bench):
     check(len(set(hashes.values())) == 4, f"{hashes}")
 
 
+def octahedron(bench, name, dispersion):
+    """A closed body of coloured glass."""
+    corners = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
+    faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
+    positions, indices = struct.pack("<18f", *(c for corner in corners for c in corner)), struct.pack("<24H", *(i for face in faces for i in face))
+    gltf = files.triangle(positions, indices)
+    primitive = gltf["meshes"][0]["primitives"][0]
+    primitive["attributes"]["NORMAL"], primitive["material"] = primitive["attributes"]["POSITION"], 0
+    gltf["bufferViews"] = [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 48}]
+    gltf["buffers"][0]["byteLength"] = 120
+    for accessor in gltf["accessors"]:
+        accessor["count"] = 6 if accessor["type"] == "VEC3" else 24
+        if "min" in accessor:
+            accessor["min"], accessor["max"] = [-1, -1, -1], [1, 1, 1]
+    below = {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.6}, "KHR_materials_dispersion": {"dispersion": dispersion},
+             "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.4, 0.8, 0.6]}}
+    gltf["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.1}, "extensions": below}]
+    gltf["extensionsUsed"] = list(below)
+    return scratch(bench, name + ".gltf", files.text(gltf))
+
+
 @case("dispersion.devices_give_the_same_words", tier="nightly")
 def dispersed_devices(bench):
+    whole = ("--size", "64x48", "--env-size", "64", "--env-samples", "64")
+    said = bench.run("render", octahedron(bench, "body", 4), *whole, "-o", "body.png").expect(0)
+    check("open mesh" not in said.err, said.describe())
+    check(bench.figures(octahedron(bench, "plain", 0), *whole)["pixel_hash"] != bench.figures("body.gltf", *whole)["pixel_hash"], "a body does not disperse")
     small = ("--size", "32x24", "--env", "builtin:sky", "--msaa", "1")
     for technique in ("lobe_line", "mc"):
-        check_equal(parity(bench, prism(bench, "glass", 4), *small, "--technique", technique, "--samples", "4"))
+        check_equal(parity(bench, prism(bench, "glass", 4), octahedron(bench, "body", 4), *small, "--technique", technique, "--samples", "4"))
+    check_equal(parity(bench, prism(bench, "glass", 4), *small, *QUAD, "--technique", "bent_normal"))

@@ -1,9 +1,11 @@
 """burnish golden in pieces: rows of a manifest by processes that share a folder."""
 
 import json
+import os
 import pathlib
 import shlex
 import shutil
+import signal
 import subprocess
 import time
 
@@ -125,23 +127,33 @@ def machines_that_fail(bench):
     check(done.returncode == 7 and "No space left" in done.stderr, f"{done.returncode} {done.stderr}")
 
 
+def alive(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 @case("golden.a_killed_check_ends_its_programs", budget=20)
 def killed(bench):
     """Signal 9 to a process that makes rows ends their programs, and what these started: no program goes on beside its successor."""
     here = bench.folder / "go"
     write(bench, [{"name": f"row{i}", "command": ["sh", "-c", f"sleep 60 & echo $! > {here}.{i}; echo $$ >> {here}.{i}; wait"], "picture": f"out{i}.ppm"} for i in range(2)])
     for words in (("--jobs", "2"), ("--take", "--work", "w")):
-        maker = subprocess.Popen([bench.program, "golden", "check", "m.json", *words], cwd=bench.folder, env=bench.environment({}), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        maker = subprocess.Popen([bench.program, "golden", "check", "m.json", *words], cwd=bench.folder, env=bench.environment({}), start_new_session=True, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL)
         count = 2 if "--jobs" in words else 1
         until = time.monotonic() + 20
         pids = []
         while len(pids) < 2 * count and time.monotonic() < until:
             time.sleep(0.02)
             pids = [int(line) for path in bench.folder.glob("go.*") for line in path.read_text().split()]
-        check(len(pids) == 2 * count and all(pathlib.Path(f"/proc/{pid}").exists() for pid in pids), f"{words}: {pids}")
-        maker.kill()
+        check(len(pids) == 2 * count and all(map(alive, pids)), f"{words}: {pids}")
+        if count == 1:
+            maker.kill()
+        else:
+            os.killpg(maker.pid, signal.SIGKILL)  # the whole group, as launchers do
         maker.wait()
-        alive = lambda pid: pathlib.Path(f"/proc/{pid}").exists() and pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
         while any(map(alive, pids)) and time.monotonic() < until:
             time.sleep(0.02)
         check(not any(map(alive, pids)), f"{words}: a program goes on")

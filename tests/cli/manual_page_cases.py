@@ -54,6 +54,9 @@ def options(bench):
             check(option == "--help" or re.search(rf"^\| (?:`-\w`, )?`{option}` \|", page, re.M), f"{name}: no row of {option}")
     bench.run("manual", "markdown", "nothing").expect(2).expect_one_line("nothing")
     bench.run("manual", "bash", "render").expect(2).expect_one_line("markdown")
+    everything = bench.run("manual", "--markdown").expect(0).out
+    check(bench.run("manual", "markdown", "render").expect(0).out in everything and len(re.findall("^# burnish ", everything, re.M)) > 10, "not all pages")
+    bench.run("manual", "fish", "--markdown").expect(2).expect_one_line("--markdown")
 
 
 @case("manual.pictures_beside_options_show_them", tier="quick")

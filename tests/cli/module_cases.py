@@ -15,6 +15,7 @@ import threading
 import time
 
 from browser import Browser
+from export_cases import undefined
 from harness import Skipped, case, check
 from reference_cases import needs_embree
 
@@ -360,6 +361,16 @@ mat4 INV_VIEW_MATRIX;
 float METALLIC, ROUGHNESS, ANISOTROPY;
 vec4 RADIANCE;
 """
+GODOT_MAIN = """layout(location = 0) out vec4 seen;
+void main()
+{
+    vec4 at = gl_FragCoord;
+    NORMAL = at.xyz, VIEW = at.yzx, TANGENT = at.zxy, BINORMAL = at.xxy, ALBEDO = at.yyz, UV = at.xy, INV_VIEW_MATRIX = mat4(at.x);
+    METALLIC = ROUGHNESS = ANISOTROPY = at.w;
+    fragment();
+    seen = RADIANCE;
+}
+"""
 
 
 @case("export.shader_for_godot_compiles_as_glsl")
@@ -377,7 +388,9 @@ def godot(bench):
     first = lambda word: text.index(word)
     check(first("vec4 burnish_radiance(int") < first("burnish_radiance(cube."), "the engine's function stands behind its first call")
     text = re.sub(r"^uniform (\w+) (\w+)[^;]*;", r"uniform highp \1 \2;", text.replace("shader_type spatial;", ""), flags=re.M)
-    (bench.folder / "burnish.frag").write_text(GODOT + text + "layout(location = 0) out vec4 seen;\nvoid main() { fragment(); seen = RADIANCE; }\n")
-    done = subprocess.run(["glslc", "-w", "--target-env=opengl", "-fauto-map-locations", "-fauto-bind-uniforms", bench.folder / "burnish.frag", "-o", bench.folder / "burnish.spv"],
+    (bench.folder / "burnish.frag").write_text(GODOT + text + GODOT_MAIN)
+    done = subprocess.run(["glslc", "-w", "--target-env=opengl", "-fauto-map-locations", "-fauto-bind-uniforms", bench.folder / "burnish.frag", "-o", bench.folder / "engine.spv"],
                           capture_output=True, text=True)
     check(done.returncode == 0, done.stderr[:1500])
+    if shutil.which("spirv-opt") and shutil.which("spirv-dis"):
+        check(not undefined(bench), "an optimiser finds values that nobody has written")

@@ -1,5 +1,7 @@
-"""bake environment --textures: cubes, tables and lights for engines, read by readers of this file's own."""
+"""bake environment --format: cubes, tables and lights for engines, read by readers of this file's own."""
 
+import functools
+import http.server
 import json
 import math
 import os
@@ -8,7 +10,9 @@ import re
 import shutil
 import struct
 import subprocess
+import threading
 
+from browser import Browser
 from harness import Skipped, case, check, scratch
 
 BAKE = ("bake", "environment", "builtin:sky", "--env-size", "32", "--env-samples", "16", "-q")
@@ -157,46 +161,99 @@ def beyond(bench):
     check(max(ktx2(bench.folder / "half/specular.ktx2")[1][0]) == 65504 and max(ktx2(bench.folder / "float/specular.ktx2")[1][0]) > 1e5, "clamped values")
     bench.run(*BAKE, "--texels", "float", "-o", "x").expect(2).expect_one_line("--texels")
     bench.run(*BAKE, "--textures", "png", "-o", "x").expect(2).expect_one_line("--textures")
+    for wrong, needle in (((*BAKE, "--format", "png-levels"), "environment"), ((*BAKE, "--format", "dds", "--textures", "dds"), "--textures"),
+                          (("bake", "mip", "builtin:bumps", "--format", "ktx2"), "png-levels"), (("bake", "direction", "sun.pfm", "--format", "exr"), "mip")):
+        bench.run(*wrong, "-o", "x").expect(2).expect_one_line("--", needle)
+    for option in ("--format", "--textures"):
+        bench.run(*BAKE, option, "ktx2", "-o", option[2:]).expect(0)
+    check({p.name: p.read_bytes() for p in (bench.folder / "format").iterdir()} == {p.name: p.read_bytes() for p in (bench.folder / "textures").iterdir()}, "both names do not write the same")
+    check((bench.folder / "format/ltc.ktx2").exists(), "no textures")
     bench.run("bake", "quaternion", "sun.pfm", "--textures", "dds", "-o", "x.png").expect(2).expect_one_line("--textures")
     (bench.folder / "half/dfg.ktx2").unlink()
     (bench.folder / "half/dfg.ktx2").mkdir()
     bench.run(*words, "-q", "-o", "half").expect(7).expect_one_line("dfg.ktx2")
 
 
-READERS = """import { readFileSync } from 'fs';
-import { read } from 'three/examples/jsm/libs/ktx-parse.module.js';
-import { KTX2Loader } from 'three/examples/jsm/loaders/KTX2Loader.js';
+READERS = """<!doctype html><script type="importmap">{ "imports": { "three": "./node_modules/three/build/three.module.js" } }</script>
+<script type="module">
+import * as THREE from 'three';
+import { read } from './node_modules/three/examples/jsm/libs/ktx-parse.module.js';
+import { KTX2Loader } from './node_modules/three/examples/jsm/loaders/KTX2Loader.js';
+const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(1, 1, { type: THREE.FloatType });
+// Returns a texel of a texture, as the card reads it: at x, y, or in a direction of a cube.
+const drawn = (texture, at) => {
+  const kind = texture.isCubeTexture ? 'samplerCube' : 'sampler2D', read = texture.isCubeTexture ? 'textureLod(map, at, 0.0)' : 'texelFetch(map, ivec2(at.xy), 0)';
+  const material = new THREE.RawShaderMaterial({ glslVersion: THREE.GLSL3, uniforms: { map: { value: texture }, at: { value: new THREE.Vector3(...at) } },
+    vertexShader: 'in vec3 position; void main() { gl_Position = vec4(position, 1.0); }',
+    fragmentShader: `precision highp float; precision highp ${kind}; uniform ${kind} map; uniform vec3 at; out vec4 to; void main() { to = ${read}; }` });
+  const scene = new THREE.Scene(), value = new Float32Array(4);
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
+  renderer.setRenderTarget(target), renderer.render(scene, new THREE.Camera()), renderer.readRenderTargetPixels(target, 0, 0, 1, 1, value);
+  return [...value];
+};
+// Returns a level's numbers.
+const numbers = (level, form) => [97, 83].includes(form) ? Float32Array.from(new Uint16Array(level.slice().buffer), THREE.DataUtils.fromHalfFloat) : new Float32Array(level.slice().buffer);
 const out = {};
-for (const name of NAMES) {
-  const bytes = readFileSync(`tables/${name}.ktx2`), buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
-  const file = read(new Uint8Array(buffer));
-  const sum = level => new Float32Array(level.slice().buffer).reduce((a, v) => a + v, 0);
-  out[name] = { form: file.vkFormat, width: file.pixelWidth, faces: file.faceCount, sums: file.levels.map(l => sum(l.levelData)) };
-  if (file.faceCount === 1) {
-    const texture = await new Promise((done, failed) => { const loader = new KTX2Loader(); loader.workerConfig = {}; loader.parse(buffer, done, failed); });
-    out[name].loaded = [texture.image.width, texture.image.height, texture.type, texture.image.data.reduce((a, v) => a + v, 0)];
+try {
+  for (const name of NAMES) {
+    const buffer = await (await fetch(`tables/${name}.ktx2`)).arrayBuffer(), file = read(new Uint8Array(buffer));
+    const sum = level => numbers(level, file.vkFormat).reduce((a, v) => a + v, 0);
+    out[name] = { form: file.vkFormat, width: file.pixelWidth, faces: file.faceCount, sums: file.levels.map(l => sum(l.levelData)) };
+    if (file.faceCount === 1) {
+      const texture = await new Promise((done, failed) => { const loader = new KTX2Loader(); loader.workerConfig = {}; loader.parse(buffer, done, failed); });
+      const data = texture.image.data, width = texture.image.width, height = texture.image.height, x = width >> 1, y = height >> 2, n = data.length / width / height;
+      const all = numbers(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), file.vkFormat);
+      out[name].loaded = [width, height, texture.type, all.reduce((a, v) => a + v, 0)];
+      out[name].texel = [...all.slice((y * width + x) * n, (y * width + x + 1) * n)], out[name].drawn = drawn(texture, [x, y, 0]).slice(0, n);
+    } else { // three.js' loader takes uncompressed cubes for flat pictures, so their faces go to a cube by hand
+      const side = file.pixelWidth, bytes = file.levels[0].levelData, each = bytes.length / 6, half = file.vkFormat === 97, type = half ? THREE.HalfFloatType : THREE.FloatType;
+      const faces = [0, 1, 2, 3, 4, 5].map(k => { const part = bytes.slice(k * each, (k + 1) * each).buffer;
+        return new THREE.DataTexture(half ? new Uint16Array(part) : new Float32Array(part), side, side, THREE.RGBAFormat, type); });
+      const cube = new THREE.CubeTexture(faces);
+      Object.assign(cube, { format: THREE.RGBAFormat, type, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, generateMipmaps: false, needsUpdate: true });
+      const x = side >> 1, y = side >> 2, u = 2 * (x + 0.5) / side - 1, v = 2 * (y + 0.5) / side - 1; // on +X, then on -Z
+      const of = k => [...numbers(bytes.slice(k * each, (k + 1) * each), file.vkFormat).slice(4 * (y * side + x), 4 * (y * side + x) + 4)];
+      out[name].texel = [...of(0), ...of(5)], out[name].drawn = [...drawn(cube, [1, -v, -u]), ...drawn(cube, [-u, -v, -1])];
+    }
   }
-}
-console.log(JSON.stringify(out));
+  window.answer = JSON.stringify(out);
+} catch (e) { window.answer = JSON.stringify({ failed: String(e.stack || e) }); }
+</script>
 """
 
 
-@case("bake.ktx2_files_are_read_by_the_readers_of_engines", tier="nightly")
-def other_readers(bench):
-    """ktx-parse reads each file, and three.js' loader the flat ones: sizes, faces, levels and sums of all texels."""
-    engines = os.environ.get("BURNISH_ENGINES", "")
-    if not engines or not shutil.which("node"):
-        raise Skipped("no node, or no engines: BURNISH_ENGINES is to name a folder with node_modules that holds three")
-    (bench.folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
-    bench.run(*BAKE, "--textures", "ktx2", "--texels", "float", "-o", "tables").expect(0)
+def read_by_engines(bench, texels):
+    bench.run(*BAKE, "--format", "ktx2", "--texels", texels, "-o", "tables").expect(0)
     names = sorted(path.stem for path in (bench.folder / "tables").glob("*.ktx2"))
     check({"specular", "box", "whole", "irradiance", "dfg", "lobe_albedo", "ltc"} <= set(names), f"{names}")
-    (bench.folder / "read.mjs").write_text(READERS.replace("NAMES", json.dumps(names)))
-    done = subprocess.run(["node", "read.mjs"], cwd=bench.folder, capture_output=True, text=True)
-    check(done.returncode == 0, done.stderr[:1500])
-    for name, read in json.loads(done.stdout).items():
+    (bench.folder / "read.html").write_text(READERS.replace("NAMES", json.dumps(names)))
+
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=bench.folder)) as host:
+        threading.Thread(target=host.serve_forever, daemon=True).start()
+        with Browser(bench.folder / "browser", webgl=True) as browser:
+            browser.visit(f"http://127.0.0.1:{host.server_port}/read.html")
+            browser.until("!!window.answer")
+            answer = json.loads(browser.value("window.answer"))
+        host.shutdown()
+    check("failed" not in answer, f"{answer}")
+    for name, read in answer.items():
         (width, faces, channels), levels = ktx2(bench.folder / f"tables/{name}.ktx2")
         check((read["width"], read["faces"], len(read["sums"])) == (width, faces, len(levels)) and CHANNELS[read["form"]][0] == channels, f"{name}: {read}")
         near = lambda a, b: abs(a - b) <= 1e-3 * max(1.0, abs(b))  # sums in another order and in floats
         check(all(near(a, sum(b)) for a, b in zip(read["sums"], levels)), f"{name}: {read['sums']} and {[sum(level) for level in levels]}")
-        check(faces == 6 or (read["loaded"][0] == width and read["loaded"][2] == 1015 and near(read["loaded"][3], sum(levels[0]))), f"{name}: {read}")
+        check(read["texel"] == read["drawn"] and (faces == 6 or (read["loaded"][0] == width and read["loaded"][2] == (1016 if texels == "half" else 1015) and near(read["loaded"][3], sum(levels[0])))), f"{name}: {read}")
+
+
+@case("bake.ktx2_files_are_read_by_the_readers_of_engines", tier="nightly")
+def other_readers(bench):
+    """In Chromium: ktx-parse reads each file; three.js' loader reads the flat ones. Texels as a card reads them, sizes, faces, levels, sums of texels."""
+    engines = os.environ.get("BURNISH_ENGINES", "")
+    if not engines:
+        raise Skipped("no engines: BURNISH_ENGINES is to name a folder with node_modules that holds three")
+    (bench.folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
+    for texels in ("half", "float"):
+        read_by_engines(bench, texels)

@@ -17,27 +17,12 @@ RENDERERS = ("tile", "vulkan", "reference")                  # they meet in rast
 # beside the order: a file that a table names includes the table.
 ROOMS = {
     "core": ("wasm", "base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/mtlx", "scene/gltf"),
-    "shading": ("lang", "kernels", "models", "surface", "techniques", "lights", "stages",
+    "shading": ("lang", "kernels", "inputs", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS
     "apps": ("report", "cli", "pieces", "options", "info", "risks", "plan", "render", "serve", "live", "compare", "golden", "export", "wasm", "bake", "chart", "parity", "profile",
              "lab/mip", "lab/train", "lab/atlas", "lab/conform", "lab/plot", "lab/race", "lab/ltc", "lab", "examples"),
 }
-# Known exceptions: a file, the room that it includes out of order, and why.
-GLSL_SIDE = "its GLSL half lies with the stages: the language is one text for two compilers"
-CXX_SIDE = "what a stage is in C++ calls kernels: with its callers in raster it would be a room between kernels and surface"
-OUT_OF_ORDER = {
-    ("shading/lang/frame.h", "stages"): GLSL_SIDE,
-    ("shading/lang/recorder.h", "stages"): GLSL_SIDE,
-    ("shading/lang/stage.h", "stages"): GLSL_SIDE,
-    ("shading/lang/triangle.h", "stages"): GLSL_SIDE,
-    ("shading/lang/cube_sum.h", "kernels"): CXX_SIDE,
-    ("shading/lang/texture_fetch.h", "kernels"): CXX_SIDE,
-    ("shading/lang/texture_fetch.h", "surface"): CXX_SIDE,
-    ("shading/lang/stage_cxx.h", "kernels"): CXX_SIDE,
-    ("shading/lang/stage_cxx.h", "surface"): CXX_SIDE,
-}
-
 # Third-party headers and the folders that may include them.
 THIRD_PARTY = (
     (r"OpenImageIO/|OpenEXR/|Imath/", ("core/image/io/openimageio_module.cpp",)), # the program would load any library included elsewhere
@@ -55,7 +40,7 @@ THIRD_PARTY = (
     (r"(ranges|format)$", ()),  # GCC 12 and clang 14 do not agree on them
 )
 
-INTERFACE = "shading/stages/interface.glsl" # defines texel pages for all later includes
+INTERFACE = "shading/lang/interface.glsl" # defines texel pages for all later includes
 
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
 SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp", ".glsl")
@@ -129,11 +114,11 @@ def check_include(path, quoted, name, files):
         yield f'{top} includes "{name}", which lies above it'
     if top == other and top in ROOMS and target.suffix != ".def":
         mine, theirs, order = room_of(path), room_of(target), ROOMS[top]
-        if mine and theirs and order.index(theirs) > order.index(mine) and (str(path), theirs) not in OUT_OF_ORDER:
+        if mine and theirs and order.index(theirs) > order.index(mine):
             yield f'{top}/{mine} includes "{name}", which comes after it in the order of rooms'
     if top in LAYERS and "lab" in target.parts and "lab" not in path.parts:
         yield f'includes "{name}" of a laboratory, which no file of the product knows'
-    if is_kernel(path) and not (lies_in(target, ("shading/lang",)) or is_kernel(target) or target.match("shading/*.def")):
+    if is_kernel(path) and not (lies_in(target, ("shading/lang", "shading/inputs")) or is_kernel(target) or target.match("shading/*.def")):
         yield f'a kernel includes "{name}"'
     if top == other == "raster" and len(path.parts) > 2 and len(target.parts) > 2:
         mine, theirs = path.parts[1], target.parts[1]
@@ -152,7 +137,7 @@ def is_stage(path):
 
 def guarded(path, lines):
     """Returns True if a header is guarded. GLSL has no #pragma once, so files for GLSL need a macro."""
-    glsl = is_kernel(path) or path.is_relative_to("shading/lang")
+    glsl = is_kernel(path) or lies_in(path, ("shading/lang", "shading/inputs"))
     text = "\n".join(lines)
     return "#pragma once" in text or (glsl and re.search(r"#ifndef (\w+)\n#define \1", text))
 
@@ -174,9 +159,6 @@ def check_source(path, lines, files):
             yield number, "reads the processor's counter: ticks() does"
     if top in ROOMS and path.suffix in (".h", ".cpp") and not room_of(path):
         yield 0, "lies in no room that has a place in the order"
-    for (file, room), _ in OUT_OF_ORDER.items():
-        if str(path) == file and not any(f'#include "{top}/{room}/' in line for line in lines):
-            yield 0, f"is excepted for {top}/{room}, which it does not include"
     limit = MAX_LINES_SIMD if path.is_relative_to("core/simd") else MAX_LINES
     if len(lines) > limit:
         yield limit, f"{len(lines)} lines, more than {limit}"

@@ -50,11 +50,14 @@ struct ConformArguments {
     Limits limits;
 };
 
+constexpr const char* kExposed = "exposure"; // a stop too much; judged by its amount, so no mutant
+
 std::vector<std::string> mistake_names()
 {
     std::vector<std::string> names;
     for (const Mutant& mutant : mutants())
         names.emplace_back(mutant.name);
+    names.emplace_back(kExposed);
     return names;
 }
 
@@ -338,11 +341,14 @@ int draw_folder(const ConformArguments& a, Report& report)
         for (std::size_t m = 0; m < mutants().size(); ++m)
             if (mutants()[m].name == name)
                 mistakes.push_back(static_cast<int>(m));
+    const bool exposed = std::find(a.mistakes.begin(), a.mistakes.end(), kExposed) != a.mistakes.end();
     report.release();
     for (std::size_t i = 0; i < folder->scenes.size(); ++i) {
         Result<Image> picture = technique ? drawer->by_technique(i, *technique) : drawn_with(*drawer, i, mistakes);
         if (!picture)
             return fail(picture.error());
+        for (std::size_t v = 0; exposed && v < picture->bytes.size() / sizeof(float); ++v)
+            picture->f32()[v] *= 2.0f;
         if (const Status written = write_image(a.pictures + "/" + folder->scenes[i].name + ".exr", *picture); !written)
             return fail(written.error());
     }

@@ -117,8 +117,9 @@ bool direction_green_down(Scene& scene)
     return each_direction(scene, [](float* t) { t[1] = 1.0f - t[1]; });
 }
 
-// Gives a map that repeats often one texel: the mean of its directions at full length. The mean of angles is the same here.
-bool directions_averaged(Scene& scene)
+// Gives a map that repeats often one texel: the mean of its directions at full length, and of the strengths, which the mean's length may
+// multiply. The mean of angles is the same here.
+bool one_direction(Scene& scene, bool length_counts)
 {
     constexpr float kOften = 8.0f; // times across a surface
     const auto& u = scene.vertices.u0;
@@ -128,10 +129,18 @@ bool directions_averaged(Scene& scene)
     const auto add = [&](const float* t) { sum[0] += t[0] * 2.0f - 1.0f, sum[1] += t[1] * 2.0f - 1.0f, sum[2] += t[2], count += 1.0f; };
     if (!each_direction(scene, [&](float* t) { add(t); }) || count == 0.0f)
         return false;
-    const float length = std::hypot(sum[0], sum[1]);
+    const float length = std::hypot(sum[0], sum[1]), strength = sum[2] / count * (length_counts ? length / count : 1.0f);
     return length > 0.0f && each_direction(scene, [&](float* t) {
-               t[0] = 0.5f + 0.5f * sum[0] / length, t[1] = 0.5f + 0.5f * sum[1] / length, t[2] = sum[2] / count;
+               t[0] = 0.5f + 0.5f * sum[0] / length, t[1] = 0.5f + 0.5f * sum[1] / length, t[2] = strength;
            });
+}
+bool directions_averaged(Scene& scene)
+{
+    return one_direction(scene, false);
+}
+bool directions_unnormalised(Scene& scene)
+{
+    return one_direction(scene, true);
 }
 bool first_coordinates(Scene& scene)
 {
@@ -380,6 +389,8 @@ const std::vector<Mutant>& mutants()
         {"direction_green_down", "the texture's directions have green down", 0, direction_green_down},
         {"map_strength_ignored", "the strength in the texture's blue is ignored", 0, strength_of_map_ignored},
         {"directions_averaged", "mip levels average directions or angles, and keep the length", 0, directions_averaged},
+        {"directions_unnormalised", "directions of the texture are not normalised: their length counts as strength", 0,
+         directions_unnormalised},
         {"first_coordinates", "the second texture coordinates are ignored", 0, first_coordinates},
         {"transform_ignored", "KHR_texture_transform is ignored", 0, no_texture_transform},
         {"normal_map_ignored", "the normal map is ignored", 0, no_normal_map},

@@ -107,8 +107,8 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
                      fmt::format("holds no picture of a scene: {}.exr, .hdr, .pfm or .png and so on",
                                  folder.scenes.empty() ? "" : folder.scenes[0].name)};
     if (eight_bits != 0)
-        report.warning(
-            fmt::format("{} 8-bit pictures: taken for sRGB at an exposure of {} stops, without a tone curve", eight_bits, kConformEv));
+        report.warning(fmt::format("{} pictures of 8 or 16 bits: taken for sRGB at an exposure of {} stops, without a tone curve",
+                                   eight_bits, kConformEv));
     return out;
 }
 

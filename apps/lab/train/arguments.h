@@ -21,7 +21,7 @@ struct TrainArguments {
 };
 
 // Trains nets, one for each seed, and writes the best. Returns the exit code.
-int run_training(TrainArguments& a, const OptionTable& given, Report& report);
+int run_training(TrainArguments& a, Report& report);
 // Measures nets against closed forms. Returns the exit code.
 int run_evaluation(const TrainArguments& a, const OptionTable& given, Report& report);
 

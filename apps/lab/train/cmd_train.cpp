@@ -120,7 +120,7 @@ int run_train(TrainArguments& a, const OptionTable& given)
     if (const Status checked = check_arguments(a, given); !checked)
         return fail(checked.error());
     Report report(a.quiet, a.verbosity);
-    return a.evaluate.empty() ? run_training(a, given, report) : run_evaluation(a, given, report);
+    return a.evaluate.empty() ? run_training(a, report) : run_evaluation(a, given, report);
 }
 
 } // namespace

@@ -149,33 +149,51 @@ Status write_best(const TrainArguments& a, const std::vector<Candidate>& candida
     return {};
 }
 
-// A piece holds the weights of one seed behind their L1. A stopped piece continues from a checkpoint beside it.
-std::vector<JobPiece> seed_pieces(const TrainArguments& a, const OptionTable& given, const Jobs& jobs, Report& report)
+// Estimates the time of one seed from a few steps, and from judging their weights, s.
+Result<double> seconds_of_seed(const TrainArguments& a, const Jobs& jobs)
 {
-    const auto estimate = std::make_shared<std::optional<double>>(); // s, for any seed
-    const std::string text = text_of_given(given, {"--seed", "--seeds", "--checkpoint"});
+    constexpr int kSteps[] = {1, 5};
+    double taken[2] = {}, judging = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        mipnet::TrainOptions few = a.train;
+        few.steps = kSteps[k], few.checkpoint.clear(), few.stop = &watch_stop_signals();
+        const double begin = wall_ms();
+        const Result<std::optional<mipnet::Weights>> trained = mipnet::train(few, jobs);
+        BN_TRY(trained);
+        taken[k] = (wall_ms() - begin) * 1e-3;
+        if (k > 0 && *trained) {
+            validation_l1(**trained, jobs);
+            judging = (wall_ms() - begin) * 1e-3 - taken[k];
+        }
+    }
+    return taken[0] + std::max(0.0, taken[1] - taken[0]) / (kSteps[1] - kSteps[0]) * (a.train.steps - 1) + judging;
+}
+
+// A piece holds the weights of one seed behind their L1. A stopped piece continues from a checkpoint beside it.
+std::vector<JobPiece> seed_pieces(const TrainArguments& a, const Jobs& jobs, Report& report)
+{
+    const auto estimate = std::make_shared<std::optional<double>>();                             // s, for any seed
+    const std::string text = text_of_scene("train", {a.maps, a.only_maps, a.from, a.taught_by}); // by content
     std::vector<JobPiece> pieces;
     for (int i = 0; i < a.seeds; ++i) {
         const std::uint64_t seed = a.train.seed + static_cast<std::uint64_t>(i);
         const std::string key = piece_key(command_of(a, seed) + text);
         const auto seconds = [&a, &jobs, estimate]() -> Result<double> {
             if (!*estimate) {
-                constexpr int kSteps[] = {1, 5};
-                double taken[2] = {};
-                for (int k = 0; k < 2; ++k) {
-                    mipnet::TrainOptions few = a.train;
-                    few.steps = kSteps[k];
-                    const double begin = wall_ms();
-                    BN_TRY(mipnet::train(few, jobs));
-                    taken[k] = (wall_ms() - begin) * 1e-3;
-                }
-                *estimate = taken[0] + std::max(0.0, taken[1] - taken[0]) / (kSteps[1] - kSteps[0]) * (a.train.steps - 1);
+                const Result<double> measured = seconds_of_seed(a, jobs);
+                BN_TRY(measured);
+                *estimate = *measured;
             }
             return **estimate;
         };
         const auto make = [&a, &jobs, &report, seed, key](const std::string& file) -> Status {
             const std::string checkpoint = file + ".part";
-            const Result<std::optional<mipnet::Weights>> trained = train_seed(a, seed, checkpoint, jobs, report);
+            Result<std::optional<mipnet::Weights>> trained = train_seed(a, seed, checkpoint, jobs, report);
+            if (!trained && trained.error().file == checkpoint) { // a damaged one: begin anew
+                std::error_code ignored;
+                fs::remove(checkpoint, ignored);
+                trained = train_seed(a, seed, checkpoint, jobs, report);
+            }
             BN_TRY(trained);
             if (!*trained)
                 return {};
@@ -240,7 +258,7 @@ int train_all(const TrainArguments& a, const Jobs& jobs, Report& report)
 
 } // namespace
 
-int run_training(TrainArguments& a, const OptionTable& given, Report& report)
+int run_training(TrainArguments& a, Report& report)
 {
     if (const Status read = read_given(a); !read)
         return fail(read.error());
@@ -249,7 +267,7 @@ int run_training(TrainArguments& a, const OptionTable& given, Report& report)
         report.release();
         return train_all(a, jobs, report);
     }
-    const std::vector<JobPiece> pieces = seed_pieces(a, given, jobs, report);
+    const std::vector<JobPiece> pieces = seed_pieces(a, jobs, report);
     if (!a.pieces.merge)
         return run_pieces(a.pieces, kept_words(), pieces, report);
     const auto files = finished_pieces(a.pieces, kept_words(), pieces);

@@ -2,9 +2,9 @@
 #ifndef BN_GLTF_BENT_NORMAL_T_H
 #define BN_GLTF_BENT_NORMAL_T_H
 
+#include "shading/inputs/stage.h"
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
-#include "shading/lang/stage.h"
 #include "shading/surface/dfg.k.h"
 #include "shading/surface/lobe.k.h"
 #include "shading/surface/reflectance.t.h"

@@ -180,6 +180,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         if (stopped)
             return std::optional<Weights>();
     }
+    BN_TRY(keep_training(options, key, t)); // a caller that trains several nets may stop before it uses this one
     // Round the average to halves
     Weights w;
     w.shape = options.shape, w.seed = options.seed, w.steps = t.step, w.data = set.hash;

@@ -71,7 +71,8 @@ TEST(lease, of_an_ended_process_of_this_machine_is_free)
     if (child == 0)
         ::_exit(0);
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
-    std::ofstream(file) << host << " " << child << " 0000000000000000 3\n";
+    const std::string numbers = std::filesystem::read_symlink("/proc/self/ns/pid").string();
+    std::ofstream(file) << host << "/" << numbers << " " << child << " 0000000000000000 3\n";
     Leases leases(new_process_name());
     const Result<std::unique_ptr<Lease>> lease = leases.take(file);
     EXPECT_TRUE(lease && *lease);

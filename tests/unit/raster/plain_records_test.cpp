@@ -1,7 +1,7 @@
-// Which frames and materials may be drawn with records of constants (shading/lang/stage_cxx.h).
+// Which frames and materials may be drawn with records of constants (shading/inputs/stage_cxx.h).
 #include <gtest/gtest.h>
 
-#include "shading/lang/stage_cxx.h"
+#include "shading/inputs/stage_cxx.h"
 
 namespace burnish {
 namespace {

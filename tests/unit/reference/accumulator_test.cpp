@@ -33,6 +33,23 @@ TEST(accumulator, blocks_cover_every_pixel_once)
         EXPECT_EQ(n, 1);
 }
 
+TEST(accumulator, columns_of_a_part_have_its_rows)
+{
+    // 37x21 pixels are 5x3 blocks; the last rows are 5 pixels high
+    const struct {
+        std::size_t first, count, first_pixel, pixels;
+    } parts[] = {{0, 15, 0, 37 * 21}, {0, 5, 0, 37 * 8}, {4, 2, 0, 37 * 16}, {5, 1, 37 * 8, 37 * 8}, {14, 1, 37 * 16, 37 * 5}};
+    for (const auto& part : parts) {
+        Accumulator a(37, 21);
+        hold_blocks(a, part.first, part.count);
+        EXPECT_EQ(a.first_pixel, part.first_pixel) << part.first;
+        EXPECT_EQ(a.pixels, part.pixels) << part.first;
+        reserve_sums(a, 5);
+        EXPECT_EQ(a.sums[2].size(), part.pixels) << part.first;
+        EXPECT_EQ(block_of(a, part.first, 1).first_pixel, part.first_pixel);
+    }
+}
+
 TEST(accumulator, variance_is_that_of_the_mean_and_its_interval_student_s)
 {
     Accumulator a(1, 1);

@@ -29,9 +29,16 @@ Material cloth()
     return m;
 }
 
-Material oxide()
+Material dense_coat()
 {
-    Material m = coated_or_not(0.6f, 1.0f, 0.0f);
+    Material m = coated_or_not(0.7f, 0.0f, 1.0f);
+    m.clearcoat_ior = 2.2f;
+    return m;
+}
+
+Material oxide(float metallic)
+{
+    Material m = coated_or_not(0.6f, metallic, 0.0f);
     m.iridescence = 1.0f, m.iridescence_ior = 2.0f, m.iridescence_thickness = 60.0f;
     return m;
 }
@@ -49,7 +56,9 @@ const std::vector<Surface>& each_surface()
                                              {"half a metal", coated_or_not(0.6f, 0.5f, 0.0f)},
                                              {"coated plastic", coated_or_not(0.7f, 0.0f, 1.0f)},
                                              {"cloth", cloth()},
-                                             {"metal under oxide", oxide(), 4e-3}};
+                                             {"plastic under a dense coat", dense_coat()},
+                                             {"metal under oxide", oxide(1.0f), 4e-3},
+                                             {"plastic under oxide", oxide(0.0f), 4e-3}};
     return all;
 }
 

@@ -12,7 +12,7 @@
 #ifdef __cplusplus
 #define triangle_ref const auto&
 #else
-#include "shading/stages/triangle.glsl"
+#include "shading/inputs/triangle.glsl"
 #define triangle_ref triangle_setup
 #endif
 

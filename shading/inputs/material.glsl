@@ -4,7 +4,7 @@
 
 #include "shading/lang/frame.h"
 #include "shading/kernels/texture_filter.k.h"
-#include "shading/surface/texture_place.k.h"
+#include "shading/kernels/texture_place.k.h"
 
 #define BN_SLOT(slot, at, texture, encoding, power) const int slot = at;
 #include "core/scene/material.def"

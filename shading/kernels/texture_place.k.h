@@ -2,9 +2,9 @@
 #ifndef BN_TEXTURE_PLACE_K_H
 #define BN_TEXTURE_PLACE_K_H
 
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
 #include "shading/lang/records.h"
-#include "shading/surface/visible_point.k.h"
 
 BN_KERNELS_BEGIN
 

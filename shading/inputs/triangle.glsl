@@ -1,10 +1,10 @@
-// Triangles (shading/lang/triangle.h) in GLSL: setups, and vertex words from the flat buffer of reals.
+// Triangles (shading/inputs/triangle.h) in GLSL: setups, and vertex words from the flat buffer of reals.
 #ifndef BN_TRIANGLE_GLSL
 #define BN_TRIANGLE_GLSL
 
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 #include "shading/kernels/interpolate.k.h"
-#include "shading/surface/visible_point.k.h"
+#include "shading/kernels/visible_point.k.h"
 
 triangle_setup load_setup(int slot)
 {

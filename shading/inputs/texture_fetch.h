@@ -2,10 +2,10 @@
 // the maps of one material mostly do. Then only the texels differ. The bits equal separate fetches.
 #pragma once
 #include "core/simd/lanes.h"
+#include "shading/inputs/cube_sum.h"
 #include "shading/kernels/texture_filter.k.h"
-#include "shading/lang/cube_sum.h"
+#include "shading/kernels/texture_place.k.h"
 #include "shading/lang/tables.h"
-#include "shading/surface/texture_place.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

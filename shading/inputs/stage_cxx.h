@@ -2,13 +2,13 @@
 // descriptions for the filter kernels.
 #pragma once
 #include "core/simd/lanes.h"
+#include "shading/inputs/cube_sum.h"
+#include "shading/inputs/texture_fetch.h"
 #include "shading/kernels/camera.t.h"
 #include "shading/kernels/cube_filter.k.h"
-#include "shading/lang/cube_sum.h"
+#include "shading/kernels/visible_point.k.h"
 #include "shading/lang/frame.h"
 #include "shading/lang/tables.h"
-#include "shading/lang/texture_fetch.h"
-#include "shading/surface/visible_point.k.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {

@@ -37,9 +37,9 @@
 #include "shading/lang/frame.h"
 
 #ifdef __cplusplus
-#include "shading/lang/stage_cxx.h"
+#include "shading/inputs/stage_cxx.h"
 #else
-#include "shading/stages/stage.glsl"
+#include "shading/inputs/stage.glsl"
 #endif
 
 #endif

@@ -1,10 +1,10 @@
-// The stage (shading/lang/stage.h) in GLSL. Fetches with the filter kernels from buffers, or with BN_NATIVE_SAMPLER through
+// The stage (shading/inputs/stage.h) in GLSL. Fetches with the filter kernels from buffers, or with BN_NATIVE_SAMPLER through
 // the device's samplers.
 #ifndef BN_STAGE_GLSL
 #define BN_STAGE_GLSL
 
 #include "shading/lang/frame.h"
-#include "shading/stages/material.glsl"
+#include "shading/inputs/material.glsl"
 #include "shading/kernels/camera.t.h"
 #include "shading/kernels/cube_filter.k.h"
 

@@ -2,7 +2,7 @@
 #ifndef BN_RECORDER_GLSL
 #define BN_RECORDER_GLSL
 
-#include "shading/stages/interface.glsl"
+#include "shading/lang/interface.glsl"
 
 #ifndef BN_TAKE_WORD // nothing reads the words
 float taken_words[kPairWords];
