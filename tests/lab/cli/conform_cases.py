@@ -236,9 +236,9 @@ for at in range(QUARTERS):
 
 @case("conform.names_two_mistakes", tier="nightly")
 def names_two(bench):
-    """Two of whole pictures, of which neither explains them alone, and two of few scenes."""
+    """Two of whole pictures, of which neither explains them alone, one of them beside one of few scenes, and two of the lobe."""
     written(bench)
-    for two, *kept in ((("handedness_ignored", "sky_turned_half"), FEW), (("upside_down", "sky_turned_half"),), (("sky_mirrored_x", "sky_turned_quarter"),)):
+    for two, *kept in ((("handedness_ignored", "sky_turned_half"), FEW), (("upside_down", "sky_turned_half"),), (("sky_mirrored_x", "sky_turned_quarter"),), (("axes_swapped", "strength_squared_twice"),)):
         found = named(bench, "folder", *two, **({"kept": kept[0]} if kept else {}))
         check(sorted(found) == sorted(two), f"{two}: {found}")
 
