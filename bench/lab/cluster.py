@@ -46,18 +46,22 @@ def dealt(seconds, workers, start, rate):
 
 
 def plot(rows, total):
-    """Returns an SVG: efficiency over the number of workers, on a logarithmic axis."""
+    """Returns an SVG: efficiency over the number of workers, on a logarithmic axis. rows: {way: rows}."""
     import math
     wide, high, left, top = 520, 300, 60, 20
-    x = lambda w: left + (wide - left - 20) * math.log10(w) / math.log10(max(rows[-1][0], 10))
+    x = lambda w: left + (wide - left - 20) * math.log10(w) / math.log10(max(rows["take"][-1][0], 10))
     y = lambda e: top + (high - top - 50) * (1 - e)
-    points = " ".join(f"{x(w):.1f},{y(e):.1f}" for w, _, e, _, _ in rows)
-    ticks = "".join(f'<text x="{x(w):.0f}" y="{high - 30}" text-anchor="middle">{w}</text>' for w, *_ in rows)
+    ticks = "".join(f'<text x="{x(w):.0f}" y="{high - 30}" text-anchor="middle">{w}</text>' for w, *_ in rows["take"])
     lines = "".join(f'<line x1="{left}" x2="{wide - 20}" y1="{y(e):.1f}" y2="{y(e):.1f}" stroke="#ddd"/><text x="{left - 8}" y="{y(e) + 4:.1f}" text-anchor="end">{e:.1f}</text>'
                     for e in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0))
-    dots = "".join(f'<circle cx="{x(w):.1f}" cy="{y(e):.1f}" r="3.5" fill="#0b62a4"/>' for w, _, e, _, _ in rows)
+    curves = ""
+    for way, colour, at in (("take", "#0b62a4", 0), ("shard", "#c2410c", 1)):
+        points = " ".join(f"{x(w):.1f},{y(e):.1f}" for w, _, e, _, _ in rows[way])
+        curves += f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="2"/>' + "".join(
+            f'<circle cx="{x(w):.1f}" cy="{y(e):.1f}" r="3.5" fill="{colour}"/>' for w, _, e, _, _ in rows[way])
+        curves += f'<text x="{left + 12}" y="{y(0.2) + 16 * at:.1f}" fill="{colour}">--{way}</text>'
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="#fff"/>'
-            f'{lines}{ticks}<polyline points="{points}" fill="none" stroke="#0b62a4" stroke-width="2"/>{dots}<text x="{left}" y="14">share of the workers\' time that makes pieces ({total:.0f} s of pieces)</text>'
+            f'{lines}{ticks}{curves}<text x="{left}" y="14">share of the workers\' time that makes pieces ({total:.0f} s of pieces)</text>'
             f'<text x="{wide / 2:.0f}" y="{high - 8}" text-anchor="middle">workers</text></svg>\n')
 
 
@@ -73,7 +77,7 @@ def main():
     parser.add_argument("-o", "--output")
     given = parser.parse_args()
     seconds = [float(line.split()[1]) for line in open(given.pieces) if line.strip()]
-    total, merge, rows = sum(seconds), given.merge * len(seconds), []
+    total, merge, rows = sum(seconds), given.merge * len(seconds), {"take": [], "shard": []}
     print(f"{len(seconds)} pieces, {total:.0f} s, the longest {max(seconds):.1f} s, {given.bytes * len(seconds) / 1e6:.0f} MB; merge {merge:.1f} s")
     print("workers  way       pieces s  with merge s  efficiency  requests  a second  memory GB")
     for workers in map(int, given.workers.split(",")):
@@ -81,8 +85,7 @@ def main():
             last, requests = way(seconds, workers, given.start, given.requests)
             row = (workers, last, total / (workers * last), requests, requests / last)
             print(f"{workers:7d}  {name:6s} {last:11.1f} {last + merge:13.1f} {row[2]:11.3f} {requests:9d} {row[4]:9.0f} {workers * given.memory / 1e3:10.1f}")
-            if way == taken:
-                rows.append(row)
+            rows[name].append(row)
     if given.output:
         with open(given.output, "w", encoding="utf-8") as file:
             file.write(plot(rows, total))
