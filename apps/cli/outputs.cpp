@@ -190,17 +190,18 @@ Status make_output_folder(const std::string& folder)
     return {};
 }
 
-Image display_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
+Image display_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve,
+                      const Jobs* jobs)
 {
-    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts, resolve);
+    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts, resolve, jobs);
 }
 
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts,
-                     Resolve resolve)
+                     Resolve resolve, const Jobs* jobs)
 {
     if (stores_floats(path))
         return write_image(path, linear);
-    return write_image(path, display_picture(linear, tonemap, exposure_ev, parts, resolve));
+    return write_image(path, display_picture(linear, tonemap, exposure_ev, parts, resolve, jobs));
 }
 
 Status write_text(const std::string& path, const std::string& text)

@@ -34,11 +34,11 @@ bool same_file(const std::string& a, const std::string& b);
 // Returns the 8-bit picture for a display, from linear pixels after exposure and tonemapping. Alpha is straight, not premultiplied.
 // parts: samples of pixels that are not resolved as a plain mean.
 Image display_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts = {},
-                      Resolve resolve = Resolve::linear);
+                      Resolve resolve = Resolve::linear, const Jobs* jobs = nullptr);
 
 // Writes linear pixels to a float format, or exposed and tonemapped pixels to an 8-bit format, by extension.
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev,
-                     const std::vector<PixelPart>& parts = {}, Resolve resolve = Resolve::linear);
+                     const std::vector<PixelPart>& parts = {}, Resolve resolve = Resolve::linear, const Jobs* jobs = nullptr);
 
 // Writes to a file (atomically), to standard output ("-"), or into an existing device or pipe.
 Status write_text(const std::string& path, const std::string& text);

@@ -74,7 +74,7 @@ void report_frames(const RenderOptions& options, const RenderFigures& figures, R
 }
 
 // Tries every output even after one fails. Returns the first failure.
-Status write_outputs(const RenderOptions& options, const Rendered& rendered, Report& report)
+Status write_outputs(const RenderOptions& options, const Rendered& rendered, const Jobs& jobs, Report& report)
 {
     Status first;
     const auto note = [&](const std::string& path, const Status& status) {
@@ -87,7 +87,7 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     };
     for (const std::string& path : options.outputs) {
         const TraceSpan span("write picture");
-        note(path, write_rendered(path, rendered, options));
+        note(path, write_rendered(path, rendered, options, &jobs));
     }
     if (!options.variance_file.empty())
         note(options.variance_file, write_image(options.variance_file, rendered.variance));
@@ -100,9 +100,9 @@ Status write_outputs(const RenderOptions& options, const Rendered& rendered, Rep
     return first;
 }
 
-int finish(const RenderOptions& options, const Rendered& rendered, Report& report)
+int finish(const RenderOptions& options, const Rendered& rendered, const Jobs& jobs, Report& report)
 {
-    const Status written = write_outputs(options, rendered, report);
+    const Status written = write_outputs(options, rendered, jobs, report);
     if (rendered.risks) {
         report.detail("risks", fmt::format("found in {:.2f} ms", rendered.risks->ms));
         if (options.risks == "-")
@@ -222,7 +222,7 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     Status verified;
     if (options.verify)
         verified = verify_plan(options, desc, *session, rendered->color, *plan, report);
-    int code = finish(options, *rendered, report);
+    int code = finish(options, *rendered, *session->parts().jobs, report);
     if (!verified)
         code = std::max(fail(verified.error()), code);
     return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first

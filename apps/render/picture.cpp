@@ -68,13 +68,13 @@ bool draws_alpha(const RenderOptions& options)
 
 } // namespace
 
-Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options)
+Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options, const Jobs* jobs)
 {
     if (!options.aov.empty() && stores_channels(path))
         return write_channels(path, rendered.layered.image, rendered.layered.names);
     if (!rendered.shown.empty())
         return write_image(path, rendered.shown);
-    return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts, options.resolve);
+    return write_picture(path, rendered.color, options.tonemap, options.exposure_ev, rendered.parts, options.resolve, jobs);
 }
 
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs)

@@ -24,8 +24,8 @@ struct Rendered {
     RenderFigures figures;
 };
 
-// Writes the format named by the extension of `path`.
-Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options);
+// Writes the format named by the extension of `path`. jobs: null for the calling thread alone.
+Status write_rendered(const std::string& path, const Rendered& rendered, const RenderOptions& options, const Jobs* jobs = nullptr);
 
 // Refuses output paths that collide with each other or with `inputs`, the files read.
 Status check_paths(const RenderOptions& options, const std::vector<std::string>& inputs);

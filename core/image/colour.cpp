@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/base/check.h"
+#include "core/jobs/jobs.h"
 
 namespace burnish {
 namespace {
@@ -197,7 +198,21 @@ Result<Tonemap> parse_tonemap(const std::string& name)
     return Error{ExitCode::usage, "", "", "unknown tonemap \"" + name + "\" (none, pbr-neutral, aces)"};
 }
 
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
+namespace {
+
+// Runs body(begin, end) over ranges of `count`, on all threads where there are jobs.
+template <class Body> void for_ranges(std::size_t count, const Jobs* jobs, const Body& body)
+{
+    constexpr std::size_t kRange = std::size_t{1} << 15;
+    const std::size_t ranges = (count + kRange - 1) / kRange;
+    if (!jobs || ranges < 2)
+        return body(std::size_t{0}, count);
+    jobs->parallel_for_whole(ranges, [&](std::size_t i, int) { body(i * kRange, std::min(count, (i + 1) * kRange)); });
+}
+
+} // namespace
+
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const Jobs* jobs)
 {
     BN_CHECK(linear.type == PixelType::f32);
     const SrgbTable& table = srgb_table();
@@ -205,20 +220,22 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev)
     Image out = make_image(linear.width, linear.height, linear.channels, PixelType::u8);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
     const bool colour = channels >= 3, alpha = channels % 2 == 0;
-    const float* in = linear.f32();
-    std::uint8_t* to = reinterpret_cast<std::uint8_t*>(out.bytes.data());
-    for (std::size_t i = 0; i < out.bytes.size(); i += channels) {
-        const float r = expose(in[i], scale);
-        const Rgb exposed = colour ? Rgb{r, expose(in[i + 1], scale), expose(in[i + 2], scale)} : Rgb{r, r, r};
-        const Rgb mapped = apply(tonemap, exposed);
-        to[i] = table.encode(mapped.r);
-        if (colour) {
-            to[i + 1] = table.encode(mapped.g);
-            to[i + 2] = table.encode(mapped.b);
+    const float* const in = linear.f32();
+    std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data());
+    for_ranges(out.bytes.size() / std::max<std::size_t>(channels, 1), jobs, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * channels; i < end * channels; i += channels) {
+            const float r = expose(in[i], scale);
+            const Rgb exposed = colour ? Rgb{r, expose(in[i + 1], scale), expose(in[i + 2], scale)} : Rgb{r, r, r};
+            const Rgb mapped = apply(tonemap, exposed);
+            to[i] = table.encode(mapped.r);
+            if (colour) {
+                to[i + 1] = table.encode(mapped.g);
+                to[i + 2] = table.encode(mapped.b);
+            }
+            if (alpha) // coverage is linear
+                to[i + channels - 1] = static_cast<std::uint8_t>(clamp01(in[i + channels - 1]) * 255.0f + 0.5f);
         }
-        if (alpha) // coverage is linear
-            to[i + channels - 1] = static_cast<std::uint8_t>(clamp01(in[i + channels - 1]) * 255.0f + 0.5f);
-    }
+    });
     return out;
 }
 
@@ -236,27 +253,28 @@ float luminance_of(const Rgb& c)
 
 } // namespace
 
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve)
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve,
+                       const Jobs* jobs)
 {
-    Image out = tonemap_to_srgb8(linear, tonemap, exposure_ev);
+    Image out = tonemap_to_srgb8(linear, tonemap, exposure_ev, jobs);
     if (resolve == Resolve::linear)
         return out;
     const float scale = exposure_scale(exposure_ev);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
     BN_CHECK(parts.empty() || channels >= 3);
-    for (auto part = parts.begin(); part != parts.end();) {
-        const std::uint32_t pixel = part->pixel;
+    const auto resolve_pixel = [&](std::size_t first, std::size_t end) {
         // Average the pixel's parts
         float sum[3] = {}, weights = 0.0f;
-        for (; part != parts.end() && part->pixel == pixel; ++part) {
-            if (part->background && channels == 4)
+        for (std::size_t k = first; k < end; ++k) {
+            const PixelPart& part = parts[k];
+            if (part.background && channels == 4)
                 continue;
             // Divide the colour by alpha, and weigh it by alpha
-            const float alpha = channels == 4 ? part->alpha : 1.0f;
-            const auto whole = [&](std::size_t c) { return expose(part->color[c] / alpha, scale); };
+            const float alpha = channels == 4 ? part.alpha : 1.0f;
+            const auto whole = [&](std::size_t c) { return expose(part.color[c] / alpha, scale); };
             const Rgb exposed = {whole(0), whole(1), whole(2)};
             const bool weighted = resolve == Resolve::weighted;
-            const float weight = static_cast<float>(part->samples) * alpha / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
+            const float weight = static_cast<float>(part.samples) * alpha / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
             const Rgb kept = weighted ? exposed : clipped(apply(tonemap, exposed));
             sum[0] += kept.r * weight, sum[1] += kept.g * weight, sum[2] += kept.b * weight;
             weights += weight;
@@ -266,10 +284,21 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
             const Rgb mapped = clipped(apply(tonemap, {sum[0] / weights, sum[1] / weights, sum[2] / weights}));
             sum[0] = mapped.r, sum[1] = mapped.g, sum[2] = mapped.b, weights = 1.0f;
         }
-        std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + channels * pixel;
+        std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + channels * parts[first].pixel;
         for (std::size_t c = 0; weights > 0.0f && c < 3; ++c)
             to[c] = srgb_table().encode(sum[c] / weights);
-    }
+    };
+    // A range has the pixels whose first part lies in it
+    for_ranges(parts.size(), jobs, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end;) {
+            std::size_t next = first + 1;
+            while (next < parts.size() && parts[next].pixel == parts[first].pixel)
+                ++next;
+            if (first == 0 || parts[first - 1].pixel != parts[first].pixel)
+                resolve_pixel(first, next);
+            first = next;
+        }
+    });
     return out;
 }
 

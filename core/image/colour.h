@@ -11,13 +11,16 @@
 
 namespace burnish {
 
+class Jobs;
+
 enum class Tonemap { none, pbr_neutral, aces };
 
 // none: clip to [0,1]. pbr_neutral: Khronos PBR Neutral. aces: Hill's fit of the ACES reference and output transforms.
 Result<Tonemap> parse_tonemap(const std::string& name);
 
-// Converts linear Rec.709 float RGB(A) to 8-bit sRGB RGB(A). Multiplies radiance by 2^exposure_ev before tonemapping.
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev);
+// Converts linear Rec.709 float RGB(A) to 8-bit sRGB RGB(A). Multiplies radiance by 2^exposure_ev before tonemapping. jobs: null for the
+// calling thread alone.
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const Jobs* jobs = nullptr);
 
 // One part of a pixel that shows several things: the average over the samples that see one of them.
 struct PixelPart {
@@ -45,7 +48,8 @@ enum class Resolve { linear, display, weighted };
 // Converts like the overload above, but resolves the pixels in `parts` from their parts. `parts` is sorted by pixel.
 // Background parts do not count in an image with alpha. Without parts, or with Resolve::linear, equals the overload
 // above.
-Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve);
+Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve,
+                       const Jobs* jobs = nullptr);
 
 // Divides float RGBA colours by alpha, as 8-bit formats expect; black where alpha is 0. `image` holds premultiplied
 // colours.

@@ -1,5 +1,6 @@
 #include "raster/reference/environment_sampler.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -19,15 +20,15 @@ double luminance(const std::uint16_t* texel)
            0.0722 * static_cast<double>(half_to_float(texel[2]));
 }
 
-// Returns the bilinear interpolant's mean luminance over texel (x, y)'s cell. The mean is positive wherever the interpolant is positive,
-// so sampling misses no light. w: texels in a bordered row.
-double cell_luminance(const std::uint16_t* face, int w, int x, int y)
+// Returns the bilinear interpolant's mean luminance over the cell of texel x. The mean is positive wherever the interpolant is positive,
+// so sampling misses no light. rows: luminances of three bordered rows, w texels each.
+double cell_luminance(const double* rows, std::size_t w, std::size_t x)
 {
     constexpr double kWeight[3] = {0.125, 0.75, 0.125};
     double sum = 0.0;
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-            sum += kWeight[i] * kWeight[j] * luminance(face + 4 * (static_cast<std::ptrdiff_t>(y + j) * w + x + i));
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 3; ++i)
+            sum += kWeight[i] * kWeight[j] * rows[j * w + x + i];
     return std::max(sum, 0.0);
 }
 
@@ -52,15 +53,24 @@ EnvironmentSampler make_environment_sampler(const CubeMap& cube, const Jobs& job
     std::vector<std::vector<double>> mass(static_cast<std::size_t>(levels) + 1);
     const std::size_t texels = std::size_t{kFaces} * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     mass.back().resize(texels);
-    jobs.parallel_for(std::size_t{kFaces} * static_cast<std::size_t>(size), [&](std::size_t row, int) {
-        const int face = static_cast<int>(row) / size, y = static_cast<int>(row) % size;
-        const std::uint16_t* first =
-            cube.texels.data() + 4 * (std::size_t{cube.offset[0]} + static_cast<std::size_t>(face * w) * static_cast<std::size_t>(w));
-        const double v = (y + 0.5) / size * 2.0 - 1.0;
-        for (int x = 0; x < size; ++x) {
-            const double u = (x + 0.5) / size * 2.0 - 1.0;
-            mass.back()[row * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)] =
-                cell_luminance(first, w, x, y) * solid_angle_density(u, v);
+    constexpr int kRows = 16; // at once: each needs the luminances of its neighbours
+    const int groups = (size + kRows - 1) / kRows;
+    jobs.parallel_for(static_cast<std::size_t>(kFaces * groups), [&](std::size_t group, int) {
+        const int face = static_cast<int>(group) / groups, begin = static_cast<int>(group) % groups * kRows,
+                  end = std::min(begin + kRows, size);
+        const std::size_t wide = static_cast<std::size_t>(w), side = static_cast<std::size_t>(size);
+        const std::uint16_t* const first =
+            cube.texels.data() + 4 * (std::size_t{cube.offset[0]} + static_cast<std::size_t>(face * w + begin) * wide);
+        std::vector<double> lit(static_cast<std::size_t>(end - begin + 2) * wide);
+        for (std::size_t i = 0; i < lit.size(); ++i)
+            lit[i] = luminance(first + 4 * i);
+        for (int y = begin; y < end; ++y) {
+            const double v = (y + 0.5) / size * 2.0 - 1.0;
+            double* const to = &mass.back()[static_cast<std::size_t>(face * size + y) * side];
+            for (std::size_t x = 0; x < side; ++x) {
+                const double u = (static_cast<double>(x) + 0.5) / size * 2.0 - 1.0;
+                to[x] = cell_luminance(&lit[static_cast<std::size_t>(y - begin) * wide], wide, x) * solid_angle_density(u, v);
+            }
         }
     });
     for (int l = levels - 1; l >= 0; --l) {

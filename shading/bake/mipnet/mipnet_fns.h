@@ -14,8 +14,6 @@ namespace burnish::mipnet {
 
 enum class Lobe : std::uint32_t { ggx_aniso, beckmann, ashikhmin_shirley };
 enum class Layout : std::uint32_t { paper, cov };
-enum class Loss : std::uint32_t { l1, l2, charbonnier }; // of differences e in tonemapped radiance: |e|, e^2, sqrt(e^2 + .01^2)
-enum class Tone : std::uint32_t { display, log };        // tonemapped radiance x: x / (1 + x) encoded as sRGB, or log(1 + x)
 
 inline constexpr int kChannels = 5, kMostLayers = 8, kSlots = 16;
 inline constexpr int kTrainedLevels = 5, kTileSide = 32, kTiles = kSlots; // of a shard: 16 tiles of 32 x 32, one per lane
@@ -46,25 +44,6 @@ struct ForwardWork { // one level
     void* memory;              // forward_bytes(), at a cache line
 };
 
-struct StepWork { // one shard of a training step: loss and its gradient
-    const Plan* plan;
-    const void* weights;
-    const void* turned; // the same numbers, but each layer's weights as [input][output]
-    const void* texels; // level 0: kChannels planes of kTiles 32^2
-    const void* tiles;  // [3][kTiles]: f0, diffuse reflectance, intensity
-    const void* pairs;  // [pairs][6][kTiles]: unit directions to the light and to the eye
-    int pair_count;
-    const double* level_weight; // for levels 1 to kTrainedLevels
-    void* gradient;             // [plan->count][kSlots], added to
-    void* loss;                 // [kTrainedLevels][kSlots], output
-    void* memory;               // step_bytes(), at a cache line
-    Loss kind = Loss::l1;
-    Tone tone = Tone::display;
-    // Planes of levels 1 to kTrainedLevels whose light is the target; null: level 0's light.
-    const void* const* taught = nullptr;
-    float light = 0.0f; // weight of |mean radiance of a tile's level over the truth's - 1|
-};
-
 struct RadianceWork { // reflected radiance of texels
     Lobe lobe;
     std::size_t texels;
@@ -80,8 +59,6 @@ struct Fns {
     std::size_t number_bytes;
     std::size_t (*forward_bytes)(const Plan& plan, std::size_t texels);
     void (*forward)(const ForwardWork& work);
-    std::size_t (*step_bytes)(const Plan& plan, int pair_count);
-    void (*step)(const StepWork& work);
     void (*radiance)(const RadianceWork& work);
     void (*toned)(std::size_t count, const float* radiance, float* shown); // see tone() in tensor.h; count: a multiple of kSlots
 };

@@ -123,6 +123,7 @@ TrainingSet training_set(const TrainOptions& o, const Jobs& jobs)
 Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jobs)
 {
     const Fns& fns = pick<Fns>(options.isa);
+    const StepFns& steps = pick<StepFns>(options.isa);
     const Plan plan = plan_of(options.shape);
     const TrainingSet set = training_set(options, jobs);
     const std::uint64_t key = training_key(options, set);
@@ -136,7 +137,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     std::vector<Shard> shards(static_cast<std::size_t>(options.shards));
     for (Shard& shard : shards) {
         shard.loss.resize(kTrainedLevels * kSlots);
-        shard.memory.resize(fns.step_bytes(plan, options.pairs));
+        shard.memory.resize(steps.bytes(plan, options.pairs));
     }
     double level_weight[kTrainedLevels] = {};
     std::fill_n(level_weight, options.levels, 1.0 / options.levels);
@@ -153,9 +154,9 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
             const void* taught[kTrainedLevels] = {};
             if (options.taught_by)
                 teach(fns, *options.taught_by, teacher, batch, shard, taught);
-            fns.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
-                      level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone,
-                      options.taught_by ? taught : nullptr, static_cast<float>(options.light)});
+            steps.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
+                        level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone,
+                        options.taught_by ? taught : nullptr, static_cast<float>(options.light)});
         });
         // Average over shards
         double loss = 0.0;

@@ -11,6 +11,7 @@
 #include "core/simd/dispatch.h"
 #include "shading/bake/mipnet/batch.h"
 #include "shading/bake/mipnet/weights.h"
+#include "shading/lab/mipnet/step_fns.h"
 
 namespace burnish::mipnet {
 

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "core/jobs/jobs.h"
 
 namespace burnish {
 namespace {
@@ -195,6 +198,28 @@ TEST(colour, bright_parts_of_a_pixel_weigh_less)
     EXPECT_EQ(code(0.0f, Resolve::weighted), mapped({100.0f / 102.0f})[0]);
     EXPECT_EQ(code(-2.0f, Resolve::weighted), mapped({25.0f / 27.0f})[0]);
     EXPECT_EQ(code(-8.0f, Resolve::weighted), mapped({0.390625f / 2.390625f})[0]);
+}
+
+// Pixels whose parts lie in two ranges of the loop, and pixels without parts, among them.
+TEST(resolve, gives_the_same_bytes_on_all_threads)
+{
+    for (const int channels : {3, 4}) {
+        Image image = make_image(500, 300, channels, PixelType::f32);
+        const std::size_t pixels = 500 * 300;
+        for (std::size_t i = 0; i < pixels * static_cast<std::size_t>(channels); ++i)
+            image.f32()[i] = static_cast<float>(i * 2654435761u % 4096) / 1024.0f;
+        std::vector<PixelPart> parts;
+        for (std::uint32_t p = 0; p < pixels; p += 1 + p % 3)
+            for (std::uint32_t k = 0; k < 2 + p % 4; ++k)
+                parts.push_back(pixel_part(p, 1u << k, false, {static_cast<float>(p % 97) * 0.1f, static_cast<float>(k), 0.5f}, 0.5f));
+        for (const Resolve resolve : {Resolve::linear, Resolve::display, Resolve::weighted}) {
+            const Image wanted = tonemap_to_srgb8(image, Tonemap::pbr_neutral, 0.5f, parts, resolve);
+            for (const int threads : {1, 2, 3, 7}) {
+                const Jobs jobs(threads);
+                EXPECT_EQ(tonemap_to_srgb8(image, Tonemap::pbr_neutral, 0.5f, parts, resolve, &jobs).bytes, wanted.bytes) << threads;
+            }
+        }
+    }
 }
 
 } // namespace
