@@ -83,7 +83,7 @@ spec:
   podFailurePolicy: # a verdict is no reason to try again
     rules:
       - action: FailJob
-        onExitCodes: {containerName: burnish, operator: In, values: [1, 2, 4, 5, 6]}
+        onExitCodes: {containerName: burnish, operator: In, values: [1, 2, 4, 6]}
   template:
     spec:
       restartPolicy: Never
