@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fmt/core.h>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "core/jobs/activity.h"
 #include "core/jobs/cores.h"
 #include "core/jobs/threads.h"
+#include "core/scene/builtin/builtin.h"
 
 namespace burnish {
 namespace {
@@ -66,8 +68,21 @@ int refuse_subcommand(const std::string& word, const std::vector<Command>& comma
     return fail(usage_error("", fmt::format("no subcommand '{}': there are {}{} (see burnish --help)", word, join(names), meant)));
 }
 
+// Returns true for builtin:NAME or builtin:NAME=AMOUNT of a scene that burnish-lab alone has.
+bool names_lab_scene(const std::string& word)
+{
+    constexpr const char* const names[] = {
+#define BN_LAB_SCENE(name) "builtin:" name,
+#include "apps/cli/lab_scenes.def"
+    };
+    const std::string name = word.substr(0, word.find('='));
+    return std::any_of(std::begin(names), std::end(names), [&](const char* known) { return name == known; });
+}
+
 int run(const std::vector<std::string>& words)
 {
+    if (parametric_scenes().empty() && std::any_of(words.begin(), words.end(), names_lab_scene))
+        return start_lab(words);
     std::vector<Command> commands = all_commands();
     const auto find = [&](const std::string& name) {
         return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });

@@ -77,10 +77,12 @@ Texts names_of(const std::vector<BuiltinInfo>& infos)
     return names;
 }
 
-// True for builtin:NAME=AMOUNT, a failure scene with an adjustable difficulty.
-bool is_failure_scene(const std::string& text)
+// Returns true for the builtin:NAME=AMOUNT of a parametric scene.
+bool is_parametric_scene(const std::string& text)
 {
-    return contains(names_of(builtin_failure_scenes()), text.substr(0, text.find('=')));
+    return std::any_of(parametric_scenes().begin(), parametric_scenes().end(), [&](const ParametricScene& scene) {
+        return text.substr(0, text.find('=')) == std::string(kBuiltin) + scene.info.name;
+    });
 }
 
 Value path_value(std::string& to, ValueKind kind)
@@ -90,13 +92,13 @@ Value path_value(std::string& to, ValueKind kind)
 }
 
 // Several values: each is a path, or one of the names if it begins like them.
-Value paths_value(Texts& to, const Texts& names, bool failure_scenes = false)
+Value paths_value(Texts& to, const Texts& names, bool parametric = false)
 {
     Value value;
     value.kind = ValueKind::file, value.repeated = true, value.names = names;
-    value.set = [&to, names, failure_scenes](const std::string& option, const Texts& texts) -> Status {
+    value.set = [&to, names, parametric](const std::string& option, const Texts& texts) -> Status {
         for (const std::string& text : texts)
-            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text) && !(failure_scenes && is_failure_scene(text)))
+            if (!names.empty() && text.rfind(kBuiltin, 0) == 0 && !contains(names, text) && !(parametric && is_parametric_scene(text)))
                 return not_one_of(option, text, names);
         to = texts;
         return {};
@@ -105,12 +107,12 @@ Value paths_value(Texts& to, const Texts& names, bool failure_scenes = false)
     return value;
 }
 
-Value builtin_or_path(std::string& to, const Texts& names, bool failure_scenes)
+Value builtin_or_path(std::string& to, const Texts& names, bool parametric)
 {
     Value value = path_value(to, ValueKind::file);
     value.names = names;
-    value.set = [&to, names, failure_scenes](const std::string& option, const Texts& texts) -> Status {
-        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()) && !(failure_scenes && is_failure_scene(texts.back())))
+    value.set = [&to, names, parametric](const std::string& option, const Texts& texts) -> Status {
+        if (texts.back().rfind(kBuiltin, 0) == 0 && !contains(names, texts.back()) && !(parametric && is_parametric_scene(texts.back())))
             return not_one_of(option, texts.back(), names);
         to = texts.back();
         return {};

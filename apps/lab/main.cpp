@@ -1,8 +1,10 @@
-// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`, `chart --mip`.
+// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`,
+// `chart --mip`, failure scenes.
 #include "apps/cli/command.h"
 #include "apps/cli/program.h"
 #include "apps/lab/ltc/bake.h"
 #include "apps/lab/mip/chart.h"
+#include "core/lab/failure_scenes.h"
 
 namespace burnish {
 #define BN_LAB_COMMAND(name, summary) Command name##_command();
@@ -23,6 +25,7 @@ std::vector<Command> lab_commands()
 
 int main(int argc, char** argv)
 {
+    burnish::add_parametric_scenes(burnish::failure_scenes());
     burnish::add_lab_commands(burnish::lab_commands);
     burnish::bake_ltc.set(burnish::run_ltc);
     burnish::chart_mips.set(burnish::run_mip_chart);

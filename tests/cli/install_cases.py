@@ -188,7 +188,7 @@ def without_module(bench):
         program = pathlib.Path(shutil.copy(bench.program, folder))
         bench.run("render", *SMALL, "-o", "a.png", "-o", "a.tif", "-o", "a.pfm", program=program).expect(0)
         for words in (("atlas", "--list"), ("help", "train"), ("race", "builtin:plate"), ("bake", "ltc", "-o", "t.ltc"),
-                      ("chart", "--mip", "-o", "r")):
+                      ("chart", "--mip", "-o", "r"), ("render", "builtin:needles=0.01", *SMALL)):
             bench.run(*words, program=program).expect(77).expect_one_line("burnish-lab", "target burnish-lab")
         written = bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77)
         written.expect_one_line("b.exr", MODULE, folder)

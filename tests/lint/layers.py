@@ -16,7 +16,7 @@ RENDERERS = ("tile", "vulkan", "reference")                  # they meet in rast
 # The rooms of each layer. A room includes itself and those before it; a room within a room is a room of its own. Tables (*.def) lie
 # beside the order: a file that a table names includes the table.
 ROOMS = {
-    "core": ("wasm", "base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/mtlx", "scene/gltf"),
+    "core": ("wasm", "base", "math", "simd", "jobs", "image", "image/io", "image/metrics", "scene", "scene/builtin", "scene/obj", "scene/mtlx", "scene/gltf", "lab"),
     "shading": ("lang", "kernels", "inputs", "models", "surface", "techniques", "lights", "stages",
                 "bake", "bake/environment", "bake/tables", "bake/ltc", "bake/mipnet", "bake/mip", "lab"),
     "raster": ("rays", "frame", "tile", "vulkan", "vulkan/lab", "reference", "session"), # renderers do not include each other, see RENDERERS

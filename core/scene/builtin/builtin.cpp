@@ -63,23 +63,29 @@ template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[
     return Error{ExitCode::bad_input, "builtin:" + name, "", "no built-in " + std::string(what) + " has this name; there are " + known};
 }
 
-// Makes a test scene by name; returns nothing where `name` is not one of them.
-std::optional<Result<Scene>> make_failure_scene(const std::string& name)
+std::vector<ParametricScene>& added_scenes()
+{
+    static std::vector<ParametricScene> scenes;
+    return scenes;
+}
+
+// Makes a parametric scene by name; returns nothing where `name` is not one of them.
+std::optional<Result<Scene>> make_parametric_scene(const std::string& name)
 {
     const std::size_t at = name.find('=');
-    for (const FailureSceneMaker& maker : failure_scene_makers()) {
-        if (name.substr(0, at) != maker.info.name)
+    for (const ParametricScene& known : parametric_scenes()) {
+        if (name.substr(0, at) != known.info.name)
             continue;
-        double amount = maker.by_default;
+        double amount = known.by_default;
         if (at != std::string::npos) {
             const char *from = name.data() + at + 1, *to = name.data() + name.size();
             const std::from_chars_result read = std::from_chars(from, to, amount);
-            if (read.ec != std::errc() || read.ptr != to || !(amount >= maker.least && amount <= maker.most))
+            if (read.ec != std::errc() || read.ptr != to || !(amount >= known.least && amount <= known.most))
                 return Error{ExitCode::bad_input, "builtin:" + name, "",
-                             fmt::format("what follows = is no number from {:g} to {:g}", maker.least, maker.most)};
+                             fmt::format("what follows = is no number from {:g} to {:g}", known.least, known.most)};
         }
-        Scene scene = maker.make(amount);
-        scene.name = maker.info.name;
+        Scene scene = known.make(amount);
+        scene.name = known.info.name;
         return Result<Scene>(std::move(scene));
     }
     return std::nullopt;
@@ -87,15 +93,14 @@ std::optional<Result<Scene>> make_failure_scene(const std::string& name)
 
 } // namespace
 
-const std::vector<BuiltinInfo>& builtin_failure_scenes()
+void add_parametric_scenes(const std::vector<ParametricScene>& scenes)
 {
-    static const std::vector<BuiltinInfo> list = [] {
-        std::vector<BuiltinInfo> infos;
-        for (const FailureSceneMaker& maker : failure_scene_makers())
-            infos.push_back(maker.info);
-        return infos;
-    }();
-    return list;
+    added_scenes().insert(added_scenes().end(), scenes.begin(), scenes.end());
+}
+
+const std::vector<ParametricScene>& parametric_scenes()
+{
+    return added_scenes();
 }
 
 const std::vector<BuiltinInfo>& builtin_scenes()
@@ -120,8 +125,8 @@ bool builtin_is_staged(const std::string& name)
 
 Result<Scene> make_builtin_scene(const std::string& name)
 {
-    std::optional<Result<Scene>> failure = make_failure_scene(name);
-    Result<Scene> scene = failure ? std::move(*failure) : make_named(kScenes, name, "scene");
+    std::optional<Result<Scene>> parametric = make_parametric_scene(name);
+    Result<Scene> scene = parametric ? std::move(*parametric) : make_named(kScenes, name, "scene");
     if (scene)
         update_world(*scene);
     return scene;

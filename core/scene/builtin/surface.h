@@ -61,12 +61,6 @@ Scene make_lacquer();
 Scene make_cloth();
 Scene make_anodised();
 Scene make_shaderballs();
-struct FailureSceneMaker {
-    BuiltinInfo info;
-    double by_default, least, most; // default and range of the amount
-    Scene (*make)(double amount);
-};
-const std::vector<FailureSceneMaker>& failure_scene_makers();
 Image make_studio();
 Image make_sky();
 Image make_night();

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "apps/lab/atlas/picture_cache.h"
+#include "core/lab/failure_scenes.h"
 
 namespace burnish {
 namespace {
+
+const bool kScenesAdded = (add_parametric_scenes(failure_scenes()), true);
 
 struct Road {
     int threads;
@@ -24,6 +27,7 @@ std::vector<Road> roads()
 // Compares pixels at places of every path. At the last place the technique fails.
 void check_roads(const std::vector<double>& places, int side)
 {
+    ASSERT_TRUE(kScenesAdded);
     Report report(true, 0);
     std::vector<PictureCache> rooms;
     const std::vector<Road> all = roads();

@@ -69,22 +69,6 @@ TEST(builtin, unknown_names_are_errors_that_list_the_known)
     EXPECT_FALSE(make_builtin_environment("cave"));
 }
 
-TEST(builtin, trials_are_made_by_an_amount)
-{
-    EXPECT_GE(builtin_failure_scenes().size(), 18u);
-    for (const BuiltinInfo& info : builtin_failure_scenes()) {
-        const Result<Scene> usual = make_builtin_scene(info.name);
-        ASSERT_TRUE(usual) << info.name;
-        EXPECT_EQ(usual->name, info.name);
-        EXPECT_GT(usual->indices.size(), 0u) << info.name;
-        for (const char* amount : {"=x", "=0.5 ", "=nan", "=-1", "=", "=1e9"})
-            EXPECT_FALSE(make_builtin_scene(info.name + std::string(amount))) << info.name << amount;
-    }
-    EXPECT_NE(hash_scene(*make_builtin_scene("needles=0.01")), hash_scene(*make_builtin_scene("needles=0.02")));
-    EXPECT_EQ(hash_scene(*make_builtin_scene("needles")), hash_scene(*make_builtin_scene("needles=0.02")));
-    EXPECT_EQ(make_builtin_scene("needles=7").error().line(), "builtin:needles=7: what follows = is no number from 1e-06 to 0.06");
-}
-
 TEST(builtin, scenes_have_frames_columns_and_modest_counts)
 {
     for (const BuiltinInfo& info : builtin_scenes()) {

@@ -1,5 +1,5 @@
-// Failure scenes, each parametrised by one number: builtin:NAME=AMOUNT. `burnish atlas` runs them. They are small,
-// lie at the origin and are viewed from +Z.
+#include "core/lab/failure_scenes.h"
+
 #include <cmath>
 #include <limits>
 
@@ -364,9 +364,9 @@ Scene make_sinking_lamp(double height)
 
 } // namespace
 
-const std::vector<FailureSceneMaker>& failure_scene_makers()
+const std::vector<ParametricScene>& failure_scenes()
 {
-    static const std::vector<FailureSceneMaker> makers = {
+    static const std::vector<ParametricScene> scenes = {
         {{"plates", "two plates, so many metres apart"}, 0.01, 0.0, 1.0, make_plates},
         {{"needles", "triangles so many metres wide at their feet"}, 0.02, 1e-6, 0.06, make_needles},
         {{"leaning", "a normal map whose normals lean by so many degrees"}, 30.0, 0.0, 180.0, make_leaning},
@@ -386,7 +386,7 @@ const std::vector<FailureSceneMaker>& failure_scene_makers()
         {{"sinking-lamp", "a plate under a lamp so many metres above it"}, 0.1, -0.2, 1.0, make_sinking_lamp},
         {{"gloom", "a white square on a plate with this radiance"}, 0.1, 0.0, 1.0, make_gloom},
     };
-    return makers;
+    return scenes;
 }
 
 } // namespace burnish
