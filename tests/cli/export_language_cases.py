@@ -277,6 +277,14 @@ def quad_light(bench):
     check(lit > 4 and worst < 0.05, f"{lit} lit points, off by {worst}")
 
 
+@case("export.quad_light_of_every_technique_reads_nothing_undefined", tier="nightly")
+def quad_light_undefined(bench):
+    for name in NAMES:
+        for language, template, words in (("glsl", GLSL_QUAD, ()), ("hlsl", HLSL_QUAD, ("-x", "hlsl", "-fentry-point=main"))):
+            bench.run("export", language, "--ltc", "--technique", name, *(("--samples", "9") if name in OF_GRIDS else ()), "-o", f"{name}.{language}").expect(0)
+            reads_nothing_undefined(bench, f"{name}, {language}", source(bench, template, name, language), "-fshader-stage=compute", *words)
+
+
 @case("export.quad_light_draws_in_webgpu", budget=10)
 def quad_light_in_webgpu(bench):
     table = ltc_table(bench)
@@ -421,6 +429,18 @@ def hlsl_words(bench, names):
     words(bench, names, "hlsl", lambda name: on_lavapipe(bench, source(bench, HLSL, name, "hlsl"), "-x", "hlsl", "-fentry-point=main"))
 
 
+def spirv_cross_words(bench, names):
+    """Compares the file in GLSL with its SPIR-V as HLSL by spirv-cross, the way of engines that keep SPIR-V."""
+    if not shutil.which("spirv-cross"):
+        raise Skipped("no spirv-cross")
+    written(bench, "glsl", names)
+    for name in names:
+        expected = on_lavapipe(bench, source(bench, GLSL, name, "glsl"))
+        text = subprocess.run(["spirv-cross", "--hlsl", "--shader-model", "60", bench.folder / "engine.spv"], capture_output=True, text=True, check=True).stdout
+        check("RWByteAddressBuffer" in text, f"{name}: spirv-cross writes no HLSL")
+        same_words(name, on_lavapipe(bench, text, "-x", "hlsl", "-fentry-point=main"), expected)
+
+
 def msl_words(bench, names):  # no Metal compiler is at hand
     words(bench, names, "msl", lambda name: as_cpp(bench, source(bench, MSL, name, "msl")))
 
@@ -433,7 +453,26 @@ def in_pages(bench, names, language, script, template, *place):
                  on_lavapipe(bench, source(bench, GLSL, name, "glsl")))
 
 
+def reads_nothing_undefined(bench, name, text, *compile_words):
+    """Compiles a shader, optimises it, and looks for values that nobody has written."""
+    compiler()
+    if not (shutil.which("spirv-opt") and shutil.which("spirv-dis")):
+        raise Skipped("no spirv-opt, or no spirv-dis")
+    (bench.folder / "engine.glsl").write_text(text)
+    done = subprocess.run(["glslc", "-w", *compile_words, bench.folder / "engine.glsl", "-o", bench.folder / "engine.spv"], capture_output=True, text=True)
+    check(done.returncode == 0, f"{name}: {done.stderr[:1500]}")
+    check(not undefined(bench), f"{name} reads undefined values")
+
+
+# glslc compiles ES from 3.10 on.
+OF_ES = ("-fshader-stage=fragment", "--target-env=opengl", "-std=310es", "-fauto-bind-uniforms", "-fauto-map-locations")
+
+
 def essl_pages(bench, names):
+    written(bench, "essl", names)
+    for name in names:
+        text = source(bench, ESSL, name, "essl", "texelFetch(points, ivec2(4 * i + {0} / 4, 0), 0)[{0} % 4]")
+        reads_nothing_undefined(bench, name, text.replace("#version 300 es", "#version 310 es"), *OF_ES)
     in_pages(bench, names, "essl", RUN_WEBGL, ESSL, "texelFetch(points, ivec2(4 * i + {0} / 4, 0), 0)[{0} % 4]")
 
 
@@ -441,7 +480,8 @@ def wgsl_pages(bench, names):
     in_pages(bench, names, "wgsl", RUN_WEBGPU, WGSL)
 
 
-for claim, run, budget in (("hlsl_gives_the_words_of_glsl", hlsl_words, 12), ("msl_as_cpp_gives_the_words_of_glsl", msl_words, 12),
+for claim, run, budget in (("hlsl_gives_the_words_of_glsl", hlsl_words, 12), ("hlsl_by_spirv_cross_gives_the_words_of_glsl", spirv_cross_words, 12),
+                           ("msl_as_cpp_gives_the_words_of_glsl", msl_words, 12),
                            ("essl_draws_in_webgl_2", essl_pages, 12), ("wgsl_draws_in_webgpu", wgsl_pages, 12)):
     case(f"export.{claim}", budget=budget)(lambda bench, run=run: run(bench, SOME))
     case(f"export.{claim}_by_every_technique", tier="nightly")(lambda bench, run=run: run(bench, NAMES))
