@@ -41,7 +41,7 @@ vec4 burnish_radiance(int cube, vec3 direction, float lod)
     return vec4(light.rgb * vReflectionInfos.x * vReflectionColor.rgb, 1.0);
 }
 uniform sampler2D burnish_lobe_albedo;
-// Returns radiance that the engine will multiply by reflectance, that of a round lobe.
+// Returns radiance that the engine will multiply by reflectance. reflectance: of a round lobe, with multiple scattering.
 vec3 burnish_image_light(vec3 v, vec3 n, vec3 grain, vec2 widths, float kept, vec3 f0, vec3 f90, vec3 reflectance)
 {
     // Where a pixel holds many directions, its widths are those of the mean covariance
@@ -56,7 +56,11 @@ vec3 burnish_image_light(vec3 v, vec3 n, vec3 grain, vec2 widths, float kept, ve
                    mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     burnish_shaded_point x = burnish_point_of(f, n, v, tangent, f0, f90, roughness, anisotropy, dfg, 0);
-    return burnish_@TECHNIQUE@_specular(f, x) / max(reflectance, vec3(1e-4));
+    vec3 light = burnish_@TECHNIQUE@_specular(f, x);
+#if defined(ENVIRONMENTBRDF) && defined(MS_BRDF_ENERGY_CONSERVATION)
+    light *= 1.0 + f0 * (1.0 / max(dfg.x + dfg.y, 1e-3) - 1.0);
+#endif
+    return light / max(reflectance, vec3(1e-4));
 }
 #endif
 `;
@@ -69,6 +73,9 @@ const call = /* glsl */`
 vec3 burnishReflectance = getReflectanceFromBRDFLookup(clearcoatOut.specularEnvironmentR0, specularEnvironmentR90, environmentBrdf);
 #else
 vec3 burnishReflectance = getReflectanceFromAnalyticalBRDFLookup_Jones(NdotV, clearcoatOut.specularEnvironmentR0, specularEnvironmentR90, sqrt(microSurface));
+#endif
+#if defined(ENVIRONMENTBRDF) && defined(MS_BRDF_ENERGY_CONSERVATION)
+burnishReflectance *= getEnergyConservationFactor(clearcoatOut.specularEnvironmentR0, environmentBrdf);
 #endif
 float burnishKept = 1.0; // length of the mean double-angle direction within the pixel
 #ifdef ANISOTROPIC_TEXTURE

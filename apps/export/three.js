@@ -55,7 +55,7 @@ vec4 burnish_ltc_texel(int at)
     return texelFetch(burnish_ltc, ivec2(at % 192, at / 192), 0);
 }
 // Returns the point of a material, and its lobe's directional albedo.
-burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material)
+burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material, out vec2 dfg)
 {
     float across = max(material.roughness * material.roughness, 1e-4), along = max(material.alphaT, across);
     // Where a pixel holds many directions, its widths are those of the mean covariance
@@ -65,18 +65,21 @@ burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial mat
     vec3 tangent = material.anisotropyT - n * dot(n, material.anisotropyT);
     tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
-    vec2 dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
+    dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
                    mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     return burnish_point_of(f, n, v, tangent, material.SPECULAR, vec3(material.specularF90), roughness, anisotropy, dfg, 0);
 }
-// Returns radiance that the engine will multiply by the reflectance of a round lobe.
-vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
+// Returns radiance that the engine will multiply by reflectance.
+vec3 burnish_image_light(vec3 v, vec3 n, inout PhysicalMaterial material)
 {
-    vec2 round_dfg = DFG;
+    vec2 own_dfg;
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
-    burnish_shaded_point x = burnish_point_in_three(v, n, material);
-    return burnish_@TECHNIQUE@_specular(f, x) / max(material.SPECULAR * round_dfg.x + vec3(material.specularF90) * round_dfg.y, vec3(1e-4));
+    burnish_shaded_point x = burnish_point_in_three(v, n, material, own_dfg);
+    float albedo = max(own_dfg.x + own_dfg.y, 1e-3);
+    vec3 light = burnish_@TECHNIQUE@_specular(f, x);
+    vec2 dfg = DFG;
+    return light / max(material.SPECULAR * dfg.x + vec3(material.specularF90) * dfg.y, vec3(1e-4));
 }
 #if NUM_RECT_AREA_LIGHTS > 0
 // Takes the diffuse part and the coat from the engine.
@@ -86,8 +89,9 @@ void burnish_rect_area(const in RectAreaLight light, const in vec3 position, con
     ReflectedLight engine = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     RE_Direct_RectArea_Physical(light, position, n, v, coat_normal, material, engine);
     vec3 middle = light.position - position;
+    vec2 dfg;
     reflectedLight.directDiffuse += engine.directDiffuse;
-    reflectedLight.directSpecular += burnish_quad_light(burnish_point_in_three(v, n, material), middle + light.halfWidth - light.halfHeight,
+    reflectedLight.directSpecular += burnish_quad_light(burnish_point_in_three(v, n, material, dfg), middle + light.halfWidth - light.halfHeight,
         middle - light.halfWidth - light.halfHeight, middle - light.halfWidth + light.halfHeight, middle + light.halfWidth + light.halfHeight,
         light.color, false);
 }
@@ -128,7 +132,8 @@ function patchedVertex(text) {
 
 function patchedFragment(text, glTF) {
   const specular = ShaderChunk.lights_physical_pars_fragment.includes('specularColorBlended') ? 'specularColorBlended' : 'specularColor';
-  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? 'material.dfg' : 'DFGApprox( n, v, material.roughness )';
+  // The engine gives back multiple scattering as even light, by the albedo in material.dfg. It gets an albedo of 1: the lobe gives its own back
+  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? `material.dfg = own_dfg / albedo; light *= 1.0 + material.${specular} * (1.0 / albedo - 1.0)` : 'DFGApprox( n, v, material.roughness )';
   const maps = replaced(ShaderChunk.lights_fragment_maps,
     'getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy )',
     'burnish_image_light( geometryViewDir, geometryNormal, material )', 'lights_fragment_maps');

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Distances of engines to the truth on seven bare shapes, as they are and with burnish's exported modules.
 
-Usage: seven_scenes.py --program build/release/burnish --engines FOLDER --environments A,B,C,D [--work FOLDER] [--technique lobe_line:64] [--json FILE]
+Usage: seven_scenes.py --program build/release/burnish --engines FOLDER --environments A,B,C,D [--work FOLDER] [--technique lobe_line:64]
+                       [--single-scattering] [--json FILE]
 
-FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. A to D are .hdr files. Each engine draws 128 x 128 pixels in headless
-Chromium by the page of a conformance folder. Prints the mean HDR-FLIP over each object to a reference with 1024 samples a pixel. Exit code: 0
-measured; 2 something could not be run.
+FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. A to D are .hdr files. Each engine draws 256 x 192 pixels in headless
+Chromium by the page of a conformance folder. Prints the mean HDR-FLIP over each object to a reference with 1024 samples a pixel and energy
+compensation, as both engines have it; --single-scattering leaves it out. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
@@ -24,7 +25,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from browser import Browser
 from conform import Server, draw
 
-SIDE, YFOV = 128, 0.6
+WIDTH, HEIGHT, YFOV = 256, 192, 0.6 # as the pages expect
 EYE = (0.0, 0.9, 4.2)
 # shape, roughness, anisotropy strength, environment
 SCENES = (("sphere", 0.3, 0.6, "A"), ("sphere", 0.2, 0.3, "B"), ("sphere", 0.5, 0.9, "C"), ("torus", 0.3, 0.6, "C"), ("torus", 0.5, 0.6, "D"),
@@ -93,7 +94,7 @@ def write_scene(path, shape, roughness, strength):
     camera = [1, 0, 0, 0, 0, math.cos(tilt), -math.sin(tilt), 0, 0, math.sin(tilt), math.cos(tilt), 0, *EYE, 1]
     path.write_text(json.dumps({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"matrix": camera, "camera": 0}],
-        "cameras": [{"type": "perspective", "perspective": {"yfov": YFOV, "aspectRatio": 1, "znear": 0.1, "zfar": 100}}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": YFOV, "aspectRatio": WIDTH / HEIGHT, "znear": 0.1, "zfar": 100}}],
         "meshes": [{"primitives": [{"attributes": {name: k for k, name in enumerate(columns)}, "indices": 4, "material": 0}]}],
         "materials": [{"doubleSided": shape == "plate", "pbrMetallicRoughness": {"baseColorFactor": [0.97, 0.96, 0.91, 1], "metallicFactor": 1, "roughnessFactor": roughness},
                        "extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": strength}}}],
@@ -126,6 +127,7 @@ def main():
     parser.add_argument("--environments", required=True)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--technique", default="lobe_line:64", metavar="NAME:SAMPLES")
+    parser.add_argument("--single-scattering", action="store_true")
     parser.add_argument("--json")
     given = parser.parse_args()
     technique, samples = given.technique.split(":")
@@ -146,7 +148,7 @@ def main():
         for name, *parts in scenes:
             write_scene(folder / f"scenes/{name}.gltf", *parts)
         (folder / "conform.json").write_text(json.dumps({
-            "burnish_conform": 2, "width": SIDE, "height": SIDE, "exposure_ev": 0, "environment": "environment.hdr",
+            "burnish_conform": 2, "width": WIDTH, "height": HEIGHT, "exposure_ev": 0, "environment": "environment.hdr",
             "scenes": [{"name": name, "about": "", "file": f"scenes/{name}.gltf", "environment": True, "area_light": None} for name, *_ in scenes]}))
         server = Server(folder)
         for engine in ("three", "babylon"):
@@ -155,8 +157,9 @@ def main():
                 with tempfile.TemporaryDirectory() as profile, Browser(profile, webgl=True) as browser:
                     draw(browser, server.address(f"/pages/{engine}.html{query}"), folder / f"{engine}-{way}")
         for name, shape, roughness, strength in scenes:
-            view = (folder / f"scenes/{name}.gltf", "--env", folder / "environment.hdr", "--no-background", "--size", f"{SIDE}x{SIDE}", "--quiet")
-            truth = folder / f"{name}-truth.pfm"
+            view = (folder / f"scenes/{name}.gltf", "--env", folder / "environment.hdr", "--no-background", "--size", f"{WIDTH}x{HEIGHT}", "--quiet",
+                    *(() if given.single_scattering else ("--energy-compensation",)))
+            truth = folder / f"{name}-truth{'-single' if given.single_scattering else ''}.pfm"
             if not truth.exists():
                 run(given.program, "render", *view, "--backend", "reference", "--samples", "1024", "-o", truth)
             run(given.program, "render", *view, "--msaa", "8", "--technique", technique, "--samples", samples, "-o", folder / f"{name}-tile.pfm")
