@@ -30,7 +30,7 @@ fn burnish_radiance(burnish_cube: texture_cube<f32>, burnish_taps: sampler, cube
 }
 `);
 
-// Returns the light of the environment from the lobe. widths: along the grain and across.
+// Returns the light of the environment from the lobe, multiple scattering included. widths: along the grain and across.
 const imageLight = wgslFn(/* wgsl */`
 fn burnish_image_light(cube: texture_cube<f32>, taps: sampler, albedo: texture_2d<f32>, albedo_taps: sampler, n: vec3<f32>, v: vec3<f32>, grain: vec3<f32>,
                        widths: vec2<f32>, f0: vec3<f32>, f90: vec3<f32>) -> vec3<f32> {
@@ -48,12 +48,19 @@ fn burnish_image_light(cube: texture_cube<f32>, taps: sampler, albedo: texture_2
     let dfg = mix(mix(corner, right, at.z), mix(below, opposite, at.z), at.w);
     let f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     let x = burnish_point_of(f, n, v, tangent, f0, f90, rough, anisotropy, dfg, 0);
-    return burnish_@TECHNIQUE@_specular(cube, taps, f, x);
+    return burnish_@TECHNIQUE@_specular(cube, taps, f, x) * (1.0 + f0 * (1.0 / max(dfg.x + dfg.y, 1e-3) - 1.0));
 }
 `, [technique]);
 
 // The engine's lighting, with the technique's light in place of its one fetch.
 class Lighting extends PhysicalLightingModel {
+  // The engine gives back multiple scattering as even light; the lobe gives back its own. The sum, which diffuse light goes without, stays.
+  computeMultiscattering(single, multiple, ...rest) {
+    super.computeMultiscattering(single, multiple, ...rest);
+    single.addAssign(multiple);
+    multiple.assign(vec3(0));
+  }
+
   indirectSpecular(builder) {
     const { radiance, reflectedLight } = builder.context, { cube } = builder.material.burnish;
     radiance.assign(vec3(0));
