@@ -8,6 +8,8 @@
 // keeps (scene.environmentTexture), and leaves materials without anisotropy alone. Works with shaders in GLSL, as in WebGL 2. Throws for
 // materials in WGSL. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
+//   multipleScattering  true adds light that leaves a lobe after several bounces, as the engine does for round lobes; false is glTF's lobe.
+//         Default false.
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
 const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
@@ -57,9 +59,7 @@ vec3 burnish_image_light(vec3 v, vec3 n, vec3 grain, vec2 widths, float kept, ve
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     burnish_shaded_point x = burnish_point_of(f, n, v, tangent, f0, f90, roughness, anisotropy, dfg, 0);
     vec3 light = burnish_@TECHNIQUE@_specular(f, x);
-#if defined(ENVIRONMENTBRDF) && defined(MS_BRDF_ENERGY_CONSERVATION)
-    light *= 1.0 + f0 * (1.0 / max(dfg.x + dfg.y, 1e-3) - 1.0);
-#endif
+    light *= 1.0 + f0 * MULTIPLE * (1.0 / max(dfg.x + dfg.y, 1e-3) - 1.0);
     return light / max(reflectance, vec3(1e-4));
 }
 #endif
@@ -115,7 +115,7 @@ function albedoTexture(BABYLON, scene) {
 }
 
 // The base class asks for code before the constructor ends.
-function pluginClass(BABYLON, glTF) {
+function pluginClass(BABYLON, glTF, multipleScattering) {
   return class BurnishAnisotropy extends BABYLON.MaterialPluginBase {
     constructor(material) {
       super(material, 'BurnishAnisotropy', 200, {}, true, true);
@@ -136,13 +136,13 @@ function pluginClass(BABYLON, glTF) {
     getCustomCode(kind) {
       if (kind !== 'fragment')
         return null;
-      return { CUSTOM_FRAGMENT_DEFINITIONS: technique, ['!' + place]: call, ...(glTF ? { ['!' + tangents]: flipped } : {}) };
+      return { CUSTOM_FRAGMENT_DEFINITIONS: technique.replace('MULTIPLE', multipleScattering ? '1.0' : '0.0'), ['!' + place]: call, ...(glTF ? { ['!' + tangents]: flipped } : {}) };
     }
   };
 }
 
-export function improveAnisotropy(BABYLON, materials, { glTF = true } = {}) {
-  const Plugin = pluginClass(BABYLON, glTF);
+export function improveAnisotropy(BABYLON, materials, { glTF = true, multipleScattering = false } = {}) {
+  const Plugin = pluginClass(BABYLON, glTF, multipleScattering);
   let count = 0;
   const list = [materials].flat();
   if (list.some(material => material.anisotropy?.isEnabled && material.shaderLanguage))

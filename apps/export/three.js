@@ -7,6 +7,8 @@
 // frame, and again for what you load or clone later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
 // area lights need RectAreaLightUniformsLib, as ever. Leaves materials without anisotropy alone. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
+//   multipleScattering  true adds light that leaves a lobe after several bounces, as the engine does for round lobes; false is glTF's lobe.
+//         Default false.
 // Works with WebGLRenderer; tried with releases 170 and 187. Throws where the shaders of your version are not known.
 import { ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
 
@@ -113,7 +115,7 @@ function checkVersion() {
                                ['lights_physical_pars_fragment', 'RE_Direct_RectArea_Physical']])
     replaced(ShaderChunk[chunk] ?? '', word, word, chunk);
   patchedVertex('#include <normal_vertex>');
-  patchedFragment('#include <lights_fragment_maps> #include <lights_physical_fragment> #include <lights_physical_pars_fragment>', true);
+  patchedFragment('#include <lights_fragment_maps> #include <lights_physical_fragment> #include <lights_physical_pars_fragment>', true, true);
 }
 
 // A bitangent turns over with a mirroring node, and has the sign that glTF gives it.
@@ -130,10 +132,10 @@ function patchedVertex(text) {
   return replaced(text, '#include <normal_vertex>', chunk, 'meshphysical_vert');
 }
 
-function patchedFragment(text, glTF) {
+function patchedFragment(text, glTF, multipleScattering) {
   const specular = ShaderChunk.lights_physical_pars_fragment.includes('specularColorBlended') ? 'specularColorBlended' : 'specularColor';
-  // The engine gives back multiple scattering as even light, by the albedo in material.dfg. It gets an albedo of 1: the lobe gives its own back
-  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? `material.dfg = own_dfg / albedo; light *= 1.0 + material.${specular} * (1.0 / albedo - 1.0)` : 'DFGApprox( n, v, material.roughness )';
+  // By material.dfg the engine adds multiple scattering as even light. It gets an albedo of 1, and the lobe may add its own
+  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? `material.dfg = own_dfg / albedo${multipleScattering ? `; light *= 1.0 + material.${specular} * (1.0 / albedo - 1.0)` : ''}` : 'DFGApprox( n, v, material.roughness )';
   const maps = replaced(ShaderChunk.lights_fragment_maps,
     'getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy )',
     'burnish_image_light( geometryViewDir, geometryNormal, material )', 'lights_fragment_maps');
@@ -153,7 +155,7 @@ function patchedFragment(text, glTF) {
 
 const changed = new WeakSet();
 
-function change(material, glTF) {
+function change(material, glTF, multipleScattering) {
   if (!material.isMeshPhysicalMaterial || !material.anisotropy || changed.has(material))
     return 0;
   changed.add(material);
@@ -163,19 +165,19 @@ function change(material, glTF) {
     shader.uniforms.burnish_lobe_albedo = { value: albedoTexture };
     shader.uniforms.burnish_ltc = { value: ltcTexture };
     shader.vertexShader = patchedVertex(shader.vertexShader);
-    shader.fragmentShader = patchedFragment(shader.fragmentShader, glTF);
+    shader.fragmentShader = patchedFragment(shader.fragmentShader, glTF, multipleScattering);
   };
   material.customProgramCacheKey = function () {
-    return `${before} ${key.call(this)} burnish @TECHNIQUE@ @SAMPLES@ ${glTF}`;
+    return `${before} ${key.call(this)} burnish @TECHNIQUE@ @SAMPLES@ ${glTF} ${multipleScattering}`;
   };
   material.needsUpdate = true;
   return 1;
 }
 
-export function improveAnisotropy(target, { glTF = true } = {}) {
+export function improveAnisotropy(target, { glTF = true, multipleScattering = false } = {}) {
   checkVersion();
   let count = 0;
-  const each = material => count += change(material, glTF);
+  const each = material => count += change(material, glTF, multipleScattering);
   for (const one of [target].flat()) {
     if (one.isObject3D)
       one.traverse(object => [object.material ?? []].flat().forEach(each));

@@ -97,7 +97,7 @@ def three(bench):
     (package / "index.js").write_text(THREE)
     seen = node(bench, USE_THREE)
     check(seen["counts"] == [1, 0, 2], f"{seen['counts']} materials changed")
-    check(seen["first"] and seen["key"].endswith(" own burnish lobe_line 64 true") and seen["plain"] == "own", f"the material's own functions: {seen['key']}")
+    check(seen["first"] and seen["key"].endswith(" own burnish lobe_line 64 true false") and seen["plain"] == "own", f"the material's own functions: {seen['key']}")
     check("determinant" in seen["vertex"], "bitangents do not turn over")
     for word in ("burnish_image_light( geometryViewDir", "burnish_lobe_line_specular(f, x)", "anisotropyV.y = - anisotropyV.y", "burnish_quad_light(", "burnish_kept = mix"):
         check(word in seen["fragment"], f"the shader lacks {word}")

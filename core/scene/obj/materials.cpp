@@ -34,6 +34,38 @@ std::size_t values_not_finite(const Image& image)
     return static_cast<std::size_t>(std::count_if(image.f32(), image.f32() + count, [](float v) { return !std::isfinite(v); }));
 }
 
+// Returns the red channel as linear colours, f32: u8 and u16 colours would be sRGB.
+Image grey_of(const Image& amounts)
+{
+    Image out = make_image(amounts.width, amounts.height, 3, PixelType::f32);
+    float* to = out.f32();
+    for (int y = 0; y < amounts.height; ++y)
+        for (int x = 0; x < amounts.width; ++x, to += 3)
+            to[0] = to[1] = to[2] = static_cast<float>(red_at(amounts, x, y, amounts.width, amounts.height)) / 65535.0f;
+    return out;
+}
+
+// Returns true for a picture of normals: most texels are unit vectors that point up. Heights are grey.
+bool holds_normals(const Image& image)
+{
+    if (image.channels < 3)
+        return false;
+    const auto unit = [&](std::size_t i, std::size_t c) {
+        const std::size_t at = i * static_cast<std::size_t>(image.channels) + c;
+        if (image.type == PixelType::u8)
+            return static_cast<float>(std::to_integer<int>(image.bytes[at])) / 255.0f;
+        return image.type == PixelType::u16 ? static_cast<float>(reinterpret_cast<const std::uint16_t*>(image.bytes.data())[at]) / 65535.0f
+                                            : image.f32()[at];
+    };
+    const std::size_t texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::size_t normals = 0;
+    for (std::size_t i = 0; i < texels; ++i) {
+        const glm::vec3 n = 2.0f * glm::vec3(unit(i, 0), unit(i, 1), unit(i, 2)) - 1.0f;
+        normals += n.z > 0.0f && std::fabs(glm::length(n) - 1.0f) < 0.2f;
+    }
+    return normals * 10 >= texels * 9;
+}
+
 struct Picture {
     std::string path; // without links; empty: not found
     Image image;
@@ -155,7 +187,7 @@ class MaterialMaker {
         return ref;
     }
 
-    enum class Content { colours, normals };
+    enum class Content { colours, normals, amounts };
 
     Status put_map(const MtlMap& map, Content content, TextureRef& to)
     {
@@ -167,16 +199,38 @@ class MaterialMaker {
         const Picture& found = **read;
         if (found.path.empty())
             return {};
-        const Result<TextureRef> ref = textured({found.path, "", colours, map.clamps}, map, [&]() -> Result<Image> {
-            if (colours)
-                return Image(found.image);
-            if (found.image.channels < 3)
-                return Error{ExitCode::bad_input, found.path, "", "a map of normals has red, green and blue"};
-            return whole_normals(found.image).image;
-        });
+        const Result<TextureRef> ref =
+            textured({found.path, content == Content::amounts ? "amounts" : "", colours, map.clamps}, map, [&]() -> Result<Image> {
+                if (colours)
+                    return Image(found.image);
+                if (content == Content::amounts)
+                    return grey_of(found.image);
+                if (found.image.channels < 3)
+                    return Error{ExitCode::bad_input, found.path, "", "a map of normals has red, green and blue"};
+                return whole_normals(found.image).image;
+            });
         BN_TRY(ref);
         to = *ref;
         return {};
+    }
+
+    // Returns the map of normals: `norm`, or a bump map that holds normals.
+    Result<const MtlMap*> normals_of(const MtlMaterial& from)
+    {
+        if (from.bump_map.file.empty())
+            return &from.normal_map;
+        if (!from.normal_map.file.empty()) {
+            warn(fmt::format("material \"{}\": its bump map is not read beside norm", printable(from.name)));
+            return &from.normal_map;
+        }
+        const Result<const Picture*> read = picture(from.bump_map.file, false);
+        BN_TRY(read);
+        if (holds_normals((*read)->image))
+            return &from.bump_map;
+        if (!(*read)->path.empty())
+            warn(fmt::format("material \"{}\": its bump map holds heights, which no unit is known of, and is not read; norm takes normals",
+                             printable(from.name)));
+        return &from.normal_map;
     }
 
     Status put_maps(const MtlMaterial& from, Material& m)
@@ -188,8 +242,13 @@ class MaterialMaker {
         BN_TRY(put_map(from.specular_map, Content::colours, m.specular_color_tex));
         if (m.specular_color_tex.used() && !from.specular)
             m.specular_color = glm::vec3(2.0f); // Ks 1
-        BN_TRY(put_map(from.normal_map, Content::normals, m.normal_tex));
-        m.normal_scale = from.normal_map.strength;
+        const Result<const MtlMap*> normals = normals_of(from);
+        BN_TRY(normals);
+        BN_TRY(put_map(**normals, Content::normals, m.normal_tex));
+        m.normal_scale = (*normals)->strength;
+        BN_TRY(put_map(from.sheen_map, Content::amounts, m.sheen_color_tex));
+        if (m.sheen_color_tex.used() && !from.sheen)
+            m.sheen_color = glm::vec3(1.0f), m.sheen_roughness = 0.5f;
         if (from.opacity_map.file.empty())
             return put_metal_rough(from, m);
         if (from.opacity_map.file != from.diffuse_map.file)

@@ -46,10 +46,11 @@ struct MapStatement {
     std::string_view word;
     MtlMap MtlMaterial::*to;
 };
-constexpr MapStatement kMaps[] = {{"map_Kd", &MtlMaterial::diffuse_map},   {"map_Ke", &MtlMaterial::emission_map},
-                                  {"map_Pr", &MtlMaterial::roughness_map}, {"map_Pm", &MtlMaterial::metallic_map},
-                                  {"norm", &MtlMaterial::normal_map},      {"map_d", &MtlMaterial::opacity_map},
-                                  {"map_Ks", &MtlMaterial::specular_map},  {"map_Ns", &MtlMaterial::exponent_map}};
+constexpr MapStatement kMaps[] = {
+    {"map_Kd", &MtlMaterial::diffuse_map},  {"map_Ke", &MtlMaterial::emission_map}, {"map_Pr", &MtlMaterial::roughness_map},
+    {"map_Pm", &MtlMaterial::metallic_map}, {"norm", &MtlMaterial::normal_map},     {"map_d", &MtlMaterial::opacity_map},
+    {"map_Ks", &MtlMaterial::specular_map}, {"map_Ns", &MtlMaterial::exponent_map}, {"map_Ps", &MtlMaterial::sheen_map},
+    {"bump", &MtlMaterial::bump_map},       {"map_Bump", &MtlMaterial::bump_map},   {"map_bump", &MtlMaterial::bump_map}};
 
 constexpr std::string_view kWithoutEffect[] = {"Ka", "map_Ka", "illum", "sharpness", "Tf", "map_aat"};
 

@@ -24,6 +24,7 @@ struct MtlMaterial { // numbers that the file does not name are empty
     std::optional<float> roughness, metallic, clearcoat, clearcoat_roughness, sheen; // Pr, Pm, Pc, Pcr, Ps
     std::optional<float> anisotropy, rotation;                                       // aniso, [-1,1]; anisor, turns
     MtlMap diffuse_map, specular_map, exponent_map, emission_map, roughness_map, metallic_map, normal_map, opacity_map;
+    MtlMap sheen_map, bump_map; // bump: heights, or normals from programs that write them so
 };
 
 struct MtlLibrary {

@@ -173,13 +173,12 @@ TEST(mtl, what_is_not_drawn_is_said)
     for (const auto& [line, words] : {std::pair<std::string, std::string>{"Pr 3", "Pr 3 is taken as 1"},
                                       {"map_Kd", "a picture's name is missing"},
                                       {"Pz 0.5", "'Pz' is not read"},
-                                      {"map_Bump b.png", "'map_Bump' is not read"},
                                       {"Kd spectral a.rfl", "Kd spectral is not read"},
                                       {"map_Kd missing.png", "missing.png is not found"},
                                       {"map_d alpha.png", "map_d is read only where it is map_Kd"},
                                       {"newmtl a", "stands here again"}})
         EXPECT_NE(warnings_of(line).find(words), std::string::npos) << line << ": " << warnings_of(line);
-    EXPECT_NE(warnings_of("Pz 0.5\nbump a.png").find("'bump' is not read"), std::string::npos);
+    EXPECT_NE(warnings_of("Pz 0.5\nbump a.png").find("a.png is not found"), std::string::npos);
     const std::string twice = warnings_of("Pz 0.5\nPz 0.6");
     EXPECT_EQ(std::count(twice.begin(), twice.end(), '\n'), 1) << twice;
 }
@@ -190,6 +189,47 @@ TEST(mtl, sheen_is_white_and_half_rough)
     EXPECT_EQ(cloth.sheen_color, glm::vec3(0.4f));
     EXPECT_EQ(cloth.sheen_roughness, 0.5f);
     EXPECT_EQ(material_of("Kd 1 1 1").sheen_color, glm::vec3(0.0f));
+}
+
+TEST(mtl, sheen_maps_hold_amounts)
+{
+    const TempFolder folder;
+    write_picture(folder.path("s.png"), 2, 2, {128, 0, 0});
+    const Result<Scene> scene = load_wearing(folder, "newmtl a\nmap_Ps s.png\nnewmtl b\nPs .5\nmap_Ps s.png\nmap_Kd s.png\n");
+    ASSERT_TRUE(scene) << scene.error().line();
+    ASSERT_EQ(scene->materials.size(), 3u);
+    for (std::size_t k = 1; k < 3; ++k) {
+        const Material& m = scene->materials[k];
+        ASSERT_TRUE(m.sheen_color_tex.used());
+        const Image& image =
+            scene->images[static_cast<std::size_t>(scene->textures[static_cast<std::size_t>(m.sheen_color_tex.texture)].image)];
+        ASSERT_EQ(image.type, PixelType::f32);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.f32()[c], 128.0f / 255.0f, 1e-4f);
+        EXPECT_EQ(m.sheen_roughness, 0.5f);
+    }
+    EXPECT_EQ(scene->materials[1].sheen_color, glm::vec3(1.0f));
+    EXPECT_EQ(scene->materials[2].sheen_color, glm::vec3(0.5f));
+    EXPECT_NE(scene->materials[2].base_color_tex.texture, scene->materials[2].sheen_color_tex.texture);
+}
+
+TEST(mtl, bump_maps_of_normals_are_normal_maps)
+{
+    const TempFolder folder;
+    write_picture(folder.path("n.png"), 2, 2, {128, 128, 255, 180, 128, 240});
+    write_picture(folder.path("h.png"), 2, 2, {128, 128, 128, 200, 200, 200});
+    for (const char* word : {"bump", "map_Bump", "map_bump"}) {
+        const Result<Scene> scene =
+            load_wearing(folder, std::string("newmtl a\n") + word + " -bm 0.5 n.png\nnewmtl b\n" + word + " h.png\n");
+        ASSERT_TRUE(scene) << scene.error().line();
+        EXPECT_TRUE(scene->materials[1].normal_tex.used()) << word;
+        EXPECT_EQ(scene->materials[1].normal_scale, 0.5f);
+        EXPECT_FALSE(scene->materials[2].normal_tex.used());
+        EXPECT_EQ(scene->materials[2].normal_scale, 1.0f);
+        ASSERT_EQ(scene->warnings.size(), 1u);
+        EXPECT_NE(scene->warnings[0].find("holds heights"), std::string::npos) << scene->warnings[0];
+    }
+    EXPECT_NE(warnings_of("norm n.png\nbump h.png").find("not read beside norm"), std::string::npos);
 }
 
 TEST(mtl, missing_pictures_change_nothing)
