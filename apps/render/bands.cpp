@@ -25,7 +25,7 @@
 namespace burnish {
 namespace {
 
-Result<Band> draw_band(const Bands& bands, int index)
+Result<DrawnBand> draw_band(const Bands& bands, int index)
 {
     return draw_rows(bands, index * bands.options.band_rows, bands.rows(index));
 }
@@ -34,7 +34,7 @@ Result<Band> draw_band(const Bands& bands, int index)
 class BandFiles {
   public:
     BandFiles(const Bands& bands) : bands_(bands) {}
-    Status add(const Band& band)
+    Status add(const DrawnBand& band)
     {
         if (streams_.empty())
             BN_TRY(open(band));
@@ -52,11 +52,11 @@ class BandFiles {
     }
 
   private:
-    const Image& rows_for(const std::string& path, const Band& band) const
+    const Image& rows_for(const std::string& path, const DrawnBand& band) const
     {
         return is_png(path) ? band.shown : band.layered.empty() ? band.linear : band.layered;
     }
-    Status open(const Band& band)
+    Status open(const DrawnBand& band)
     {
         for (const std::string& path : bands_.options.outputs) {
             StreamedPicture picture{bands_.width(), bands_.height(), rows_for(path, band).channels, {}, 0};
@@ -78,7 +78,7 @@ Json figures_of(const Image& image)
     return {image.width, image.height, image.channels, static_cast<int>(image.type)};
 }
 
-std::vector<std::uint8_t> packed_band(Band band)
+std::vector<std::uint8_t> packed_band(DrawnBand band)
 {
     Packed packed;
     Json figures = {{"names", band.names}, {"nan_pixels", band.nan_pixels}, {"triangles", band.stats.triangles}, {"images", Json::array()}};
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> packed_band(Band band)
 }
 
 // Reads a band that packed_band() packed. Pieces carry a hash, so what is read is what was written.
-Result<Band> read_band(const std::string& file, const std::string& key)
+Result<DrawnBand> read_band(const std::string& file, const std::string& key)
 {
     Result<std::vector<std::uint8_t>> content = read_piece(file, key);
     BN_TRY(content);
@@ -101,7 +101,7 @@ Result<Band> read_band(const std::string& file, const std::string& key)
     BN_TRY(packed);
     *content = {};
     const Error damaged = {ExitCode::bad_input, file, "", "is a damaged piece"};
-    Band band;
+    DrawnBand band;
     try {
         const Json figures = Json::parse(packed->json);
         band.names = figures.at("names").get<std::vector<std::string>>();
@@ -146,7 +146,7 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
             return **rate * bands.rows(i);
         };
         const auto make = [&bands, i, key](const std::string& file) -> Status {
-            Result<Band> band = draw_band(bands, i);
+            Result<DrawnBand> band = draw_band(bands, i);
             BN_TRY(band);
             return write_piece(file, key, packed_band(std::move(*band)));
         };
@@ -164,13 +164,13 @@ void report_bands(const Bands& bands, const RenderFigures& figures, Report& repo
 }
 
 // Takes band after band, and writes them.
-int write_bands(const Bands& bands, const std::function<Result<Band>(int)>& band_at, RenderFigures figures, Report& report)
+int write_bands(const Bands& bands, const std::function<Result<DrawnBand>(int)>& band_at, RenderFigures figures, Report& report)
 {
     BandFiles files(bands);
     BandHash hash(bands.width(), bands.height());
     Progress progress("bands", static_cast<std::size_t>(bands.count()), bands.options.quiet);
     for (int i = 0; i < bands.count(); ++i) {
-        const Result<Band> band = band_at(i);
+        const Result<DrawnBand> band = band_at(i);
         if (!band)
             return fail(band.error());
         if (const Status added = files.add(*band); !added)

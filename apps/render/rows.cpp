@@ -59,9 +59,9 @@ void add_stats(const FrameStats& from, FrameStats& to)
     to.ms += from.ms;
 }
 
-Result<Band> draw_rows(const Bands& bands, int top, int rows)
+Result<DrawnBand> draw_rows(const Bands& bands, int top, int rows)
 {
-    Band band;
+    DrawnBand band;
     RenderOptions options = bands.options;
     options.quiet = true; // of the windows
     const Side y = side_of(top, top + rows, bands.height(), bands.margin);

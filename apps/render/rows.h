@@ -15,7 +15,7 @@
 namespace burnish {
 
 // The rows of a band, in each form that some output needs.
-struct Band {
+struct DrawnBand {
     Image linear;                   // f32, RGB or RGBA
     Image layered;                  // f32, with --aov
     std::vector<std::string> names; // of its channels
@@ -46,7 +46,7 @@ bool has_margin(const RenderOptions& options, const FrameDesc& desc, const Sessi
 
 // Draws the rows from `top` on, a multiple of kWindowStep. Fails with ExitCode::usage at FrameDesc::window for pictures that are drawn as a
 // whole.
-Result<Band> draw_rows(const Bands& bands, int top, int rows);
+Result<DrawnBand> draw_rows(const Bands& bands, int top, int rows);
 
 // Adds up the figures of windows.
 void add_stats(const FrameStats& from, FrameStats& to);

@@ -180,7 +180,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw_now(const DrawRequest& reque
     return drawn_of(std::move(*opened), std::move(*rendered));
 }
 
-Result<Band> Drawings::draw_part(const DrawRequest& request, double from, double to)
+Result<DrawnBand> Drawings::draw_part(const DrawRequest& request, double from, double to)
 {
     const std::lock_guard drawing(tile_);
     Result<Opened> opened = open(request);
@@ -194,7 +194,7 @@ Result<Band> Drawings::draw_part(const DrawRequest& request, double from, double
     };
     const int top = row(from), rows = row(to) - top;
     if (rows <= 0)
-        return Band();
+        return DrawnBand();
     desc.window.picture_width = desc.width, desc.window.picture_height = desc.height;
     Session& session = *opened->made.session;
     const Bands bands{options, desc, session, opened->made.figures, has_margin(options, desc, session)};
@@ -207,7 +207,7 @@ bool Drawings::keeps(const DrawRequest& request)
     return std::any_of(pictures_.begin(), pictures_.end(), [&](const auto& kept) { return kept.first == request; });
 }
 
-Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, std::vector<Band> bands, double ms)
+Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, std::vector<DrawnBand> bands, double ms)
 {
     const std::lock_guard drawing(tile_);
     Result<Opened> opened = open(request);
@@ -218,7 +218,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, 
     BandHash hash(width, height);
     int rows = 0;
     // Append the bands
-    for (Band& band : bands) {
+    for (DrawnBand& band : bands) {
         const auto append = [&](const Image& from, Image& to) {
             if (to.empty()) {
                 to = Image{from.width, 0, from.channels, from.type, {}};

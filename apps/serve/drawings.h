@@ -47,10 +47,10 @@ class Drawings {
     // Draws the rows between two shares of the picture's height, in [0, 1]. Keeps the session, not the rows. Bands with shared ends make
     // the picture. Cannot be stopped. Errors: those of draw(), and ExitCode::usage at FrameDesc::window for a picture that is drawn as a
     // whole.
-    Result<Band> draw_part(const DrawRequest& request, double from, double to);
+    Result<DrawnBand> draw_part(const DrawRequest& request, double from, double to);
     // Joins bands from top to bottom. Keeps the picture as draw() does. ms: time of the picture. Errors: ExitCode::usage for bands that do
     // not fill the picture.
-    Result<std::shared_ptr<const Drawn>> join(const DrawRequest& request, std::vector<Band> bands, double ms);
+    Result<std::shared_ptr<const Drawn>> join(const DrawRequest& request, std::vector<DrawnBand> bands, double ms);
     bool keeps(const DrawRequest& request); // the picture is at hand
 
     // Forgets everything if a file that was read has changed since. Returns how often that happened.

@@ -62,7 +62,7 @@ Json info_of(const DrawRequest& request, const Drawn& drawn, const std::vector<s
             {"warnings", drawn.warnings}};
 }
 
-Json json_of_band(const Band& band)
+Json json_of_band(const DrawnBand& band)
 {
     return {{"width", band.linear.width},    {"rows", band.linear.height},        {"linear", band.linear.channels},
             {"shown", band.shown.channels},  {"triangles", band.stats.triangles}, {"ms", band.stats.ms},
@@ -70,12 +70,12 @@ Json json_of_band(const Band& band)
 }
 
 // Reads what json_of_band() wrote, with the pixels of all bands. Errors: ExitCode::usage.
-Result<std::vector<Band>> bands_of(const Json& json, std::span<const std::uint8_t> pixels)
+Result<std::vector<DrawnBand>> bands_of(const Json& json, std::span<const std::uint8_t> pixels)
 {
     constexpr int kMostSide = 1 << 14;
-    std::vector<Band> bands;
+    std::vector<DrawnBand> bands;
     for (const Json& figures : json) {
-        Band band;
+        DrawnBand band;
         const int width = figures.at("width"), rows = figures.at("rows");
         const std::pair<Image*, int> images[] = {{&band.linear, figures.at("linear")}, {&band.shown, figures.at("shown")}};
         for (const auto& [image, channels] : images) {
@@ -118,7 +118,7 @@ class Pages::Answers {
             BN_TRY(json);
             const Result<DrawRequest> picture = draw_request_of(json->value("picture", Json()), *lists());
             BN_TRY(picture);
-            const Result<Band> band = drawings_.draw_part(*picture, json->value("from", 0.0), json->value("to", 1.0));
+            const Result<DrawnBand> band = drawings_.draw_part(*picture, json->value("from", 0.0), json->value("to", 1.0));
             if (!band && band.error().field == "FrameDesc::window")
                 return Error{ExitCode::differ, "", "", "the picture is drawn as a whole"};
             BN_TRY(band);
@@ -149,7 +149,7 @@ class Pages::Answers {
             BN_TRY(json);
             const Result<DrawRequest> picture = draw_request_of(json->value("picture", Json()), *lists());
             BN_TRY(picture);
-            Result<std::vector<Band>> bands = bands_of(json->value("bands", Json::array()), pixels);
+            Result<std::vector<DrawnBand>> bands = bands_of(json->value("bands", Json::array()), pixels);
             BN_TRY(bands);
             const Result<std::shared_ptr<const Drawn>> drawn = drawings_.join(*picture, std::move(*bands), json->value("ms", 0.0));
             BN_TRY(drawn);

@@ -44,6 +44,7 @@ INTERFACE = "shading/lang/interface.glsl" # defines texel pages for all later in
 
 ROOT_ENTRIES = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "shading", "raster", "apps", "tests", "bench"}
 SOURCES = (".h", ".cpp", ".py", ".sh", ".cmake", ".vert", ".frag", ".comp", ".glsl")
+TYPE = re.compile(r"(?:struct|class|enum class|union) (\w+)(?: final)?(?: : [^;{]*)? \{")
 TICKS = re.compile("rdts" + "c|cntvct" + "_el0")  # core/simd/ticks.h reads them
 VAGUE_NAMES = ("utils", "util", "common", "helpers", "helper", "misc")
 MAX_LINES, MAX_LINES_SIMD = 600, 900
@@ -164,6 +165,24 @@ def check_source(path, lines, files):
         yield limit, f"{len(lines)} lines, more than {limit}"
 
 
+def types_of(path, lines):
+    """Yields line and name of each type that a product's file defines for the whole program. Lanes define theirs once an instruction set."""
+    if path.parts[0] not in LAYERS or path.suffix not in (".h", ".cpp") or lies_in(path, ("core/simd", "shading/lang")) or "_absent" in path.stem:
+        return
+    nameless, space = False, ""
+    for number, line in enumerate(lines, 1):
+        opened = re.match(r"namespace ([\w:]+) \{", line)
+        if opened:
+            space = opened[1] + "::"
+        elif line == "namespace {":
+            nameless = True
+        elif nameless and line.startswith("}") and not line.startswith("};"):
+            nameless = not re.match(r"} // namespace$", line)
+        found = None if nameless else TYPE.match(line)
+        if found:
+            yield number, space + found[1]
+
+
 def check_words(path, lines):
     """Faults of what libraries say and name."""
     top = path.parts[0]
@@ -178,7 +197,7 @@ def check_words(path, lines):
 
 def faults(root):
     paths = listed(root)
-    files = set(paths)
+    files, types = set(paths), {}
     for entry in sorted({path.parts[0] for path in paths}):
         if entry not in ROOT_ENTRIES and not entry.startswith("."):
             yield entry, 0, "does not belong at the root"
@@ -193,6 +212,10 @@ def faults(root):
             for pattern, why in FORBIDDEN:
                 if pattern.search(line):
                     yield path, number, f"'{pattern.search(line)[0]}': {why}"
+        for number, name in types_of(path, lines):
+            other = types.setdefault(name, path)
+            if other != path:
+                yield path, number, f"{name} is a type of {other} too: functions of both would have one name"
         if path.suffix in SOURCES or path.suffix == ".def":
             for number, fault in (*check_source(path, lines, files), *check_words(path, lines)):
                 yield path, number, fault

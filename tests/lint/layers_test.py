@@ -36,9 +36,12 @@ GOOD = {
     "apps/cli/says.cpp": 'const char* kText = "--size";\n',
     "tests/unit/x/x_test.cpp": '#include <gtest/gtest.h>\n#include "apps/cli/main.cpp"\n',
     "tests/unit/x/neighbour.cpp": '#include "x_test.cpp"\n',
+    "core/math/t.h": "#pragma once\nstruct Twice {\n};\nclass Ahead;\n",
+    "core/math/nameless.cpp": "class Ahead;\nnamespace {\nstruct Twice {\n};\n} // namespace\n",
     "CMakeLists.txt": "add_compile_options(-ffp-contract=off)\n",
 }
 BAD = {
+    "raster/frame/twice.cpp": "namespace {\n} // namespace\nstruct Twice {\n};\n",
     "raster/vulkan/drawn_by_lab.cpp": '#include "raster/vulkan/lab/l.h"\n',
     "shading/stages/of_lab.vert": '#include "shading/lab/lean/l.frag"\n',
     "apps/cli/lab.cpp": '#include "apps/lab/atlas/a.h"\n',

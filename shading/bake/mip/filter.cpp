@@ -90,13 +90,13 @@ struct StateRow {
 };
 
 // Merges a footprint's texels. rows: one per entry of `down`. to: texel x in a row of states.
-void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std::vector<Share>& down, const std::vector<Share>& across,
-                float* to, std::size_t stride)
+void merge_many(const Shape& shape, const std::vector<StateRow>& rows, const std::vector<TexelShare>& down,
+                const std::vector<TexelShare>& across, float* to, std::size_t stride)
 {
     std::array<double, mip::kMostStates> sum = {};
     const auto each = [&](auto&& use) {
         for (std::size_t y = 0; y < down.size(); ++y)
-            for (const Share& x : across)
+            for (const TexelShare& x : across)
                 use([&](std::size_t k) { return static_cast<double>(rows[y].at(k, x.at)); }, down[y].weight * x.weight);
     };
     // Average all numbers
@@ -144,7 +144,7 @@ class LevelMaker {
         std::vector<std::vector<float>> memory(static_cast<std::size_t>(jobs.threads()));
         jobs.parallel_for(static_cast<std::size_t>(to.height), [&](std::size_t y, int worker) {
             // Find the finer rows under this row, and merge their texels
-            const std::vector<Share> down = shares_of(static_cast<int>(y), height_, to.height);
+            const std::vector<TexelShare> down = shares_of(static_cast<int>(y), height_, to.height);
             const std::vector<StateRow> rows = rows_of(down, memory[static_cast<std::size_t>(worker)]);
             const std::size_t width = static_cast<std::size_t>(to.width), stride = to.stride();
             float* const states = to.states.data() + to.place(shape_, static_cast<int>(y));
@@ -159,7 +159,7 @@ class LevelMaker {
     }
 
   private:
-    std::vector<StateRow> rows_of(const std::vector<Share>& down, std::vector<float>& memory) const
+    std::vector<StateRow> rows_of(const std::vector<TexelShare>& down, std::vector<float>& memory) const
     {
         std::vector<StateRow> rows;
         const std::size_t points = mip::kPointPlanes * stride_, states = shape_.count * stride_;

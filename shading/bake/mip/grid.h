@@ -55,14 +55,14 @@ template <class Value> float on_grid(const Image& map, const Grid& grid, int x, 
     return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
 }
 
-struct Share { // weight of a texel or row in a finer level
+struct TexelShare { // weight of a texel or row in a finer level
     int at;
     double weight;
 };
 // Returns the `source` texels that texel i of `target` covers, with exact overlaps.
-inline std::vector<Share> shares_of(int i, int source, int target)
+inline std::vector<TexelShare> shares_of(int i, int source, int target)
 {
-    std::vector<Share> shares;
+    std::vector<TexelShare> shares;
     const std::int64_t s = source, t = target; // units of 1 / target texels of the source
     for (std::int64_t k = i * s / t; k < ((i + 1) * s + t - 1) / t; ++k) {
         const std::int64_t overlap = std::min((k + 1) * t, (i + 1) * s) - std::max(k * t, i * s);

@@ -23,7 +23,7 @@ TrainingLight training_light(const MipErrorSurface& surface)
 
 FootprintAxis::FootprintAxis(int i, int source, int target)
 {
-    for (const Share& share : shares_of(i, source, target))
+    for (const TexelShare& share : shares_of(i, source, target))
         at.push_back(share.at), weight.push_back(static_cast<float>(share.weight));
 }
 
