@@ -9,12 +9,14 @@
 namespace burnish {
 namespace {
 
-template <class T> struct Maker {
+template <class T, class... Arguments> struct Maker {
     BuiltinInfo info;
-    T (*make)();
+    T (*make)(Arguments...);
 };
+using SceneMaker = Maker<Scene>;
+using EnvironmentMaker = Maker<Image, const Jobs*>;
 
-constexpr Maker<Scene> kScenes[] = {
+constexpr SceneMaker kScenes[] = {
     {{"teapot", "the Utah teapot in steel, brushed around its axis; highlights run from top to bottom"}, make_teapot},
     {{"spheres", "silver spheres whose highlights run around them: roughness grows to the right, anisotropy upwards"}, make_spheres},
     {{"sphere", "one silver sphere under a lamp, to look at a single lobe; its highlights run around it"}, make_sphere},
@@ -38,26 +40,27 @@ constexpr Maker<Scene> kScenes[] = {
     {{"shaderballs", "twelve balls with all detail in their maps, and cameras near, far and grazing, for mip filters", false},
      make_shaderballs},
 };
-constexpr Maker<Image> kEnvironments[] = {
+constexpr EnvironmentMaker kEnvironments[] = {
     {{"studio", "a dim studio with soft boxes and strips"}, make_studio},
     {{"sky", "a clear sky with a small sun"}, make_sky},
     {{"night", "almost no light, for scenes with their own lights"}, make_night},
 };
 
-template <class T, std::size_t N> std::vector<BuiltinInfo> infos(const Maker<T> (&makers)[N])
+template <class M, std::size_t N> std::vector<BuiltinInfo> infos(const M (&makers)[N])
 {
     std::vector<BuiltinInfo> list;
-    for (const Maker<T>& maker : makers)
+    for (const M& maker : makers)
         list.push_back(maker.info);
     return list;
 }
 
-template <class T, std::size_t N> Result<T> make_named(const Maker<T> (&makers)[N], const std::string& name, const char* what)
+template <class T, class... Arguments, std::size_t N>
+Result<T> make_named(const Maker<T, Arguments...> (&makers)[N], const std::string& name, const char* what, Arguments... arguments)
 {
     std::string known;
-    for (const Maker<T>& maker : makers) {
+    for (const Maker<T, Arguments...>& maker : makers) {
         if (name == maker.info.name)
-            return maker.make();
+            return maker.make(arguments...);
         known += (known.empty() ? "" : ", ") + std::string(maker.info.name);
     }
     return Error{ExitCode::bad_input, "builtin:" + name, "", "no built-in " + std::string(what) + " has this name; there are " + known};
@@ -132,9 +135,9 @@ Result<Scene> make_builtin_scene(const std::string& name)
     return scene;
 }
 
-Result<Image> make_builtin_environment(const std::string& name)
+Result<Image> make_builtin_environment(const std::string& name, const Jobs* jobs)
 {
-    return make_named(kEnvironments, name, "environment");
+    return make_named(kEnvironments, name, "environment", jobs);
 }
 
 } // namespace burnish

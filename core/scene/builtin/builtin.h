@@ -8,6 +8,8 @@
 
 namespace burnish {
 
+class Jobs;
+
 struct BuiltinInfo {
     const char* name; // without "builtin:"
     const char* summary;
@@ -32,7 +34,7 @@ bool builtin_is_staged(const std::string& name);
 
 Result<Scene> make_builtin_scene(const std::string& name); // built-in and parametric scenes
 
-// Makes equirectangular f32 RGB radiance, oriented as in shading/bake/environment/environment.h.
-Result<Image> make_builtin_environment(const std::string& name);
+// Makes equirectangular f32 RGB radiance, oriented as in shading/bake/environment/environment.h. jobs: may be null; never changes bits.
+Result<Image> make_builtin_environment(const std::string& name, const Jobs* jobs = nullptr);
 
 } // namespace burnish

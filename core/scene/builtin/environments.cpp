@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/jobs/jobs.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/builtin/surface.h"
 
@@ -21,7 +22,7 @@ glm::dvec3 unit(const glm::dvec3& v)
 }
 
 // Evaluates radiance(direction) at every pixel centre, oriented as in shading/bake/environment/environment.h.
-template <class Radiance> Image paint(const Radiance& radiance)
+template <class Radiance> Image paint(const Jobs* jobs, const Radiance& radiance)
 {
     std::vector<glm::dvec2> around(kWidth); // (x, z) of each column
     for (int column = 0; column < kWidth; ++column) {
@@ -29,16 +30,21 @@ template <class Radiance> Image paint(const Radiance& radiance)
         around[static_cast<std::size_t>(column)] = {det_cos(phi), det_sin(phi)};
     }
     Image image = make_image(kWidth, kHeight, 3, PixelType::f32);
-    float* out = image.f32();
-    for (int row = 0; row < kHeight; ++row) {
-        const double theta = (row + 0.5) / kHeight * kPi;
+    const auto paint_row = [&](std::size_t row, int) {
+        const double theta = (static_cast<double>(row) + 0.5) / kHeight * kPi;
         const double s = det_sin(theta), c = det_cos(theta);
+        float* out = image.f32() + row * kWidth * 3;
         for (const glm::dvec2& a : around) {
             const glm::dvec3 value = radiance(glm::dvec3(s * a.x, c, s * a.y));
             for (int k = 0; k < 3; ++k)
                 *out++ = static_cast<float>(value[k]);
         }
-    }
+    };
+    if (jobs)
+        jobs->parallel_for_whole(kHeight, paint_row);
+    else
+        for (std::size_t row = 0; row < kHeight; ++row)
+            paint_row(row, 0);
     return image;
 }
 
@@ -70,14 +76,16 @@ double panel_cover(const Panel& p, const glm::dvec3& d)
     const double ahead = glm::dot(d, p.center);
     if (ahead <= 0.01)
         return 0.0;
-    const double x = std::fabs(glm::dot(d, p.right)) / (ahead * p.half_width);
-    const double y = std::fabs(glm::dot(d, p.up)) / (ahead * p.half_height);
+    const double right = std::fabs(glm::dot(d, p.right)), up = std::fabs(glm::dot(d, p.up));
+    if (right >= ahead * p.half_width || up >= ahead * p.half_height) // x or y below is at least 1: most pixels are spared the rest
+        return 0.0;
+    const double x = right / (ahead * p.half_width), y = up / (ahead * p.half_height);
     return (1.0 - smooth_step(1.0 - p.edge, 1.0, x)) * (1.0 - smooth_step(1.0 - p.edge, 1.0, y));
 }
 
 } // namespace
 
-Image make_studio()
+Image make_studio(const Jobs* jobs)
 {
     const glm::dvec3 neutral(1.0), warm(1.0, 0.72, 0.45), cool(0.55, 0.75, 1.0);
     const std::vector<Panel> panels = {
@@ -89,7 +97,7 @@ Image make_studio()
         panel(180.0, 42.0, 0.70, 0.06, 0.40, neutral * 24.0), // long strip, behind above
         panel(14.0, 18.0, 0.14, 0.10, 0.45, neutral * 3.5),   // small fill by the camera
     };
-    return paint([&panels](const glm::dvec3& d) {
+    return paint(jobs, [&panels](const glm::dvec3& d) {
         const double up = d.y;
         // Walls start at 0.012. They brighten towards the ceiling, and slightly below the horizon from light bounced
         // off the floor.
@@ -102,14 +110,14 @@ Image make_studio()
     });
 }
 
-Image make_sky()
+Image make_sky(const Jobs* jobs)
 {
     constexpr double kSunRadius = 1.0 * kPi / 180.0; // radians; the real sun has 0.27 degrees
     constexpr double kSunRadiance = 9000.0;
     const glm::dvec3 sun = unit({-0.55, 0.62, 0.56});
     const glm::dvec3 zenith(0.10, 0.24, 0.62), horizon(0.78, 0.86, 0.96), sunlight(1.0, 0.93, 0.80);
     const glm::dvec3 earth(0.13, 0.11, 0.085), far_earth(0.34, 0.32, 0.30);
-    return paint([&](const glm::dvec3& d) {
+    return paint(jobs, [&](const glm::dvec3& d) {
         // 1 - cosine of the angle to the sun is angle^2 / 2 for small angles.
         const double away = std::fmax(0.0, 1.0 - glm::dot(d, sun)), angle = std::sqrt(2.0 * away);
         const double height = std::fmax(0.0, d.y), low = (1.0 - height) * (1.0 - height);
@@ -123,9 +131,9 @@ Image make_sky()
     });
 }
 
-Image make_night()
+Image make_night(const Jobs* jobs)
 {
-    return paint([](const glm::dvec3& d) { return glm::dvec3(0.003, 0.0035, 0.005) * (1.0 + 0.8 * d.y); });
+    return paint(jobs, [](const glm::dvec3& d) { return glm::dvec3(0.003, 0.0035, 0.005) * (1.0 + 0.8 * d.y); });
 }
 
 } // namespace burnish

@@ -61,8 +61,8 @@ Scene make_lacquer();
 Scene make_cloth();
 Scene make_anodised();
 Scene make_shaderballs();
-Image make_studio();
-Image make_sky();
-Image make_night();
+Image make_studio(const Jobs* jobs);
+Image make_sky(const Jobs* jobs);
+Image make_night(const Jobs* jobs);
 
 } // namespace burnish

@@ -307,7 +307,7 @@ Result<Environment> load_environment(const std::string& spec, const EnvironmentO
     }
     if (!spec.starts_with(builtin))
         return is_gltf(spec) ? load_gltf_light(spec, options, limits, jobs) : load_picture(spec, options, limits, jobs);
-    const Result<Image> image = make_builtin_environment(spec.substr(builtin.size()));
+    const Result<Image> image = make_builtin_environment(spec.substr(builtin.size()), &jobs);
     return image ? bake_environment(*image, spec, options, jobs) : Result<Environment>(image.error());
 }
 

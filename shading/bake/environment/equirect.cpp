@@ -295,6 +295,12 @@ std::vector<std::string> equirect_warnings(const Image& image)
         return {"the environment has no high dynamic range; taken as sRGB"};
     const std::size_t channels = static_cast<std::size_t>(image.channels), colours = channels >= 3 ? 3 : 1;
     const std::size_t values = image.bytes.size() / sizeof(float);
+    const float* const all = image.f32();
+    unsigned unusual = 0; // alpha included: a usual picture needs no second look
+    for (std::size_t i = 0; i < values; ++i)
+        unusual |= static_cast<unsigned>(!(all[i] >= 0.0f)) | static_cast<unsigned>(all[i] > kMostRadiance);
+    if (!unusual)
+        return {};
     std::size_t nan = 0, negative = 0, infinite = 0;
     float largest = 0.0f;
     for (std::size_t i = 0; i < values; i += channels)
