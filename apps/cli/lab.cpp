@@ -30,7 +30,7 @@ int start_lab()
     return start_lab(kept);
 }
 
-int start_lab(const std::vector<std::string>& words)
+int start_lab(const std::vector<std::string>& words, const std::string& reason)
 {
     std::error_code failed;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -46,7 +46,11 @@ int start_lab(const std::vector<std::string>& words)
     execv(program.c_str(), arguments.data());
     const char* const help = errno == ENOENT ? "; cmake --build builds it, as its target burnish-lab" : "";
     return fail(Error{ExitCode::unavailable, program, "",
-                      fmt::format("runs '{}', and cannot be started: {}{}", words.empty() ? "" : words[0], std::strerror(errno), help)});
+                      fmt::format("{} '{}', and cannot be started: {}{}", reason.empty() ? "runs" : "has",
+                                  !reason.empty() ? reason
+                                  : words.empty() ? ""
+                                                  : words[0],
+                                  std::strerror(errno), help)});
 }
 
 } // namespace burnish

@@ -6,8 +6,8 @@
 namespace burnish {
 
 // Replaces this process by burnish-lab with these words. If burnish-lab cannot start, prints a line on standard error and returns
-// ExitCode::unavailable.
-int start_lab(const std::vector<std::string>& words);
+// ExitCode::unavailable. reason: the word that needs it, for this line; empty: the first.
+int start_lab(const std::vector<std::string>& words, const std::string& reason = "");
 // Starts burnish-lab with the words of keep_words().
 int start_lab();
 void keep_words(const std::vector<std::string>& words);

@@ -81,8 +81,8 @@ bool names_lab_scene(const std::string& word)
 
 int run(const std::vector<std::string>& words)
 {
-    if (parametric_scenes().empty() && std::any_of(words.begin(), words.end(), names_lab_scene))
-        return start_lab(words);
+    if (const auto scene = std::find_if(words.begin(), words.end(), names_lab_scene); parametric_scenes().empty() && scene != words.end())
+        return start_lab(words, *scene);
     std::vector<Command> commands = all_commands();
     const auto find = [&](const std::string& name) {
         return std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });

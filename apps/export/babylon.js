@@ -8,8 +8,8 @@
 // keeps (scene.environmentTexture), and leaves materials without anisotropy alone. Works with shaders in GLSL, as in WebGL 2. Throws for
 // materials in WGSL. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
-//   multipleScattering  true adds light that leaves a lobe after several bounces, as the engine does for round lobes; false is glTF's lobe.
-//         Default false.
+//   multipleScattering  true adds light of the environment that leaves a lobe after several bounces, as the engine does for round lobes;
+//         false is glTF's lobe. Default false.
 
 // Directional albedo of lobes with two widths: the texture lobe_albedo of `burnish bake environment`, in 8 bits.
 const albedo = Uint8Array.from(atob('@ALBEDO@'), c => c.charCodeAt(0));
@@ -121,8 +121,8 @@ function pluginClass(BABYLON, glTF, multipleScattering) {
       super(material, 'BurnishAnisotropy', 200, {}, true, true);
       this.texture = albedoTexture(BABYLON, material.getScene());
     }
-    getClassName() {
-      return 'BurnishAnisotropy';
+    getClassName() { // materials with equal names share a compiled shader
+      return `BurnishAnisotropy${glTF ? 'OfGltf' : ''}${multipleScattering ? 'Multiple' : ''}`;
     }
     getSamplers(samplers) {
       samplers.push('burnish_lobe_albedo');

@@ -7,8 +7,8 @@
 // frame, and again for what you load or clone later. Reads the prefiltered environment that three.js makes (scene.environment). Rectangular
 // area lights need RectAreaLightUniformsLib, as ever. Leaves materials without anisotropy alone. Options:
 //   glTF  true for models with texture coordinates that grow downwards, as in glTF files; else false. Default true.
-//   multipleScattering  true adds light that leaves a lobe after several bounces, as the engine does for round lobes; false is glTF's lobe.
-//         Default false.
+//   multipleScattering  true adds light of the environment that leaves a lobe after several bounces, as the engine does for round lobes;
+//         false is glTF's lobe. Default false.
 // Works with WebGLRenderer; tried with releases 170 and 187. Throws where the shaders of your version are not known.
 import { ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, NearestFilter, RGBAFormat, RGFormat, ShaderChunk, UnsignedByteType } from 'three';
 
@@ -57,7 +57,7 @@ vec4 burnish_ltc_texel(int at)
     return texelFetch(burnish_ltc, ivec2(at % 192, at / 192), 0);
 }
 // Returns the point of a material, and its lobe's directional albedo.
-burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material, out vec2 dfg)
+burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material, out float albedo)
 {
     float across = max(material.roughness * material.roughness, 1e-4), along = max(material.alphaT, across);
     // Where a pixel holds many directions, its widths are those of the mean covariance
@@ -67,21 +67,21 @@ burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial mat
     vec3 tangent = material.anisotropyT - n * dot(n, material.anisotropyT);
     tangent = dot(tangent, tangent) > 1e-6 ? normalize(tangent) : normalize(cross(n, abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 at = burnish_albedo_place(n, v, tangent, roughness, anisotropy);
-    dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
+    vec2 dfg = mix(mix(textureLod(burnish_lobe_albedo, at.xy, 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1, 0.0), 0.0).rg, at.z),
                    mix(textureLod(burnish_lobe_albedo, at.xy + vec2(0.0, 0.1), 0.0).rg, textureLod(burnish_lobe_albedo, at.xy + vec2(0.1), 0.0).rg, at.z), at.w);
+    albedo = max(dfg.x + dfg.y, 1e-3);
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
     return burnish_point_of(f, n, v, tangent, material.SPECULAR, vec3(material.specularF90), roughness, anisotropy, dfg, 0);
 }
-// Returns radiance that the engine will multiply by reflectance.
-vec3 burnish_image_light(vec3 v, vec3 n, inout PhysicalMaterial material)
+// Returns radiance that the engine will multiply by the reflectance of a round lobe.
+vec3 burnish_image_light(vec3 v, vec3 n, PhysicalMaterial material)
 {
-    vec2 own_dfg;
+    vec2 round_dfg = DFG;
+    float albedo;
     burnish_settings f = burnish_usual_settings(256, burnish_levels, @SAMPLES@);
-    burnish_shaded_point x = burnish_point_in_three(v, n, material, own_dfg);
-    float albedo = max(own_dfg.x + own_dfg.y, 1e-3);
-    vec3 light = burnish_@TECHNIQUE@_specular(f, x);
-    vec2 dfg = DFG;
-    return light / max(material.SPECULAR * dfg.x + vec3(material.specularF90) * dfg.y, vec3(1e-4));
+    burnish_shaded_point x = burnish_point_in_three(v, n, material, albedo);
+    vec3 light = burnish_@TECHNIQUE@_specular(f, x) * (1.0 + MULTIPLE * material.SPECULAR * (1.0 / albedo - 1.0));
+    return light / max(material.SPECULAR * round_dfg.x + vec3(material.specularF90) * round_dfg.y, vec3(1e-4));
 }
 #if NUM_RECT_AREA_LIGHTS > 0
 // Takes the diffuse part and the coat from the engine.
@@ -91,9 +91,9 @@ void burnish_rect_area(const in RectAreaLight light, const in vec3 position, con
     ReflectedLight engine = ReflectedLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     RE_Direct_RectArea_Physical(light, position, n, v, coat_normal, material, engine);
     vec3 middle = light.position - position;
-    vec2 dfg;
+    float albedo;
     reflectedLight.directDiffuse += engine.directDiffuse;
-    reflectedLight.directSpecular += burnish_quad_light(burnish_point_in_three(v, n, material, dfg), middle + light.halfWidth - light.halfHeight,
+    reflectedLight.directSpecular += burnish_quad_light(burnish_point_in_three(v, n, material, albedo), middle + light.halfWidth - light.halfHeight,
         middle - light.halfWidth - light.halfHeight, middle - light.halfWidth + light.halfHeight, middle + light.halfWidth + light.halfHeight,
         light.color, false);
 }
@@ -112,7 +112,8 @@ function replaced(text, old, by, place) {
 // Throws at once where a frame would fail later.
 function checkVersion() {
   for (const [chunk, word] of [['envmap_common_pars_fragment', 'envMapRotation'], ['lights_physical_pars_fragment', 'alphaT'],
-                               ['lights_physical_pars_fragment', 'RE_Direct_RectArea_Physical']])
+                               ['lights_physical_pars_fragment', 'RE_Direct_RectArea_Physical'],
+                               ['lights_physical_pars_fragment', ShaderChunk.lights_physical_pars_fragment?.includes('vec2 dfg;') ? 'dfg' : 'vec2 DFGApprox(']])
     replaced(ShaderChunk[chunk] ?? '', word, word, chunk);
   patchedVertex('#include <normal_vertex>');
   patchedFragment('#include <lights_fragment_maps> #include <lights_physical_fragment> #include <lights_physical_pars_fragment>', true, true);
@@ -134,8 +135,11 @@ function patchedVertex(text) {
 
 function patchedFragment(text, glTF, multipleScattering) {
   const specular = ShaderChunk.lights_physical_pars_fragment.includes('specularColorBlended') ? 'specularColorBlended' : 'specularColor';
-  // By material.dfg the engine adds multiple scattering as even light. It gets an albedo of 1, and the lobe may add its own
-  const dfg = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;') ? `material.dfg = own_dfg / albedo${multipleScattering ? `; light *= 1.0 + material.${specular} * (1.0 / albedo - 1.0)` : ''}` : 'DFGApprox( n, v, material.roughness )';
+  const kept = ShaderChunk.lights_physical_pars_fragment.includes('vec2 dfg;');
+  const dfg = kept ? 'material.dfg' : 'DFGApprox( n, v, material.roughness )';
+  // The engine adds multiple scattering of a round lobe as even light. The lobe may add its own.
+  const physical = replaced(ShaderChunk.lights_physical_pars_fragment, 'multiScattering * cosineWeightedIrradiance', 'vec3( 0.0 )',
+                            'lights_physical_pars_fragment');
   const maps = replaced(ShaderChunk.lights_fragment_maps,
     'getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy )',
     'burnish_image_light( geometryViewDir, geometryNormal, material )', 'lights_fragment_maps');
@@ -150,7 +154,8 @@ function patchedFragment(text, glTF, multipleScattering) {
   text = replaced(text, '#include <lights_physical_fragment>', lobe, 'meshphysical_frag');
   // The material's struct is declared behind the environment's functions
   return replaced(text, '#include <lights_physical_pars_fragment>',
-    '#include <lights_physical_pars_fragment>\n' + technique + call.replaceAll('SPECULAR', specular).replace('DFG', dfg), 'meshphysical_frag');
+    physical + '\n' + technique + call.replaceAll('SPECULAR', specular).replace('DFG', dfg).replace('MULTIPLE', multipleScattering ? '1.0' : '0.0'),
+    'meshphysical_frag');
 }
 
 const changed = new WeakSet();

@@ -3,7 +3,8 @@
 //     import { improveAnisotropy } from './burnish_three_node.js';
 //     improveAnisotropy(scene, { environment });
 //
-// A third option, multipleScattering: true, adds light that leaves a lobe after several bounces, as the engine does for round lobes.
+// Another option, multipleScattering: true, adds light of the environment that leaves a lobe after several bounces, as the engine does for round
+// lobes. Default false: glTF's lobe.
 // Takes an object with all below it, or an array of these. environment: the texture that PMREMGenerator made, as in scene.environment. Replaces
 // each MeshPhysicalMaterial and MeshPhysicalNodeMaterial with anisotropy by a node material with the technique, and returns their number. Call it
 // again for what you load later; an object keeps its first environment. Others stay: materials with an environment of their own, with sheen, with
@@ -96,15 +97,15 @@ class BurnishMaterial extends MeshPhysicalNodeMaterial {
   }
 }
 
-const known = new WeakMap(); // by material, then environment
+const known = [new WeakMap(), new WeakMap()]; // by multipleScattering, material, then environment
 
 function improved(material, environment, multipleScattering) {
   const usual = material.type === 'MeshPhysicalMaterial' || material.constructor === MeshPhysicalNodeMaterial;
   if (!usual || !(material.anisotropy > 0 || material.anisotropyNode) || material.envMap || material.envNode || material.sheen > 0 ||
       material.sheenNode || material.iridescence > 0 || material.iridescenceNode || material.retroreflectivity > 0)
     return material;
-  const of = known.get(material) ?? new WeakMap();
-  known.set(material, of);
+  const same = known[Number(multipleScattering)], of = same.get(material) ?? new WeakMap();
+  same.set(material, of);
   if (of.has(environment))
     return of.get(environment);
   const made = new BurnishMaterial();

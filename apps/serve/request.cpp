@@ -140,7 +140,7 @@ Result<ServedLists> served_lists(const std::string& target)
         add_files(files_of(fs::directory_iterator(folder, failed), failed), folder, beside);
         lists.scenes.push_back({path.filename().string(), target});
         lists.environments = std::move(beside.environments);
-    } else if (builtin) { // failure scenes too
+    } else if (builtin) { // parametric scenes too
         BN_TRY(make_builtin_scene(target.substr(8)));
         lists.scenes.push_back({target, target});
     }

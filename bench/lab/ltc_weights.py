@@ -60,6 +60,9 @@ def in_page(bench, table, by_sampler):
         if found != 1:
             raise SystemExit("ltc_weights.py: the exported text has another look-up")
     text = text.replace("void main", "vec4 burnish_ltc_texel(int k) { return texelFetch(ltc, ivec3(k % 8, k / 8 % 11, k / 88), 0); }\nvoid main")
+    for mark in ("count = points.length / 16,", "texture(4 * count, points);"):
+        if cases.RUN_WEBGL.count(mark) != 1:
+            raise SystemExit("ltc_weights.py: the page's script is another")
     script = cases.RUN_WEBGL.replace("count = points.length / 16,", f"count = {cases.POINTS},").replace("texture(4 * count, points);", "texture(4 * count, points.subarray(0, 16 * count));\n" + UPLOAD)
     with Browser(bench.folder, webgl=True) as browser:
         return cases.in_browser(bench, browser, script, text, table)
@@ -68,7 +71,6 @@ def in_page(bench, table, by_sampler):
 def tell(name, exact, other):
     off = sorted(abs(a - b) / a for a, b in zip(exact[::3], other[::3]) if a > 1e-4)
     print(f"{name}: {len(off)} quads, relative difference: median {statistics.median(off):.2e}, 99 % {off[int(0.99 * len(off))]:.2e}, worst {off[-1]:.2e}")
-
 
 
 def main():

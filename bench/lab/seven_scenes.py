@@ -2,18 +2,20 @@
 """Distances of engines to the truth on seven bare shapes, as they are and with burnish's exported modules.
 
 Usage: seven_scenes.py --program build/release/burnish --engines FOLDER --environments A,B,C,D [--work FOLDER] [--technique lobe_line:64]
-                       [--single-scattering] [--json FILE]
+                       [--energy-compensation] [--json FILE]
 
 FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. A to D are .hdr files. Each engine draws 256 x 192 pixels in headless
-Chromium by the page of a conformance folder. Prints the mean HDR-FLIP over each object to a reference with 1024 samples a pixel and energy
-compensation, as both engines have it; --single-scattering leaves it out. Exit code: 0 measured; 2 something could not be run.
+Chromium by the page of a conformance folder. Prints the mean HDR-FLIP over each object to a reference with 1024 samples a pixel.
+--energy-compensation gives the truth, the tile renderer and the modules multiple scattering, as both engines have it. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
 import base64
+import filecmp
 import json
 import math
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
@@ -127,7 +129,7 @@ def main():
     parser.add_argument("--environments", required=True)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--technique", default="lobe_line:64", metavar="NAME:SAMPLES")
-    parser.add_argument("--single-scattering", action="store_true")
+    parser.add_argument("--energy-compensation", action="store_true")
     parser.add_argument("--json")
     given = parser.parse_args()
     technique, samples = given.technique.split(":")
@@ -141,7 +143,13 @@ def main():
         folder = work / letter
         (folder / "scenes").mkdir(parents=True, exist_ok=True)
         shutil.copytree(work / "kit/pages", folder / "pages", dirs_exist_ok=True)
-        shutil.copy(environment, folder / "environment.hdr")
+        if given.energy_compensation:
+            for page in (folder / "pages").glob("*.html"):
+                page.write_text(re.sub(r"improve\((?=gltf|BABYLON)([^;]*)\);", r"improve(\1, { multipleScattering: true });", page.read_text()))
+        if not (folder / "environment.hdr").exists() or not filecmp.cmp(environment, folder / "environment.hdr", shallow=False):
+            for old in folder.glob("*-truth*.pfm"):
+                old.unlink()
+            shutil.copy(environment, folder / "environment.hdr")
         if not (folder / "node_modules").exists():
             (folder / "node_modules").symlink_to((given.engines / "node_modules").resolve())
         scenes = [(f"{shape}_{roughness}_{strength}", shape, roughness, strength) for shape, roughness, strength, place in SCENES if place == letter]
@@ -158,8 +166,8 @@ def main():
                     draw(browser, server.address(f"/pages/{engine}.html{query}"), folder / f"{engine}-{way}")
         for name, shape, roughness, strength in scenes:
             view = (folder / f"scenes/{name}.gltf", "--env", folder / "environment.hdr", "--no-background", "--size", f"{WIDTH}x{HEIGHT}", "--quiet",
-                    *(() if given.single_scattering else ("--energy-compensation",)))
-            truth = folder / f"{name}-truth{'-single' if given.single_scattering else ''}.pfm"
+                    *(("--energy-compensation",) if given.energy_compensation else ()))
+            truth = folder / f"{name}-truth{'-compensated' if given.energy_compensation else ''}.pfm"
             if not truth.exists():
                 run(given.program, "render", *view, "--backend", "reference", "--samples", "1024", "-o", truth)
             run(given.program, "render", *view, "--msaa", "8", "--technique", technique, "--samples", samples, "-o", folder / f"{name}-tile.pfm")

@@ -13,7 +13,7 @@ from law_cases import LIGHT, SIDE, lobes, names_of
 MORE, NOISE = 1.5, 2e-4  # a step may exceed the reference's step, or its row's median, by this factor plus this amount
 
 # Options that move through their special points, in steps with little change between images: animated option, other options, number of
-# images. An amount follows a trial's name (core/lab/failure_scenes.cpp).
+# images. An amount follows a failure scene's name (core/lab/failure_scenes.cpp).
 PATHS = {
     "anisotropy through 0": ("anisotropy=-0.005:0.005", "builtin:sphere --roughness 0.4", 11),
     "anisotropy to 1": ("anisotropy=0.99:1", "builtin:sphere --roughness 0.4", 11),

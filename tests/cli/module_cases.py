@@ -26,7 +26,8 @@ THREE = """
 export const ShaderChunk = {
   normal_vertex: 'vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );',
   envmap_common_pars_fragment: 'uniform mat3 envMapRotation;',
-  lights_physical_pars_fragment: 'struct PhysicalMaterial { vec3 specularColor; vec2 dfg; float alphaT; }; void RE_Direct_RectArea_Physical() {}',
+  lights_physical_pars_fragment: 'struct PhysicalMaterial { vec3 specularColor; vec2 dfg; float alphaT; }; void RE_Direct_RectArea_Physical() {} ' +
+    'x += multiScattering * cosineWeightedIrradiance;',
   lights_physical_fragment: 'vec2 anisotropyV = anisotropyMat * normalize( d );\\nmaterial.anisotropy = length( anisotropyV );',
   lights_fragment_maps: 'radiance += getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );',
 };
@@ -51,12 +52,16 @@ const left = made(1), flat = { uniforms: {}, vertexShader: '#include <normal_ver
 improveAnisotropy(left);
 let fault = '';
 try { left.onBeforeCompile(flat); } catch (error) { fault = error.message; }
+const bright = made(1), lit = { uniforms: {}, vertexShader: shader.vertexShader, fragmentShader: '' };
+improveAnisotropy(bright, { multipleScattering: true });
+Object.assign(lit, { vertexShader: '#include <normal_vertex>', fragmentShader: '#include <lights_physical_pars_fragment>\\n#include <lights_physical_fragment>\\n#include <lights_fragment_maps>' });
+bright.onBeforeCompile(lit);
 const { data, width, height } = shader.uniforms.burnish_ltc.value, albedo = shader.uniforms.burnish_lobe_albedo.value;
 ShaderChunk.envmap_common_pars_fragment = '';
 let old = '';
 try { improveAnisotropy(made(1)); } catch (error) { old = error.message; }
 console.log(JSON.stringify({ counts, fault, old, apart, first: shader.first, key: brushed.customProgramCacheKey(), plain: plain.customProgramCacheKey(), vertex: shader.vertexShader,
-  fragment: shader.fragmentShader, ltc: [data.length, width, height], albedo: [albedo.data.length, albedo.width, albedo.height] }));
+  fragment: shader.fragmentShader, bright: lit.fragmentShader, bright_key: bright.customProgramCacheKey(), ltc: [data.length, width, height], albedo: [albedo.data.length, albedo.width, albedo.height] }));
 """
 USE_BABYLON = """
 import { improveAnisotropy } from './burnish_babylon.mjs';
@@ -66,6 +71,11 @@ class MaterialPluginBase {
 class RawTexture { constructor(data, width, height) { Object.assign(this, { data, width, height }); } isReady() { return true; } }
 const BABYLON = { MaterialPluginBase, RawTexture, Constants: {} }, scene = {};
 const made = isEnabled => ({ anisotropy: { isEnabled }, getScene: () => scene });
+const ways = [{}, { glTF: false }, { multipleScattering: true }].map(options => {
+  const material = made(true);
+  improveAnisotropy(BABYLON, material, options);
+  return material.pluginManager.getPlugin('BurnishAnisotropy');
+});
 const brushed = made(true), plain = made(false), other = {};
 const counts = [improveAnisotropy(BABYLON, [brushed, plain, other]), improveAnisotropy(BABYLON, brushed), improveAnisotropy(BABYLON, made(true), { glTF: false })];
 let wgsl = '';
@@ -75,7 +85,8 @@ plugin.getSamplers(names);
 plugin.bindForSubMesh({ setTexture: (name, texture) => bound[name] = [texture.data.length, texture.width] });
 const found = Object.keys(plugin.code).filter(key => key[0] === '!').map(key => new RegExp(key.slice(1)).test(
   'anisotropicOut=anisotropicBlock(\\nvAnisotropy,\\n#ifdef ANISOTROPIC_TEXTURE\\nmap,\\n#endif\\nviewDirectionW\\n);\\nvec3 finalRadiance=reflectionOut.environmentRadiance.rgb;'));
-console.log(JSON.stringify({ counts, names, bound, found, wgsl, vertex: plugin.getCustomCode('vertex'), definitions: plugin.code.CUSTOM_FRAGMENT_DEFINITIONS }));
+console.log(JSON.stringify({ counts, names, bound, found, wgsl, vertex: plugin.getCustomCode('vertex'), definitions: plugin.code.CUSTOM_FRAGMENT_DEFINITIONS,
+  classes: ways.map(way => way.getClassName()), bright: ways[2].code.CUSTOM_FRAGMENT_DEFINITIONS }));
 """
 
 
@@ -101,6 +112,10 @@ def three(bench):
     check("determinant" in seen["vertex"], "bitangents do not turn over")
     for word in ("burnish_image_light( geometryViewDir", "burnish_lobe_line_specular(f, x)", "anisotropyV.y = - anisotropyV.y", "burnish_quad_light(", "burnish_kept = mix"):
         check(word in seen["fragment"], f"the shader lacks {word}")
+    check("1.0 + 0.0 * material.specularColor *" in seen["fragment"] and "1.0 + 1.0 * material.specularColor *" in seen["bright"] and seen["bright_key"].endswith(" true true"),
+          "multiple scattering")
+    check("multiScattering" not in seen["fragment"] and "x += vec3( 0.0 );" in seen["fragment"], "the engine's even light stays")
+    check("MULTIPLE" not in seen["fragment"], "a place is left open")
     check("@" not in seen["fragment"] and "SPECULAR" not in seen["fragment"] and "`" not in seen["fragment"], "a place is left open")
     check("meshphysical_frag" in seen["fault"] and "envMapRotation" in seen["old"], f"unknown versions say '{seen['fault']}' and '{seen['old']}'")
     check(seen["apart"], "two materials with different code of their own share a program")
@@ -114,6 +129,8 @@ def babylon(bench):
     check(seen["counts"] == [1, 0, 1], f"{seen['counts']} materials changed")
     check(seen["names"] == ["burnish_lobe_albedo"] and seen["bound"] == {"burnish_lobe_albedo": [80000, 200]}, f"{seen['bound']}")
     check(seen["found"] == [True, True] and seen["vertex"] is None, f"places in the engine's shader: {seen['found']}")
+    check(len(set(seen["classes"])) == 3, f"materials with other shaders share a class: {seen['classes']}")
+    check("1.0 + f0 * 0.0 *" in seen["definitions"] and "1.0 + f0 * 1.0 *" in seen["bright"] and "MULTIPLE" not in seen["bright"], "multiple scattering")
     check("forceGLSL" in seen["wgsl"], f"a material in WGSL says '{seen['wgsl']}'")
     check("burnish_major_axis_specular(f, x)" in seen["definitions"] and "@" not in seen["definitions"], "a place is left open")
     check("//" not in seen["definitions"].split("const int burnish_levels")[0], "a comment, whose semicolons the engine takes for ends of statements")

@@ -45,7 +45,7 @@ Image grey_of(const Image& amounts)
     return out;
 }
 
-// Returns true for a picture of normals: most texels are unit vectors that point up. Heights are grey.
+// Returns true for a picture of normals: most texels are unit vectors that point up, with more blue than red and green. Heights are grey.
 bool holds_normals(const Image& image)
 {
     if (image.channels < 3)
@@ -61,7 +61,8 @@ bool holds_normals(const Image& image)
     std::size_t normals = 0;
     for (std::size_t i = 0; i < texels; ++i) {
         const glm::vec3 n = 2.0f * glm::vec3(unit(i, 0), unit(i, 1), unit(i, 2)) - 1.0f;
-        normals += n.z > 0.0f && std::fabs(glm::length(n) - 1.0f) < 0.2f;
+        constexpr float kLeast = 0.05f; // pictures by JPEG are not quite grey
+        normals += n.z > std::max(0.0f, std::max(n.x, n.y) + kLeast) && std::fabs(glm::length(n) - 1.0f) < 0.2f;
     }
     return normals * 10 >= texels * 9;
 }
@@ -203,8 +204,13 @@ class MaterialMaker {
             textured({found.path, content == Content::amounts ? "amounts" : "", colours, map.clamps}, map, [&]() -> Result<Image> {
                 if (colours)
                     return Image(found.image);
-                if (content == Content::amounts)
+                if (content == Content::amounts) {
+                    const std::uint64_t texels =
+                        static_cast<std::uint64_t>(found.image.width) * static_cast<std::uint64_t>(found.image.height);
+                    if (3 * sizeof(float) * texels > texture_bytes_left(scene_, limits_))
+                        return textures_too_large(found.path, limits_);
                     return grey_of(found.image);
+                }
                 if (found.image.channels < 3)
                     return Error{ExitCode::bad_input, found.path, "", "a map of normals has red, green and blue"};
                 return whole_normals(found.image).image;
@@ -215,7 +221,7 @@ class MaterialMaker {
     }
 
     // Returns the map of normals: `norm`, or a bump map that holds normals.
-    Result<const MtlMap*> normals_of(const MtlMaterial& from)
+    const MtlMap* normals_of(const MtlMaterial& from)
     {
         if (from.bump_map.file.empty())
             return &from.normal_map;
@@ -224,11 +230,12 @@ class MaterialMaker {
             return &from.normal_map;
         }
         const Result<const Picture*> read = picture(from.bump_map.file, false);
-        BN_TRY(read);
-        if (holds_normals((*read)->image))
+        if (!read) // it may hold heights, which need not be read
+            warn(fmt::format("material \"{}\": its bump map is left out: {}", printable(from.name), read.error().line()));
+        else if (holds_normals((*read)->image))
             return &from.bump_map;
-        if (!(*read)->path.empty())
-            warn(fmt::format("material \"{}\": its bump map holds heights, which no unit is known of, and is not read; norm takes normals",
+        else if (!(*read)->path.empty())
+            warn(fmt::format("material \"{}\": its bump map holds heights of unknown unit, and is not read; norm takes normals",
                              printable(from.name)));
         return &from.normal_map;
     }
@@ -242,10 +249,9 @@ class MaterialMaker {
         BN_TRY(put_map(from.specular_map, Content::colours, m.specular_color_tex));
         if (m.specular_color_tex.used() && !from.specular)
             m.specular_color = glm::vec3(2.0f); // Ks 1
-        const Result<const MtlMap*> normals = normals_of(from);
-        BN_TRY(normals);
-        BN_TRY(put_map(**normals, Content::normals, m.normal_tex));
-        m.normal_scale = (*normals)->strength;
+        const MtlMap& normals = *normals_of(from);
+        BN_TRY(put_map(normals, Content::normals, m.normal_tex));
+        m.normal_scale = normals.strength;
         BN_TRY(put_map(from.sheen_map, Content::amounts, m.sheen_color_tex));
         if (m.sheen_color_tex.used() && !from.sheen)
             m.sheen_color = glm::vec3(1.0f), m.sheen_roughness = 0.5f;

@@ -6,6 +6,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/command_line.h"
 #include "core/base/check.h"
+#include "core/lab/failure_scenes.h"
 
 namespace burnish {
 #define BN_LAB_COMMAND(name, summary) Command name##_command();
@@ -15,6 +16,8 @@ namespace burnish {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace burnish;
+    static const bool added = (add_parametric_scenes(failure_scenes()), true);
+    BN_CHECK(added);
     std::istringstream lines(std::string(data, data + size));
     std::vector<std::string> words;
     for (std::string line; std::getline(lines, line);)

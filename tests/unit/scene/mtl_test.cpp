@@ -217,7 +217,7 @@ TEST(mtl, bump_maps_of_normals_are_normal_maps)
 {
     const TempFolder folder;
     write_picture(folder.path("n.png"), 2, 2, {128, 128, 255, 180, 128, 240});
-    write_picture(folder.path("h.png"), 2, 2, {128, 128, 128, 200, 200, 200});
+    write_picture(folder.path("h.png"), 2, 2, {128, 128, 128, 200, 200, 200, 190, 190, 190, 211, 211, 211});
     for (const char* word : {"bump", "map_Bump", "map_bump"}) {
         const Result<Scene> scene =
             load_wearing(folder, std::string("newmtl a\n") + word + " -bm 0.5 n.png\nnewmtl b\n" + word + " h.png\n");
@@ -230,6 +230,14 @@ TEST(mtl, bump_maps_of_normals_are_normal_maps)
         EXPECT_NE(scene->warnings[0].find("holds heights"), std::string::npos) << scene->warnings[0];
     }
     EXPECT_NE(warnings_of("norm n.png\nbump h.png").find("not read beside norm"), std::string::npos);
+    const TempFolder light;
+    write_picture(light.path("h.png"), 2, 2, {200, 200, 200});
+    light.write("b.tga", "no picture");
+    const Result<Scene> scene = load_wearing(light, "newmtl a\nbump h.png\nnewmtl b\nbump b.tga\n");
+    ASSERT_TRUE(scene) << scene.error().line();
+    EXPECT_FALSE(scene->materials[1].normal_tex.used() || scene->materials[2].normal_tex.used());
+    ASSERT_EQ(scene->warnings.size(), 2u);
+    EXPECT_NE(scene->warnings[1].find("is left out"), std::string::npos) << scene->warnings[1];
 }
 
 TEST(mtl, missing_pictures_change_nothing)
