@@ -208,9 +208,9 @@ Result<Rendered> draw_step(Row& row, const Step& step, int i)
     return render_frames(step.options, desc, row.session, row.figures);
 }
 
-Image shown_picture(const Step& step, const Rendered& rendered)
+Image shown_picture(const Step& step, const Rendered& rendered, const Jobs* jobs)
 {
-    return display_picture(rendered.color, step.options.tonemap, step.options.exposure_ev, rendered.parts, step.options.resolve);
+    return display_picture(rendered.color, step.options.tonemap, step.options.exposure_ev, rendered.parts, step.options.resolve, jobs);
 }
 
 // Writes the files that hold all pictures.
@@ -247,13 +247,13 @@ Status write_step(Row& row, int i, const std::string& file, const std::string& k
     Packed packed;
     for (const std::string& format : formats_of(step)) {
         const std::string own = own_name_beside(file, "." + format);
-        BN_TRY(write_rendered(own, *rendered, step.options));
+        BN_TRY(write_rendered(own, *rendered, step.options, row.session.parts().jobs.get()));
         Result<std::vector<std::uint8_t>> bytes = take_file(own);
         BN_TRY(bytes);
         packed.files.push_back({format, std::move(*bytes)});
     }
     if (!row.animation.movies().empty()) {
-        const Image shown = shown_picture(step, *rendered);
+        const Image shown = shown_picture(step, *rendered, row.session.parts().jobs.get());
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(shown.bytes.data());
         packed.json = Json({shown.width, shown.height, shown.channels}).dump();
         packed.files.push_back({"shown", {bytes, bytes + shown.bytes.size()}});
@@ -410,10 +410,10 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
         json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
         steps.push_back(json);
         for (const std::string& path : step.options.outputs)
-            if (const Status written = write_rendered(path, *rendered, step.options); !written)
+            if (const Status written = write_rendered(path, *rendered, step.options, drawn.session.parts().jobs.get()); !written)
                 return fail(written.error());
         if (!row->movies().empty())
-            if (const Status added = movie.add(row->movies()[0], shown_picture(step, *rendered)); !added)
+            if (const Status added = movie.add(row->movies()[0], shown_picture(step, *rendered, drawn.session.parts().jobs.get())); !added)
                 return fail(added.error());
         report.event(fmt::format("{} of {}", i + 1, row->count()),
                      fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,

@@ -82,8 +82,9 @@ Result<DrawnBand> draw_rows(const Bands& bands, int top, int rows)
         if (!options.aov.empty())
             paste(rendered->layered.image, x, y, bands.width(), left, band.layered), band.names = rendered->layered.names;
         if (writes_png(options))
-            paste(display_picture(rendered->color, options.tonemap, options.exposure_ev, rendered->parts, options.resolve), x, y,
-                  bands.width(), left, band.shown);
+            paste(display_picture(rendered->color, options.tonemap, options.exposure_ev, rendered->parts, options.resolve,
+                                  bands.session.parts().jobs.get()),
+                  x, y, bands.width(), left, band.shown);
     }
     band.nan_pixels = count_not_finite(band.linear);
     return band;
