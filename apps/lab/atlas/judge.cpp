@@ -13,12 +13,15 @@ constexpr const char* kNothing = "-";
 
 constexpr const char* kHead = R"(# Where methods break
 
-What each entry of the atlas (apps/risks/atlas.def) measured when it was blessed: the first place on its path, from 0 to 1, at which the error is
-above the entry's threshold; the largest error; how much more it changes from step to step than the truth does; the error where it is largest,
-shaded in double; the largest error of the cure, where one is known; and what kind of failure it is. `burnish atlas --bless --table
-apps/risks/blessed.md` writes this page, `burnish atlas` holds what it measures to it: the onset within a step, the largest error within 5 %, and
-the kind. The kind is found, not written: precision, where doubles leave less than half of the error; sampling, where 64 times the samples do; filtering,
-where a truth that filters textures alike does; else approximation.
+Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.md`. `burnish atlas` holds
+what it measures to them: the onset within a step, the kind, and the largest error, which may fall.
+
+- onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold
+- worst: the largest error
+- flicker: how much more the error changes from step to step than the reference does
+- double: the error at the worst place, shaded in double
+- cure: the largest error with the cure, where one is known
+- kind: precision: doubles leave less than half of the error. Sampling: 64 times the samples do. Filtering: a reference that filters textures alike does. Else approximation
 
 )";
 
