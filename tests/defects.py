@@ -23,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # program: (test folder, its files that read the formulas, other files, suites to run)
 PROGRAMS = {
     "unit_techniques": ("tests/unit/techniques", ("frame_test.cpp", "kernels.isa.cpp"), ("tests/unit/lanes/kernels.cpp",), "frame.*"),
-    "unit_raster": ("tests/unit/raster", ("bump_test.cpp", "relief_test.cpp", "fixture.cpp"), (), "bump.*:relief.*"),
+    "unit_raster": ("tests/unit/raster", ("bump_test.cpp", "parallax_test.cpp", "fixture.cpp"), (), "bump.*:parallax.*"),
     "unit_scene": ("tests/unit/scene", ("surface_maps_test.cpp",), ("core/scene/surface_maps.cpp",), "surface_maps.*"),
 }
 SURFACE, MAPS = "shading/surface/surface.k.h", "core/scene/surface_maps.cpp"
@@ -40,8 +40,8 @@ DEFECTS = {
     "tangent_flipped": (SURFACE, "vec3_of(a2 + b2 - c2, bc, ac)", "vec3_of(a2 + b2 - c2, bc, -ac)", "unit_techniques", "frame.of_a_quaternion_has_its_tangent"),
     "rotation_after_bump": ("shading/surface/make_shaded_point.t.h", "x.lobe = lobe_in_frame(m, shape, axes);", TURNED_LAST, "unit_raster",
                             "bump.turns_what_a_rotation_has_turned"),
-    "height_for_depth": ("shading/surface/relief.t.h", "lit(1.0) - texel_at_level(map, kNormalTex, uv).w", "texel_at_level(map, kNormalTex, uv).w", "unit_raster",
-                         "relief.of_height_one_is_the_surface"),
+    "height_for_depth": ("shading/surface/parallax.t.h", "lit(1.0) - texel_at_level(map, kNormalTex, uv).w", "texel_at_level(map, kNormalTex, uv).w", "unit_raster",
+                         "parallax.of_height_one_is_the_surface"),
     "b_flipped_in_maps": (MAPS, "q[1] = y / (2.0 * a)", "q[1] = -y / (2.0 * a)", "unit_scene", "surface_maps.quaternions_are_green_as_y_says"),
     "c_flipped_in_maps": (MAPS, "q[2] = -x / (2.0 * a)", "q[2] = x / (2.0 * a)", "unit_scene", "surface_maps.quaternions_are_blue_against_x"),
     "x_flipped_from_maps": (MAPS, "code16(0.5 - a * c)", "code16(0.5 + a * c)", "unit_scene", "surface_maps.normals_of_quaternions_lean_along_x"),

@@ -69,7 +69,7 @@ MaterialRecord material_record(const Material& m)
     r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
-    r.relief = m.heights;
+    r.parallax = m.heights;
 #define BN_COATING(id, at, strength, lobe) r.coatings |= above_zero(m.strength) && !m.unlit ? 1 << at : 0;
 #include "shading/coatings.def"
     r.film = m.iridescence > 0.0f && !m.unlit;
@@ -336,8 +336,8 @@ std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, cons
             if (m.moments != kNoMoments && !m.tilt_mapped)
                 m.moments = kMomentsUnseen;
         }
-        m.relief_depth = m.height_scale * desc.height_scale;
-        m.relief = m.relief && m.textures[kNormalTex].texture >= 0 && m.relief_depth > 0.0f;
+        m.parallax_depth = m.height_scale * desc.height_scale;
+        m.parallax = m.parallax && m.textures[kNormalTex].texture >= 0 && m.parallax_depth > 0.0f;
         // Tabulate the tilt as cosines, sines and slopes
         const glm::vec2 tilt = tilt_rad({m.tilt[0], m.tilt[1]}, desc);
         m.tilted = m.tilt_mapped || tilt != glm::vec2(0.0f);

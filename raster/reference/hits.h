@@ -10,7 +10,7 @@
 #include "shading/surface/coverage.t.h"
 #include "shading/surface/facets.t.h"
 #include "shading/surface/make_shaded_point.t.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 
 namespace burnish {
 inline namespace BN_ISA_NS {
@@ -140,7 +140,7 @@ BN_INLINE LaneGeometry locate_hits(const ReferenceParams& f, const LaneHits& h, 
     return g;
 }
 
-BN_INLINE relief_plane relief_plane_at(const ReferenceParams& f, integer triangle)
+BN_INLINE parallax_plane parallax_plane_at(const ReferenceParams& f, integer triangle)
 {
     const LaneTriangle t = load_triangle(f, triangle);
     const auto coordinates = [&](integer vertex) {
@@ -155,10 +155,10 @@ BN_INLINE relief_plane relief_plane_at(const ReferenceParams& f, integer triangl
 // Fetches the material at hits.
 BN_INLINE material_inputs fetch_at_hits(const ReferenceParams& f, const MaterialRecord& m, const LaneHits& h, const visible_point& p)
 {
-    if (!m.relief)
+    if (!m.parallax)
         return fetch_lanes(f, m, p);
     visible_point seen = p;
-    see_relief(f, m, relief_plane_at(f, h.triangle), seen);
+    apply_parallax(f, m, parallax_plane_at(f, h.triangle), seen);
     return fetch_lanes(f, m, seen);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "raster/frame/lane_material.h"
 #include "raster/tile/tile_types.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 #include "shading/surface/visible_point.t.h"
 
 namespace burnish {
@@ -113,8 +113,8 @@ BN_INLINE visible_point fragment_of(frame_ref f, material_ref m, const view_para
                                     integer pixel_y, integer samples, bool lights, bool bends)
 {
     visible_point p = point_of(f, view, t, pixel_x, pixel_y, samples, m.uses_color != 0, m.textured != 0, lights, bends);
-    if (m.relief != 0)
-        see_relief(f, m, relief_plane_of(f, t), p);
+    if (m.parallax != 0)
+        apply_parallax(f, m, parallax_plane_of(f, t), p);
     return p;
 }
 

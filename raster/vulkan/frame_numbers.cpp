@@ -22,7 +22,7 @@ constexpr IntegerField kMaterialIntegers[] = {
     BN_MATERIAL_INTEGER(unlit, false),       BN_MATERIAL_INTEGER(alpha_mode, false),  BN_MATERIAL_INTEGER(textured, false),
     BN_MATERIAL_INTEGER(uses_color, false),  BN_MATERIAL_INTEGER(anisotropic, false), BN_MATERIAL_INTEGER(tilted, true),
     BN_MATERIAL_INTEGER(tilt_mapped, false), BN_MATERIAL_INTEGER(moments, false),     BN_MATERIAL_INTEGER(coat_spread, false),
-    BN_MATERIAL_INTEGER(relief, false),      BN_MATERIAL_INTEGER(conductor, false),   BN_MATERIAL_INTEGER(roughness_fixed, false),
+    BN_MATERIAL_INTEGER(parallax, false),    BN_MATERIAL_INTEGER(conductor, false),   BN_MATERIAL_INTEGER(roughness_fixed, false),
     BN_MATERIAL_INTEGER(refracts, false),    BN_MATERIAL_INTEGER(film, false),        BN_MATERIAL_INTEGER(thin, false),
     BN_MATERIAL_INTEGER(coatings, false),    BN_MATERIAL_INTEGER(frame_map, false),   BN_MATERIAL_INTEGER(keeps, false),
     BN_MATERIAL_INTEGER(facets, false),      BN_MATERIAL_INTEGER(technique, true),    BN_MATERIAL_INTEGER(technique_traits, true),

@@ -177,7 +177,7 @@ BN_INLINE constexpr bool coating_used(int)
     constant(refracts, 0);                                                                                                                 \
     constant(film, 0);                                                                                                                     \
     constant(coatings, 0);                                                                                                                 \
-    constant(relief, 0);
+    constant(parallax, 0);
 #define BN_UNTABLED_MATERIAL(constant) /* for techniques that do not sample an Ashikhmin-Shirley lobe */                                   \
     BN_PLAIN_MATERIAL(constant)                                                                                                            \
     constant(phong_slice, -1);                                                                                                             \

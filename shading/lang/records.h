@@ -43,9 +43,9 @@ const int kSamplesInterface = 256; // samples both sides of transmissive surface
 const int kPhongGrid = 512;        // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
-const int kReliefInTexture = 0, kReliefOnSurface = 1;                                       // FrameDesc::pom_metric
+const int kParallaxInTexture = 0, kParallaxOnSurface = 1;                                   // FrameDesc::pom_metric
 const int kPhongBlock = 6; // number of GridSamples in a block: 16 floats, four values for each of four sets, with padding
-const int kLeastReliefSteps = 8, kMostReliefSteps = 32; // steps to the deepest place: seen from straight above, and at grazing angles
+const int kLeastParallaxSteps = 8, kMostParallaxSteps = 32; // steps to the deepest place: seen from straight above, and at grazing angles
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
 // Lobe traits (shading/models.def), and the words of the lobes' lines.
@@ -199,8 +199,8 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     int tilt_mapped, moments;        // a texture holds slopes; kNoMoments...
     float level_gain;                // how much the spread of normals between taps widens lobes, by mip filter; -1: unfiltered
     int coat_spread;                 // the alpha of the coat's normal map widens the coat's lobe
-    int relief;                      // the normal map's alpha holds heights, and the frame uses them
-    float relief_depth;              // depth of height 0, in lengths of texture coordinates
+    int parallax;                    // the normal map's alpha holds heights, and the frame uses them
+    float parallax_depth;            // depth of height 0, in lengths of texture coordinates
     int emitter;                     // as in core/scene's Material: the area light that it shows, if any
     int conductor;                   // has its own complex index: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #define BN_RECORDS_ACCESS readonly
 #include "shading/lang/interface.glsl"
 #include "shading/surface/material.t.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 #include "shading/stages/peel.glsl"
@@ -71,8 +71,8 @@ real alpha_of_pair(int slot, int px, int py, int covered)
     int m = t.info >> 2;
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, covered, materials[m].uses_color != 0, materials[m].textured != 0,
                                frame.positions != 0, false);
-    if (materials[m].relief != 0)
-        see_relief(0, m, relief_plane_of(0, t), p);
+    if (materials[m].parallax != 0)
+        apply_parallax(0, m, parallax_plane_of(0, t), p);
     return fetch_alpha(0, m, p);
 }
 

@@ -6,7 +6,7 @@
 #include "shading/kernels/camera.t.h"
 #include "shading/lights/fragment_light.t.h"
 #include "shading/surface/coverage.t.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 #include "shading/surface/specular_aa.t.h"
 #include "shading/stages/pass.glsl"
 
@@ -126,9 +126,9 @@ visible_point point_of_fragment(int px, int py)
     return p;
 }
 
-relief_plane plane_of_fragment(visible_point p)
+parallax_plane plane_of_fragment(visible_point p)
 {
-    relief_plane plane;
+    parallax_plane plane;
     plane.along = dFdxFine(position.xyz);
     plane.across = dFdyFine(position.xyz);
     plane.coordinates_along = vec4(p.uv0_dx, p.uv1_dx);
@@ -141,8 +141,8 @@ void main()
     int m = pass.material, px = int(gl_FragCoord.x), py = int(gl_FragCoord.y) + pass.first_row;
     // Find the visible point and its material
     visible_point p = point_of_fragment(px, py);
-    if (materials[m].relief != 0)
-        see_relief(0, m, plane_of_fragment(p), p);
+    if (materials[m].parallax != 0)
+        apply_parallax(0, m, plane_of_fragment(p), p);
     material_inputs at = fetch_material(0, m, p);
     // Drop the samples that fail the alpha test
     int alive = alive_samples(m, at.alpha);

@@ -7,7 +7,7 @@
 #include "shading/kernels/depth_plane.k.h"
 #endif
 #include "shading/surface/material.t.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 #include "shading/surface/visible_point.t.h"
 #include "shading/stages/pass.glsl"
 #include "shading/stages/peel.glsl"
@@ -52,8 +52,8 @@ bool survives_alpha(int m, int px, int py)
     triangle_setup t = load_setup(slot);
     visible_point p = point_of(0, view_params_of(frame.view), t, px, py, (1 << frame.msaa) - 1, materials[m].uses_color != 0,
                                materials[m].textured != 0, false, false);
-    if (materials[m].relief != 0)
-        see_relief(0, m, relief_plane_of(0, t), p);
+    if (materials[m].parallax != 0)
+        apply_parallax(0, m, parallax_plane_of(0, t), p);
     real alpha = fetch_alpha(0, m, p);
     return alpha_stays(m, alpha, lit(0.5));
 }

@@ -11,7 +11,7 @@
 #include "shading/kernels/visible_point.k.h"
 #include "shading/lang/lang.h"
 #include "shading/surface/coverage.t.h"
-#include "shading/surface/relief.k.h"
+#include "shading/surface/parallax.k.h"
 
 BN_KERNELS_BEGIN
 
@@ -129,13 +129,13 @@ BN_FN visible_point point_of(frame_ref f, BN_IN(view_params) view, triangle_ref 
 }
 
 // Returns the triangle's sides and coordinate changes for parallax occlusion mapping.
-BN_FN relief_plane relief_plane_of(frame_ref f, triangle_ref t)
+BN_FN parallax_plane parallax_plane_of(frame_ref f, triangle_ref t)
 {
     // Take vertex 0 as the origin
     real3 corner = vertex_place(f, t, 0);
     corner_coordinates corners = coordinates_of(f, t);
     real4 coordinates = blend_corners(corners, vec3_of(lit(1.0), lit(0.0), lit(0.0)));
-    relief_plane p;
+    parallax_plane p;
     // Subtract it from the other vertices
     p.along = vertex_place(f, t, 1) - corner;
     p.across = vertex_place(f, t, 2) - corner;

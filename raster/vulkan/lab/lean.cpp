@@ -103,7 +103,7 @@ const char* not_of_material(const MaterialRecord& m)
         return "thin films";
     if (m.alpha_mode == kAlpha_blend)
         return "blended alpha";
-    if (m.relief != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)
+    if (m.parallax != 0 || m.moments == kMomentsOfTilt || m.moments == kMomentsOfAll || m.tilted != 0 || m.tilt_mapped != 0)
         return "heights, tilts and moments of slopes in textures";
     if (m.facets > 0)
         return "normal maps so strong that they are shaded as facets from afar";

@@ -74,8 +74,8 @@ MaterialRecord plain_material()
     return m;
 }
 
-constexpr const char* kSpecial[] = {"light_of_facets",      "see_relief",    "fetch_texture",
-                                    "light_of_area_lights", "undo_widening", "area_light_by_samples"};
+constexpr const char* kSpecial[] = {"light_of_facets",      "apply_parallax", "fetch_texture",
+                                    "light_of_area_lights", "undo_widening",  "area_light_by_samples"};
 
 TEST(prune, leaves_out_what_neither_the_frame_nor_a_material_has)
 {
@@ -99,9 +99,9 @@ TEST(prune, leaves_what_one_material_of_several_has)
         return has_function(pruned(all, constants, known_numbers({}, {plain_material(), m})), name);
     };
     MaterialRecord m = plain_material();
-    EXPECT_FALSE(kept(m, "see_relief"));
-    m.relief = 1;
-    EXPECT_TRUE(kept(m, "see_relief"));
+    EXPECT_FALSE(kept(m, "apply_parallax"));
+    m.parallax = 1;
+    EXPECT_TRUE(kept(m, "apply_parallax"));
     m = plain_material(), m.textured = 1;
     EXPECT_TRUE(kept(m, "fetch_texture"));
     m = plain_material(), m.moments = kMomentsOfAll;

@@ -30,7 +30,7 @@ def wall(bench):
 
 
 # Rays find the stones at the triangles' places: much closer than the flat wall, and not with heights taken for depths.
-@case("relief.parallax_shows_what_triangles_show", tier="nightly")
+@case("parallax.shows_what_triangles_show", tier="nightly")
 def truth(bench):
     flat = wall(bench)
     bench.run("bake", "displaced", "wall.obj", "h.png", "--height-scale", "0.06", "--triangles", "130000", "-q", "-o", "wall.glb").expect(0)
@@ -45,7 +45,7 @@ def truth(bench):
     check(off["parallax"] < 0.35 * off["flat"] and off["parallax"] < off["less"] < off["flat"], f"{off}")
 
 
-@case("relief.heights_are_one_whatever_says_them", tier="nightly")
+@case("parallax.heights_are_one_whatever_says_them", tier="nightly")
 def heights(bench):
     flat = wall(bench)
     view = (*VIEW, "--eye", "0.9,0.3,0.8")
@@ -88,7 +88,7 @@ def heights(bench):
         check(own != hash_of(bench, "without.gltf", *view, *METAL), f"{normal}: heights are not seen")
 
 
-@case("relief.gives_the_same_words_on_devices", tier="nightly")
+@case("parallax.gives_the_same_words_on_devices", tier="nightly")
 def devices(bench):
     flat = wall(bench)
     words = (*flat, *OBLIQUE[:4], "--size", "48x36", "--height-map", "h.png", "--env", "builtin:sky")
@@ -96,7 +96,7 @@ def devices(bench):
                        also=[("--msaa", "1", "--technique", "all", "--pom-metric", "uv", "--texture-anisotropy", "4")]))
 
 
-@case("relief.bad_input_is_named", "input")
+@case("parallax.bad_input_is_named", "input")
 def bad(bench):
     flat = wall(bench)
     for value in ("-1", "nan", "inf", "x", "1001"):

@@ -5,7 +5,7 @@
 
 #include "core/scene/heights.h"
 #include "raster/frame/frame_record.h"
-#include "shading/surface/relief.t.h"
+#include "shading/surface/parallax.t.h"
 #include "tests/unit/raster/fixture.h"
 
 namespace burnish::test {
@@ -55,15 +55,15 @@ Moved moved(const Stage& stage, const Plane& plane, const glm::vec3& v, const gl
     p.ray = real3_of(-v);
     p.uv0 = {from.x, from.y};
     p.uv0_dx = {0.01f, 0.0f}, p.uv0_dy = {0.0f, 0.02f};
-    relief_plane of = {};
+    parallax_plane of = {};
     of.along = real3_of(plane.along_u * 0.3f + plane.along_v * 0.1f), of.across = real3_of(plane.along_v * 0.7f - plane.along_u * 0.2f);
     of.coordinates_along = {0.3f, 0.1f, 0.0f, 0.0f}, of.coordinates_across = {-0.2f, 0.7f, 0.0f, 0.0f};
-    if (f.materials[0].relief)
-        see_relief(f, f.materials[0], of, p);
+    if (f.materials[0].parallax)
+        apply_parallax(f, f.materials[0], of, p);
     return {{p.uv0.x, p.uv0.y}, p};
 }
 
-// Returns the depth that shading reads: 0 at the surface, 1 at the deepest place. relief.of_height_one_is_the_surface alone tells depth
+// Returns the depth that shading reads: 0 at the surface, 1 at the deepest place. parallax.of_height_one_is_the_surface alone tells depth
 // from height.
 double depth_read(const Stage& stage, float u)
 {
@@ -95,16 +95,16 @@ glm::dvec2 expected(const Plane& plane, const glm::dvec3& v, const glm::dvec2& f
 const Plane kEven = {{1, 0, 0}, {0, -1, 0}}, kStretched = {{1, 0, 0}, {0, -3, 0}}, kSkewed = {{0.7f, 0.1f, 0.2f}, {0.3f, -1.1f, 0.4f}};
 const glm::vec3 kViews[] = {{0.3f, 0.4f, 0.8660254f}, {-0.7f, 0.2f, 0.5f}, {0.0f, -0.8f, 0.3f}, {0.0f, 0.0f, 1.0f}};
 
-TEST(relief, of_height_one_is_the_surface)
+TEST(parallax, of_height_one_is_the_surface)
 {
     const Stage stage(plane_of({255, 51, 0, 0}));
     EXPECT_EQ(depth_read(stage, 0.125f), 0.0);
     EXPECT_NEAR(depth_read(stage, 0.375f), 0.8, 1e-3);
     EXPECT_EQ(depth_read(stage, 0.875f), 1.0);
-    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.1f, 0.5f}, kReliefOnSurface).uv, glm::vec2(0.1f, 0.5f));
+    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.1f, 0.5f}, kParallaxOnSurface).uv, glm::vec2(0.1f, 0.5f));
 }
 
-TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
+TEST(parallax, of_one_depth_moves_by_it_however_a_plane_is_stretched)
 {
     for (const int height : {0, 51, 204}) { // of 255
         const Stage stage(plane_of({height, height}));
@@ -112,7 +112,7 @@ TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
         for (const Plane& plane : {kEven, kStretched})
             for (const glm::vec3& v : kViews) {
                 const glm::vec2 from(0.4f, 0.6f);
-                const Moved on = moved(stage, plane, v, from, kReliefOnSurface), in = moved(stage, plane, v, from, kReliefInTexture);
+                const Moved on = moved(stage, plane, v, from, kParallaxOnSurface), in = moved(stage, plane, v, from, kParallaxInTexture);
                 const glm::dvec2 right = expected(plane, v, from, depth);
                 EXPECT_LT(glm::length(glm::dvec2(on.uv) - right), 1e-5) << height;
                 const double off = glm::length(glm::dvec2(in.uv) - right), way = glm::length(right - glm::dvec2(from));
@@ -127,7 +127,7 @@ TEST(relief, of_one_depth_moves_by_it_however_a_plane_is_stretched)
     }
 }
 
-TEST(relief, knows_skewed_coordinates)
+TEST(parallax, knows_skewed_coordinates)
 {
     const int deepest = 255 - code_of_surface();
     const Stage stage(plane_of({deepest, deepest}));
@@ -135,12 +135,12 @@ TEST(relief, knows_skewed_coordinates)
     for (const glm::vec3& lean : {glm::vec3(0.3f, 0.1f, 0.0f), glm::vec3(-0.5f, 0.4f, 0.2f), glm::vec3(0.1f, -0.6f, -0.3f)}) {
         const glm::vec3 v = n + lean;
         const glm::dvec2 right = expected(kSkewed, v, {0.2, 0.3}, depth_read(stage, 0.2f) * static_cast<double>(kDepth));
-        EXPECT_LT(glm::length(glm::dvec2(moved(stage, kSkewed, v, {0.2f, 0.3f}, kReliefOnSurface).uv) - right), 1e-5);
+        EXPECT_LT(glm::length(glm::dvec2(moved(stage, kSkewed, v, {0.2f, 0.3f}, kParallaxOnSurface).uv) - right), 1e-5);
     }
 }
 
 // Between two texels heights form a ramp. A ray meets the ramp where two lines cross.
-TEST(relief, of_a_ramp_is_met_where_lines_cross)
+TEST(parallax, of_a_ramp_is_met_where_lines_cross)
 {
     const int surface = code_of_surface();
     const Stage stage(plane_of({surface, 255 - surface})); // depth goes from 0 at u = 1/4 to 1 at u = 3/4
@@ -149,15 +149,15 @@ TEST(relief, of_a_ramp_is_met_where_lines_cross)
         const double way = -static_cast<double>(slope) * static_cast<double>(kDepth); // change of u down to the deepest place
         const double from = 0.5;
         const double met = (from - 0.25) * 2.0 / (1.0 - 2.0 * way); // depth(u + way s) = s
-        const Moved at = moved(stage, kEven, v, {0.5f, 0.5f}, kReliefOnSurface);
+        const Moved at = moved(stage, kEven, v, {0.5f, 0.5f}, kParallaxOnSurface);
         EXPECT_NEAR(static_cast<double>(at.uv.x), from + way * met, 2e-4) << slope; // heights are halves
         EXPECT_NEAR(static_cast<double>(at.uv.y), 0.5, 1e-6);
     }
-    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.6f, 0.5f}, kReliefOnSurface, 0.0f).uv, glm::vec2(0.6f, 0.5f)); // no depth
+    EXPECT_EQ(moved(stage, kEven, {0.5f, 0.2f, 1.0f}, {0.6f, 0.5f}, kParallaxOnSurface, 0.0f).uv, glm::vec2(0.6f, 0.5f)); // no depth
 }
 
 // A ridge hides the ground behind it, at every angle of the ray.
-TEST(relief, hides_what_lies_behind)
+TEST(parallax, hides_what_lies_behind)
 {
     const int surface = code_of_surface();
     std::vector<int> heights(64, 255 - surface);
@@ -165,8 +165,8 @@ TEST(relief, hides_what_lies_behind)
         heights[static_cast<std::size_t>(i)] = surface;
     const Stage stage(plane_of(heights)); // a ridge from u = .375 to .5, level with the surface
     for (const float slope : {1.0f, 2.0f, 3.0f}) {
-        const glm::vec2 at = moved(stage, kEven, {slope, 0.0f, 1.0f}, {0.55f, 0.5f}, kReliefOnSurface).uv;
-        const float step = slope * kDepth / kLeastReliefSteps;
+        const glm::vec2 at = moved(stage, kEven, {slope, 0.0f, 1.0f}, {0.55f, 0.5f}, kParallaxOnSurface).uv;
+        const float step = slope * kDepth / kLeastParallaxSteps;
         EXPECT_GT(at.x, 0.5f - step) << slope; // the ridge, within a step, and not the ground beyond
         EXPECT_LT(at.x, 0.52f);
     }

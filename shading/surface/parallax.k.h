@@ -1,6 +1,6 @@
 // Offsets of texture coordinates for depths below a surface.
-#ifndef BN_RELIEF_K_H
-#define BN_RELIEF_K_H
+#ifndef BN_PARALLAX_K_H
+#define BN_PARALLAX_K_H
 
 #include "shading/kernels/math.k.h"
 #include "shading/lang/lang.h"
@@ -8,14 +8,14 @@
 
 BN_KERNELS_BEGIN
 
-struct relief_plane {    // from the triangle: two sides, metres, and the change of both coordinate sets along them
+struct parallax_plane {  // from the triangle: two sides, metres, and the change of both coordinate sets along them
     real3 along, across; // world space
     real4 coordinates_along, coordinates_across;
 };
 
 // Returns the change of both coordinate sets along surface vector w, through the inverse of the first fundamental form. The
 // unit of w is a length in `set` (0 or 1): the square root of the area that its unit square has on the surface.
-BN_FN real4 moved_on_surface(BN_IN(relief_plane) plane, int set, real3 w)
+BN_FN real4 moved_on_surface(BN_IN(parallax_plane) plane, int set, real3 w)
 {
     // Measure the areas on the surface and in the texture
     real3 normal = k_cross(plane.along, plane.across);
