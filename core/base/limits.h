@@ -8,20 +8,20 @@ namespace burnish {
 inline constexpr int kLessBits = sizeof(void*) < 8 ? 3 : 0;
 
 struct Limits {
-    int image_side = 16384;                                    // pixels, --limit-image-side
+    int image_side = 16384;                                    // pixels
     std::uint64_t image_pixels = 1ull << (28 - kLessBits);     // of one image; by default as many as the sides allow
-    std::uint64_t texture_bytes = 4ull << (30 - kLessBits);    // one scene's decoded textures, --limit-texture-bytes
-    int json_depth = 64;                                       // nesting, --limit-json-depth
-    int node_depth = 256;                                      // scene graph, --limit-node-depth
-    std::uint64_t file_bytes = 2ull << (30 - kLessBits);       // one input file, --limit-file-bytes
-    std::uint64_t input_bytes = 4ull << (30 - kLessBits);      // all files of one scene, --limit-input-bytes
-    std::uint64_t env_pixels = 64ull << (20 - kLessBits);      // the environment, --limit-env-pixels
-    std::uint64_t accessor_bytes = 2ull << (30 - kLessBits);   // one scene's decoded accessors, --limit-accessor-bytes
-    std::uint64_t data_uri_bytes = 512ull << (20 - kLessBits); // one data URI, --limit-data-uri-bytes
-    std::uint64_t draw_bytes = 8ull << (30 - kLessBits);       // vertices and triangles with all instances expanded, --limit-draw-bytes
-    int area_lights = 256;                                     // in one scene, --limit-lights
-    bool strict = false;                                       // refuse every breach of glTF 2.0, --strict
-    bool uris_outside = false;                                 // external files outside the scene's folder, --allow-outside-uris
+    std::uint64_t texture_bytes = 4ull << (30 - kLessBits);    // one scene's decoded textures
+    int json_depth = 64;                                       // nesting
+    int node_depth = 256;                                      // scene graph
+    std::uint64_t file_bytes = 2ull << (30 - kLessBits);       // one input file
+    std::uint64_t input_bytes = 4ull << (30 - kLessBits);      // all files of one scene
+    std::uint64_t env_pixels = 64ull << (20 - kLessBits);      // the environment
+    std::uint64_t accessor_bytes = 2ull << (30 - kLessBits);   // one scene's decoded accessors
+    std::uint64_t data_uri_bytes = 512ull << (20 - kLessBits); // one data URI
+    std::uint64_t draw_bytes = 8ull << (30 - kLessBits);       // vertices and triangles with all instances expanded
+    int area_lights = 256;                                     // in one scene
+    bool strict = false;                                       // refuse every breach of glTF 2.0
+    bool uris_outside = false;                                 // external files outside the scene's folder
 };
 
 } // namespace burnish

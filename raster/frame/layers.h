@@ -1,4 +1,4 @@
-// A picture's layers as channels in a file, named by `--aov`.
+// A picture's layers as channels in a file.
 #pragma once
 #include <string>
 #include <vector>

@@ -134,7 +134,7 @@ bool is_lavapipe(const VulkanDeviceInfo& info)
     return info.name.find("llvmpipe") != std::string::npos;
 }
 
-// Returns true if the device matches --device: a special name or a part of the device's name.
+// Returns true if the device matches a name: a special one or a part of the device's name.
 bool answers_to(const VulkanDeviceInfo& info, const std::string& wanted)
 {
     if (wanted == "lavapipe")

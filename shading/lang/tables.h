@@ -45,7 +45,7 @@ struct GridSample { // with kPhongGrid: see as_mc.t.h
     float slope_x, slope_y, density;
 };
 
-inline constexpr int kMostGridSamples = 1 << 18; // per frame: samples by --samples, and half vectors of lobes
+inline constexpr int kMostGridSamples = 1 << 18; // per frame: samples of a technique, and half vectors of lobes
 
 // The parts of a frame that its record does not hold. Pointers are null where nothing reads them.
 struct FrameTables {

@@ -98,7 +98,7 @@ BN_FN real3 major_axis_weighted_specular(frame_ref f, BN_IN(shaded_point) x)
 }
 
 // Places samples by density, too, but only as many as each fragment needs, in cells around the middle that appear and
-// vanish without a step. One sample lies in the middle and the others in pairs. So an even --samples counts as one less.
+// vanish without a step. One sample lies in the middle and the others in pairs. So an even sample count is one less.
 BN_FN real3 major_axis_adaptive_specular(frame_ref f, BN_IN(shaded_point) x)
 {
     cube_desc cube = prefiltered_env(f);

@@ -1,5 +1,5 @@
 // Rules of glTF 2.0 beyond types and ranges. A breach is repaired with a warning that names its place, or refused with
-// --strict; none goes unreported. The JSON has passed check_schema().
+// Limits::strict; none goes unreported. The JSON has passed check_schema().
 #pragma once
 #include <string_view>
 

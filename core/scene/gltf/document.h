@@ -55,9 +55,9 @@ struct Document {
     Scene scene;
 
     void warn(const std::string& line); // once for each text, one line each
-    // Reports a breach of the specification that can be repaired: a warning, or a Failure with --strict.
+    // Reports a breach of the specification that can be repaired: a warning, or a Failure with Limits::strict.
     void fault(const std::string& place, const std::string& reason);
-    // Counts decoded bytes against --limit-accessor-bytes, and against the most that an honest file of this size can
+    // Counts decoded bytes against Limits::accessor_bytes, and against the most that an honest file of this size can
     // hold.
     void charge(std::uint64_t bytes, const std::string& place);
 };

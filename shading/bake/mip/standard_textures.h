@@ -18,7 +18,7 @@ struct StandardLevels {
     std::vector<Image> anisotropy; // red and green: (1 + d) / 2; blue: strength, for alpha_u = mix(alpha_v, 1, strength^2)
 };
 
-// Makes the textures. d refers to tangent and bitangent projected into the normal's plane (--frame-map gram-schmidt). Its sign is the one
+// Makes the textures. d refers to tangent and bitangent projected into the normal's plane. Its sign is the one
 // nearer to the directions at earlier texels and in the coarser level. metallic: metalness levels, channel 0, with the same sizes; empty:
 // use `metalness`.
 StandardLevels standard_levels(const MipSource& source, const MipLevels& levels, const std::vector<Image>& metallic, float metalness);
