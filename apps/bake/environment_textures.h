@@ -1,4 +1,4 @@
-// Writes a baked environment as textures and key lights that engines load: see apps/manual/engine.md.
+// Writes a baked environment as textures and extracted lights that engines load: see apps/manual/engine.md.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ struct EnvironmentTextures {
     std::vector<std::string> warnings; // one line each: values that half floats cannot hold
 };
 
-// Into a folder that is there: specular, box, irradiance and, with key lights, whole; dfg, lobe_albedo and ltc; key_lights.json and
+// Into a folder that is there: specular, box, irradiance and, with extracted lights, whole; dfg, lobe_albedo and ltc; key_lights.json and
 // key_lights.glsl. An .exr holds one face of one level, or a table. Errors: ExitCode::output_failed.
 Result<EnvironmentTextures> write_environment_textures(const std::string& folder, const Environment& environment, const DfgTable& dfg,
                                                        TextureFormat format, TexelType type, const Jobs& jobs);

@@ -14,11 +14,11 @@
 
 #include "apps/bake/mip_textures.h"
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/values.h"
+#include "apps/cli/words.h"
 #include "apps/pieces/given.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"

@@ -58,8 +58,8 @@ class Chart {
     Result<double> seconds_of_piece(const Spot& spot);
     Status write_piece_of(const Spot& spot, const std::string& file, const std::string& key);
     Status take_piece(const Place& place, const Packed& packed, const std::string& file);
-    Result<Frame> reference(const Place& place, ReferenceNoise& noise);
-    Status find_errors(const Place& place, const Frame& truth, ChartRow& row);
+    Result<Frame> render_reference(const Place& place, ReferenceNoise& noise);
+    Status find_errors(const Place& place, const Frame& reference, ChartRow& row);
     Status time_rows(const Place& place, std::vector<ChartRow>& rows);
     Status write_small(const std::string& file, const Image& linear, bool errors);
     ChartRow new_row(const Place& place, const Setting& setting) const;

@@ -8,8 +8,8 @@
 
 #include "apps/chart/chart.h"
 #include "apps/chart/noise.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/open.h"
+#include "apps/cli/words.h"
 #include "apps/options/parameters.h"
 #include "apps/options/scene_view.h"
 #include "apps/render/cached_reference.h"
@@ -171,15 +171,15 @@ Status Chart::measure_place(const Place& place)
     complete = complete && checkpoint_->references().count(cached_reference);
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
         ReferenceNoise noise;
-        const Result<Frame> truth = reference(place, noise);
-        BN_TRY(truth);
+        const Result<Frame> reference = render_reference(place, noise);
+        BN_TRY(reference);
         if (stopped())
             return {};
         checkpoint_->references()[cached_reference] = noise;
-        if (const Status written = write_small(picture, truth->color, false); !written)
+        if (const Status written = write_small(picture, reference->color, false); !written)
             return written;
         for (ChartRow& row : rows) {
-            if (const Status found = row.measured.has_errors ? Status() : find_errors(place, *truth, row); !found)
+            if (const Status found = row.measured.has_errors ? Status() : find_errors(place, *reference, row); !found)
                 return found;
             progress_->step();
             if (stopped())
@@ -199,7 +199,7 @@ Status Chart::measure_place(const Place& place)
     return {};
 }
 
-Result<Frame> Chart::reference(const Place& place, ReferenceNoise& noise)
+Result<Frame> Chart::render_reference(const Place& place, ReferenceNoise& noise)
 {
     ReferenceOptions options;
     options.samples = options_.reference_samples;
@@ -270,16 +270,15 @@ Status Chart::write_small(const std::string& file, const Image& image, bool erro
 }
 
 // Returns the pattern figures over pixels that the scene covers whole.
-static PatternFigures patterns_of(const Frame& frame, const Frame& truth, const Jobs& jobs)
+static PatternFigures patterns_of(const Frame& frame, const Frame& reference, const Jobs& jobs)
 {
     const Image test = with_coverage(frame.color, frame.triangle_ids, frame.through);
-    const Image reference = with_alpha(truth.color, [&](std::size_t i) { return test.f32()[4 * i + 3]; });
-    return pattern_figures(reference, nullptr, test, jobs, &truth.variance);
+    const Image covered = with_alpha(reference.color, [&](std::size_t i) { return test.f32()[4 * i + 3]; });
+    return pattern_figures(covered, nullptr, test, jobs, &reference.variance);
 }
 
-Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
+Status Chart::find_errors(const Place& place, const Frame& reference, ChartRow& row)
 {
-    const Image& reference = truth.color;
     FrameDesc desc = desc_of(place, row.setting);
     desc.triangle_ids = true;
     desc.parts = options_.display_flip && options_.base.resolve != Resolve::linear;
@@ -287,7 +286,7 @@ Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
     BN_TRY(frame);
     RowErrors& e = row.measured.errors;
     e.nan_pixels = count_not_finite(frame->color);
-    Image map = make_image(reference.width, reference.height, 1, PixelType::f32);
+    Image map = make_image(reference.color.width, reference.color.height, 1, PixelType::f32);
     if (e.nan_pixels) {
         e.flip_mean = e.flip_p99 = e.rel_mse = e.max_abs = e.pattern_rms = e.quad_ratio_x = e.quad_ratio_y =
             std::numeric_limits<double>::quiet_NaN();
@@ -296,13 +295,13 @@ Status Chart::find_errors(const Place& place, const Frame& truth, ChartRow& row)
         flip.isa = options_.base.isa;
         const RenderOptions& base = options_.base;
         const auto shown = [&](const Frame& f) { return tonemap_to_srgb8(f.color, base.tonemap, base.exposure_ev, f.parts, base.resolve); };
-        map = options_.display_flip ? flip_ldr(shown(truth), shown(*frame), flip, *jobs_).error
-                                    : flip_hdr(reference, frame->color, flip, *jobs_).error;
+        map = options_.display_flip ? flip_ldr(shown(reference), shown(*frame), flip, *jobs_).error
+                                    : flip_hdr(reference.color, frame->color, flip, *jobs_).error;
         const ErrorSummary errors = summarise_errors(map);
-        const PixelFigures pixels = pixel_figures(reference, frame->color, *jobs_);
+        const PixelFigures pixels = pixel_figures(reference.color, frame->color, *jobs_);
         e.flip_mean = errors.mean, e.flip_p99 = errors.p99;
         e.rel_mse = pixels.rel_mse, e.max_abs = pixels.max_abs;
-        const PatternFigures patterns = patterns_of(*frame, truth, *jobs_);
+        const PatternFigures patterns = patterns_of(*frame, reference, *jobs_);
         e.pattern_rms = patterns.pixels ? patterns.rms : std::numeric_limits<double>::quiet_NaN();
         e.quad_ratio_x = patterns.quad_ratio[0], e.quad_ratio_y = patterns.quad_ratio[1];
     }

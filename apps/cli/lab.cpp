@@ -8,26 +8,13 @@
 #include <unistd.h>
 
 #include "apps/cli/report.h"
+#include "apps/cli/words.h"
 
 namespace burnish {
 
-namespace {
-std::vector<std::string> kept;
-}
-
-void keep_words(const std::vector<std::string>& words)
-{
-    kept = words;
-}
-
-const std::vector<std::string>& kept_words()
-{
-    return kept;
-}
-
 int start_lab()
 {
-    return start_lab(kept);
+    return start_lab(kept_words());
 }
 
 int start_lab(const std::vector<std::string>& words, const std::string& reason)

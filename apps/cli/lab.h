@@ -8,10 +8,8 @@ namespace burnish {
 // Replaces this process by burnish-lab with these words. If burnish-lab cannot start, prints a line on standard error and returns
 // ExitCode::unavailable. reason: the word that needs it, for this line; empty: the first.
 int start_lab(const std::vector<std::string>& words, const std::string& reason = "");
-// Starts burnish-lab with the words of keep_words().
+// Starts burnish-lab with the words of keep_words() (apps/cli/words.h).
 int start_lab();
-void keep_words(const std::vector<std::string>& words);
-const std::vector<std::string>& kept_words();
 
 // The part of a subcommand that burnish-lab alone holds. Without it, the call goes to burnish-lab with the same words.
 template <class... Arguments> class LabPart {

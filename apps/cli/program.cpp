@@ -14,6 +14,7 @@
 #include "apps/cli/lab.h"
 #include "apps/cli/report.h"
 #include "apps/cli/suggest.h"
+#include "apps/cli/words.h"
 #include "core/base/cgroup.h"
 #include "core/base/exception.h"
 #include "core/base/version.h"

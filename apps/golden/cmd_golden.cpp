@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/suggest.h"
 #include "apps/cli/values.h"
+#include "apps/cli/words.h"
 #include "apps/golden/golden_pieces.h"
 #include "apps/golden/tasks.h"
 #include "apps/live/live.h"

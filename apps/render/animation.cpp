@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "apps/cli/lab.h"
 #include "apps/cli/numbered.h"
 #include "apps/cli/open.h"
 #include "apps/cli/outputs.h"
+#include "apps/cli/words.h"
 #include "apps/options/animate.h"
 #include "apps/options/scene_view.h"
 #include "apps/pieces/given.h"

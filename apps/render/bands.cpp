@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
+#include "apps/cli/words.h"
 #include "apps/pieces/given.h"
 #include "apps/pieces/packed.h"
 #include "apps/pieces/pieces.h"

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
+#include "apps/cli/words.h"
 #include "apps/options/scene_view.h"
 #include "apps/render/bands.h"
 #include "apps/render/picture.h"

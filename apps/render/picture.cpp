@@ -110,7 +110,7 @@ SessionOptions session_options(const RenderOptions& options, std::optional<Error
 
 std::string light_name(const RenderOptions& options, const SceneData& scene)
 {
-    return options.env_given ? options.env : usual_environment(scene);
+    return options.env_given ? options.env : default_environment(scene);
 }
 
 Result<std::shared_ptr<const Environment>> open_light(const RenderOptions& options, const SceneData& scene, const Jobs& jobs)

@@ -108,14 +108,15 @@ Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Se
     const TraceSpan span("verify");
     FrameDesc whole = desc;
     whole.by_material.clear(), whole.triangle_ids = whole.parts = whole.layers = false;
-    ReferenceOptions reference;
-    reference.quiet = options.quiet;
-    const Result<Frame> truth = cached_reference(session, whole, reference, options.isa, {options.environment.use_cache, ""}, report);
-    BN_TRY(truth);
+    ReferenceOptions reference_options;
+    reference_options.quiet = options.quiet;
+    const Result<Frame> reference =
+        cached_reference(session, whole, reference_options, options.isa, {options.environment.use_cache, ""}, report);
+    BN_TRY(reference);
     const Jobs& jobs = *session.parts().jobs;
-    const ErrorSummary errors = summarise_errors(flip_hdr(truth->color, color, {}, jobs).error);
+    const ErrorSummary errors = summarise_errors(flip_hdr(reference->color, color, {}, jobs).error);
     std::string text = fmt::format("mean HDR-FLIP {:.4f}, p99 {:.4f}, against {} samples of the reference", errors.mean, errors.p99,
-                                   truth->stats.sampling.samples);
+                                   reference->stats.sampling.samples);
     if (plan && plan->aside.empty())
         text += fmt::format("; predicted {:.4f}", plan->error);
     report.figure("verified", text);

@@ -393,10 +393,11 @@ MipSource mip_source(const Scene& scene, const Material& m)
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& m,
           const MaterialMips& mips)
 {
-    const bool taught = mips.filter == kMipFilter_teacher, metal = taught && is_metal(scene, m);
+    const bool optimised = mips.filter == kMipFilter_teacher, metal = optimised && is_metal(scene, m);
     return levels.source == hash && levels.width == source.width() && levels.height == source.height() && levels.filter == mips.filter &&
            (!takes_kappa(mips.filter) || levels.kappa == mips.kappa) &&
-           (!mips.net || levels.net == levels_hash(*mips.net, mips.filter, metal)) && (!taught || (levels.net & 1u) == (metal ? 1u : 0u)) &&
+           (!mips.net || levels.net == levels_hash(*mips.net, mips.filter, metal)) &&
+           (!optimised || (levels.net & 1u) == (metal ? 1u : 0u)) &&
            (!has_gains(m, mips) || levels.gained == gained_of(mips.lobe, is_metal(scene, m)));
 }
 

@@ -48,7 +48,7 @@ Result<std::shared_ptr<const Environment>> environment_of(const burnish_options*
                                                           const char* environment, const SceneData& scene, const Jobs& jobs)
 {
     if (environment || !options || options->environment.empty())
-        return load_shared_environment(environment ? environment : usual_environment(scene), settings.open.environment,
+        return load_shared_environment(environment ? environment : default_environment(scene), settings.open.environment,
                                        settings.open.limits, jobs);
     Result<Environment> baked = bake_environment(options->environment, "environment", settings.open.environment, jobs);
     BN_TRY(baked);

@@ -230,7 +230,7 @@ Result<std::shared_ptr<const Environment>> load_shared_environment(const std::st
     });
 }
 
-std::string usual_environment(const SceneData& scene)
+std::string default_environment(const SceneData& scene)
 {
     return scene.scene.image_light ? scene.name : "builtin:studio";
 }
@@ -301,7 +301,7 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
         const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits);
         BN_TRY(data);
         const Result<std::shared_ptr<const Environment>> light = load_shared_environment(
-            environment.empty() ? usual_environment(**data) : environment, open.environment, open.limits, *parts.jobs);
+            environment.empty() ? default_environment(**data) : environment, open.environment, open.limits, *parts.jobs);
         BN_TRY(light);
         parts.scene = *data;
         parts.environment = *light;

@@ -59,7 +59,7 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
 Result<std::shared_ptr<const Environment>> load_shared_environment(const std::string& spec, const EnvironmentOptions& options,
                                                                    const Limits& limits, const Jobs& jobs);
 // Returns the default environment of a scene: the scene's file if that has an image-based light, else builtin:studio.
-std::string usual_environment(const SceneData& scene);
+std::string default_environment(const SceneData& scene);
 // Returns the default directional albedo table. The table has the same bits on every machine and is made once a process.
 Result<std::shared_ptr<const DfgTable>> standard_dfg(const Jobs& jobs);
 
@@ -117,7 +117,7 @@ struct SceneChanges {
 class Session {
   public:
     // Loads the scene, loads or bakes the environment or finds it in the cache, and makes the renderer. An empty environment means
-    // usual_environment(). Errors: ExitCode::bad_input, usage, unavailable.
+    // default_environment(). Errors: ExitCode::bad_input, usage, unavailable.
     static Result<Session> open(const std::string& scene, const std::string& environment, const OpenOptions& open = {},
                                 const SessionOptions& options = {});
     // Makes a session from parts. Errors: ExitCode::usage if scene or environment is missing, unavailable, bad_input if a part is faulty

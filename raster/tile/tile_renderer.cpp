@@ -489,10 +489,9 @@ std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input)
     return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "double") : nullptr;
 }
 
-std::unique_ptr<Renderer> make_mutated_tile_renderer(const RenderInput& input)
+std::unique_ptr<Renderer> make_tile_renderer_of(const RenderInput& input, const TileFns& fns, const std::string& lanes)
 {
-    const auto fns = FnsByIsa<TileFns>::mutated;
-    return fns ? std::make_unique<TileRenderer>(input, fns(nullptr), "mutated") : nullptr;
+    return std::make_unique<TileRenderer>(input, fns, lanes);
 }
 
 bool has_counting_lanes()

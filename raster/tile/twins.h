@@ -1,8 +1,8 @@
-// The tile renderer with other lanes, compiled from the same source text. Some are double, some count their work, some have mistakes in
-// their kernels. All are slow.
+// The tile renderer with other lanes, compiled from the same source text. Some are double, some count their work. All are slow.
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "raster/frame/frame.h"
 #include "raster/tile/tile_types.h"
@@ -13,9 +13,8 @@ namespace burnish {
 // fragment colours) is still float. Null if the program lacks such lanes.
 std::unique_ptr<Renderer> make_double_tile_renderer(const RenderInput& input);
 
-// Makes a renderer whose kernels have the mistakes in drawn_mutants (shading/lab/conform/mutated.h). It draws by the techniques that this
-// header compiles alone. Null if the program lacks such lanes.
-std::unique_ptr<Renderer> make_mutated_tile_renderer(const RenderInput& input);
+// Makes a renderer with lanes that the caller's program links. fns: must outlive the renderer. lanes: their name, in Renderer::device().
+std::unique_ptr<Renderer> make_tile_renderer_of(const RenderInput& input, const TileFns& fns, const std::string& lanes);
 
 struct CountedFrame {
     Frame frame; // pixels equal any other lanes'

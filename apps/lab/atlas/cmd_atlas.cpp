@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/cli/words.h"
 #include "apps/lab/atlas/options.h"
 #include "apps/lab/atlas/page.h"
 #include "apps/live/live.h"

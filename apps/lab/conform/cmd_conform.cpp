@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "apps/cli/command.h"
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/values.h"
+#include "apps/cli/words.h"
 #include "apps/lab/conform/draw.h"
 #include "apps/lab/conform/folder.h"
 #include "apps/lab/conform/judge.h"

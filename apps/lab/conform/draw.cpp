@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "apps/lab/conform/scenes.h"
+#include "apps/lab/conform/tile_mutated.h"
 #include "core/image/io/image_io.h"
-#include "raster/tile/twins.h"
 #include "shading/lab/conform/mutated.h"
 #include "shading/lang/records.h"
 

@@ -25,11 +25,11 @@ struct RightWay {
     std::uint32_t kernels; // bits of KernelMutant
     bool compensates = false;
 };
-const std::vector<RightWay>& right_ways(); // the usual one first
+const std::vector<RightWay>& right_ways(); // the default one first
 
 class ConformDrawer {
   public:
-    void set_way(const RightWay& way) { way_ = &way; } // of draw(); at first the usual one
+    void set_way(const RightWay& way) { way_ = &way; } // of draw(); at first the default one
 
     // Needs burnish-lab's kernels with mistakes. Errors: ExitCode::unavailable without them; bad_input for the folder's files.
     static Result<ConformDrawer> open(const ConformFolder& folder, const Limits& limits, std::shared_ptr<const Jobs> jobs);

@@ -12,6 +12,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/cli/words.h"
 #include "apps/lab/ltc/preview.h"
 #include "apps/lab/ltc/report.h"
 #include "apps/lab/ltc/resolutions.h"

@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "apps/cli/lab.h"
 #include "apps/cli/outputs.h"
 #include "apps/cli/stop_signal.h"
+#include "apps/cli/words.h"
 #include "apps/lab/mip/real_maps.h"
 #include "apps/lab/train/arguments.h"
 #include "apps/pieces/given.h"

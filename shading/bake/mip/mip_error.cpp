@@ -187,7 +187,7 @@ std::vector<std::vector<MipError>> mip_errors(const Texels& level0, const std::v
     BN_CHECK(level0.width == level0.height && level0.width % (pairs.tiles << levels) == 0 && pairs.lamps <= kMipErrorLamps);
     std::vector<std::vector<MipError>> errors(filters.size(), std::vector<MipError>(static_cast<std::size_t>(levels)));
     const Numbers planes0 = planes_of(level0);
-    std::vector<double> light_of_truth(static_cast<std::size_t>(levels), 0.0);
+    std::vector<double> light_of_reference(static_cast<std::size_t>(levels), 0.0);
     std::vector<std::vector<Numbers>> planes(filters.size()), others(filters.size());
     for (std::size_t f = 0; f < second.size(); ++f)
         for (const Texels& level : second[f])
@@ -202,18 +202,18 @@ std::vector<std::vector<MipError>> mip_errors(const Texels& level0, const std::v
             return pair ? mip_error_pair(pairs.first + time * pairs.tiles * pairs.tiles, side, side, pairs.tiles)
                         : mip_error_lamp(time - pairs.times, side);
         };
-        Numbers truth = radiance_of(surface, planes0, light(level0.width));
-        // Average the truth to this level, then compare all filters with it
+        Numbers reference = radiance_of(surface, planes0, light(level0.width));
+        // Average the reference to this level, then compare all filters with it
         for (int l = 1; l <= levels; ++l) {
             const int side = level0.width >> l;
-            truth = averaged(truth, 2 * side);
+            reference = averaged(reference, 2 * side);
             if (!pair && side < kLeastFlipSide)
                 break;
             const MipErrorLight d = light(side);
-            const Numbers wanted = pair ? displayed(truth) : Numbers();
+            const Numbers wanted = pair ? displayed(reference) : Numbers();
             const std::size_t texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
             if (pair)
-                light_of_truth[static_cast<std::size_t>(l) - 1] += sum_of(truth, texels);
+                light_of_reference[static_cast<std::size_t>(l) - 1] += sum_of(reference, texels);
             jobs.parallel_for(filters.size(), [&](std::size_t f, int) {
                 MipError& to = errors[f][static_cast<std::size_t>(l) - 1];
                 const bool plain = f >= gains.size() || gains[f].empty();
@@ -227,14 +227,14 @@ std::vector<std::vector<MipError>> mip_errors(const Texels& level0, const std::v
                 if (pair)
                     add_difference(displayed(found), wanted, texels, pairs.times, to), to.light += sum_of(found, texels);
                 else
-                    to.flip += mean_flip(tonemapped_square(truth, side), tonemapped_square(found, side), Jobs(1)) / pairs.lamps;
+                    to.flip += mean_flip(tonemapped_square(reference, side), tonemapped_square(found, side), Jobs(1)) / pairs.lamps;
             });
         }
     }
-    // Divide by the light of the truth
+    // Divide by the light of the reference
     for (std::vector<MipError>& of : errors)
         for (std::size_t l = 0; l < of.size(); ++l)
-            of[l].light = light_of_truth[l] > 0.0 ? of[l].light / light_of_truth[l] : 1.0;
+            of[l].light = light_of_reference[l] > 0.0 ? of[l].light / light_of_reference[l] : 1.0;
     return errors;
 }
 

@@ -19,7 +19,7 @@ MipErrorSurface mip_error_surface(mipnet::Lobe lobe, bool metal); // f0 .85, or 
 struct MipError {
     double flip = 0.0;          // mean LDR-FLIP between x / (1 + x), over lamps with their eyes; 0 for smaller squares
     double l1 = 0.0, mse = 0.0; // errors in x / (1 + x) encoded as sRGB, over pairs (direction to light, direction to eye)
-    double light = 0.0;         // mean radiance over pairs, relative to the truth
+    double light = 0.0;         // mean radiance over pairs, relative to the reference
 };
 
 // Lights and eyes for a comparison. A pair is a light uniformly above and an eye weighted by its cosine. Pairs are numbered, and the n-th
