@@ -72,7 +72,7 @@ TextureData texture_of_ltc()
     return out;
 }
 
-// Returns the pictures of a texture, by name: faces and levels of a cube, or the table with a blue channel of 0.
+// Returns a texture's pictures, by name: a cube's faces and levels, or the table with 0 as blue channel.
 std::vector<std::pair<std::string, Image>> pictures_of(const std::string& name, const TextureData& texture)
 {
     std::vector<std::pair<std::string, Image>> pictures;
@@ -96,9 +96,9 @@ std::string vector_text(const float (&v)[3])
     return fmt::format("vec3({:#.9g}, {:#.9g}, {:#.9g})", v[0], v[1], v[2]);
 }
 
-constexpr std::size_t kBlockLights = 8; // of the uniform block, whatever the bake found
+constexpr std::size_t kBlockLights = 8; // in the uniform block, whatever the bake found
 
-// Returns the lights as constants of GLSL, and as a uniform block. An array has at least one element.
+// Returns the lights as GLSL constants, and as a uniform block. An array has at least one element.
 std::string lights_glsl(const std::vector<ExtractedLight>& lights)
 {
     std::string text = "// Key lights of an environment: evenly bright ellipses on the sky, strongest first. Linear Rec.709.\n"
@@ -130,7 +130,7 @@ std::string lights_glsl(const std::vector<ExtractedLight>& lights)
     return text + "#endif\n";
 }
 
-// Returns the uniform block's bytes in the layout std140: the count and 12 bytes of padding, then 64 bytes a light.
+// Returns the uniform block's bytes in the layout std140: the count and 12 padding bytes, then 64 bytes a light.
 std::vector<std::uint8_t> lights_block(const std::vector<ExtractedLight>& lights)
 {
     struct Row { // a vec3 takes 16 bytes, and a float after it the last 4
@@ -173,7 +173,7 @@ class Writer {
     Status write(const std::string& name, const std::string& text) { return write(name, text.data(), text.size()); }
     Status write(const std::string& name, const std::vector<std::uint8_t>& bytes) { return write(name, bytes.data(), bytes.size()); }
 
-    // Removes a texture of an earlier bake.
+    // Removes an earlier bake's texture.
     void remove(const std::string& name) const
     {
         std::error_code ignored;

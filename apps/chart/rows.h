@@ -18,25 +18,25 @@ struct RowErrors { // against the reference; pictures with NaN have nan_pixels a
     double pattern_rms = 0.0, quad_ratio_x = 0.0, quad_ratio_y = 0.0; // core/image/metrics/pattern.h; NaN: unknown
 };
 
-struct Measured { // measurements of a row so far
+struct Measured { // a row's measurements so far
     bool has_errors = false;
     RowErrors errors;
     std::vector<double> ms, cpu_ms; // one entry a run
 };
-struct ReferenceNoise {          // estimated error of the reference itself
+struct ReferenceNoise {          // the reference's own estimated error
     std::uint64_t samples = 0;   // a pixel
-    double relative_error = 0.0; // half width of the 95 % confidence interval over the mean, averaged over pixels that are not black
+    double relative_error = 0.0; // the 95 % confidence interval's half width over the mean, averaged over pixels that are not black
     double flip = 0.0;           // mean FLIP between the reference and the reference plus as much noise again
 };
 
 struct ChartResults {                                 // from earlier runs
     std::map<std::string, Measured> rows;             // by ChartRow::key
-    std::map<std::string, ReferenceNoise> references; // by key of the place and requested samples
-    std::optional<double> others{};                   // largest ChartMachine::others of the runs behind the times
+    std::map<std::string, ReferenceNoise> references; // by the place's key and requested samples
+    std::optional<double> others{};                   // largest ChartMachine::others in the runs behind the times
 };
 
 struct ChartRow {
-    std::string key; // hash of all inputs to pictures and times, 16 hexadecimal digits
+    std::string key; // hash over all inputs to pictures and times, 16 hexadecimal digits
     std::string scene, env;
     Setting setting;
     Cell cell;
@@ -48,7 +48,7 @@ struct ChartRow {
 struct ChartMachine {
     std::string version, processor, isa;
     int threads = 0;
-    std::optional<double> others{}; // mean share of the cores taken by other programs during timing, [0,1]
+    std::optional<double> others{}; // the cores' mean share taken by other programs during timing, [0,1]
 };
 inline constexpr double kBusy = 0.1; // above this share of others, times are not reliable
 
@@ -59,17 +59,17 @@ struct ChartReference {
 
 struct ChartReport {
     ChartMachine machine;
-    int width = 0, height = 0, msaa = 0, runs = 0; // width, height: of the timed frames, pixels
+    int width = 0, height = 0, msaa = 0, runs = 0; // width, height: the timed frames', pixels
     int error_width = 0, error_height = 0;         // pictures compared with the reference
     std::uint64_t reference_samples = 0;
     bool display_flip = false;                        // errors are LDR-FLIP of pictures as they are shown; else HDR-FLIP
-    FrameDesc frame;                                  // its parameters of techniques are those of all rows
+    FrameDesc frame;                                  // all rows share its technique parameters
     std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
     std::map<std::string, ChartReference> references; // by place()
 };
 
-std::optional<double> number_in(const std::string& value); // value of a swept option; none for names and vectors
-std::string place(const ChartRow& row);                    // scene, environment and cell as one text; rows of one place are compared
+std::optional<double> number_in(const std::string& value); // a swept option's value; none for names and vectors
+std::string place(const ChartRow& row);                    // scene, environment and cell as one text; one place's rows are compared
 
 double flip_of(const ChartRow& row);
 double ms_of(const ChartRow& row); // median; NaN without runs, as the next two

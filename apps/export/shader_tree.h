@@ -1,5 +1,5 @@
-// The tree of an exported shader: declarations, statements and typed expressions, read from the GLSL that glsl_of() returns.
-// Covers the subset of GLSL that the kernel language uses (shading/lang/lang.h): no matrices, textures or while loops.
+// An exported shader's tree: declarations, statements and typed expressions, read from the GLSL that glsl_of() returns.
+// Covers the GLSL subset that the kernel language uses (shading/lang/lang.h): no matrices, textures or while loops.
 #pragma once
 #include <map>
 #include <string>
@@ -13,12 +13,12 @@ struct ShaderExpression {
     std::string text; // the literal, name, function, type, member or operator
     std::string type; // in GLSL's words, such as vec3, or a struct's name; arrays end with []
     std::vector<ShaderExpression> of;
-    int function = -1; // call: index of the called function in the tree; -1: built in, or makes a value of a type
+    int function = -1; // call: the called function's index in the tree; -1: built in, or makes a type's value
 };
 
 struct ShaderVariable {
     std::string type, name;
-    int count = 0; // elements of an array; 0: no array
+    int count = 0; // an array's elements; 0: no array
     bool inout = false;
     std::vector<ShaderExpression> value; // none or one
 };
@@ -38,27 +38,27 @@ struct ShaderMember {
     std::string comment; // beside
 };
 
-struct ShaderItem { // of the outermost scope
+struct ShaderItem { // in the outermost scope
     enum class Kind { comment, directive, structure, constant, prototype, function };
     Kind kind = Kind::comment;
-    std::string text;    // the comment's or directive's lines; the name of the rest; a function's comments stand above as items
-    std::string type;    // of a function's result, or of a constant
+    std::string text;    // the comment's or directive's lines; other kinds' name; a function's comments stand above as items
+    std::string type;    // a function result's, or a constant's
     std::string comment; // beside
     std::vector<ShaderMember> members;
-    std::vector<ShaderVariable> variables; // parameters, or constants of one type
+    std::vector<ShaderVariable> variables; // parameters, or constants with one type
     std::vector<ShaderStatement> body;
 };
 
 struct ShaderTree {
     std::vector<ShaderItem> items;
-    std::map<std::string, std::vector<int>> functions; // indices of items by name: overloads
+    std::map<std::string, std::vector<int>> functions; // item indices by name: overloads
     std::map<std::string, int> structures;
 };
 
-// Returns the tree of a text of glsl_of(). Throws CheckFailed at words outside the subset.
+// Returns the tree for a text from glsl_of(). Throws CheckFailed at words outside the subset.
 ShaderTree shader_tree_of(const std::string& glsl);
 
-// Returns the number of components of a built-in vector, 0 for other types.
+// Returns a built-in vector's component count, 0 for other types.
 int shader_vector_size(const std::string& type);
 
 } // namespace burnish

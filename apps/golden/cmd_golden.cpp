@@ -61,7 +61,7 @@ Examples:
   burnish golden check expected actual --flip 0.01
   burnish golden check 'out/*_golden.png' 'out/*_now.png' --mask mask.png)~";
 
-// Returns this command without its shard, its folder and its number of jobs.
+// Returns this command without its shard, its folder and its job count.
 std::vector<std::string> words_of_shard()
 {
     const std::vector<std::string> words = without_pieces(kept_words());
@@ -76,7 +76,7 @@ std::vector<std::string> words_of_shard()
     return kept;
 }
 
-// Returns true if the command deals in pieces: --shard alone makes a folder of results.
+// Returns true if the command deals in pieces: --shard alone makes a result folder.
 bool wants_pieces(const PieceOptions& pieces)
 {
     return any_pieces(pieces) && (pieces.shard.empty() || !pieces.folders.empty());
@@ -92,7 +92,7 @@ GoldenSetting setting_of(const GoldenArguments& arguments, const std::string& re
     return setting;
 }
 
-// Makes some rows, or puts finished ones together. of_all: manifest_hash() of all rows.
+// Makes some rows, or puts finished ones together. of_all: manifest_hash() over all rows.
 int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& manifest, const std::string& of_all, Report& report)
 {
     if (arguments.jobs > 0)
@@ -113,7 +113,7 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
     Result<std::vector<GoldenResult>> results = take_golden_pieces(manifest, *files, *pieces, fresh.folder());
     if (!results)
         return fail(results.error());
-    report.promise_stdout({"-"}); // to the commands of missing pieces
+    report.promise_stdout({"-"}); // to missing pieces' commands
     report.release();
     return conclude_golden(std::move(*results), &manifest, fresh, arguments, report);
 }
@@ -131,7 +131,7 @@ Status keep_rows(const std::vector<std::string>& names, GoldenManifest& manifest
     return {};
 }
 
-// Warns of rows without a tolerance whose bits depend on the machine.
+// Warns about rows without a tolerance whose bits depend on the machine.
 void warn_of_machines(const GoldenManifest& manifest, Report& report)
 {
     for (const GoldenRow& row : manifest.rows)
@@ -157,7 +157,7 @@ int check(const GoldenArguments& arguments, Report& report)
     Result<GoldenManifest> manifest = manifest_at(arguments);
     if (!manifest)
         return fail(manifest.error());
-    const std::string of_all = manifest_hash(*manifest); // also with some rows: bless looks for changes of the manifest
+    const std::string of_all = manifest_hash(*manifest); // also with some rows: bless looks for changes in the manifest
     if (!arguments.rows.empty())
         if (const Status kept = keep_rows(arguments.rows, *manifest); !kept)
             return fail(kept.error());
@@ -213,13 +213,13 @@ int run_golden(const GoldenArguments& arguments, const OptionTable& given)
     case bless:
         return bless_goldens(arguments, report);
     case merge:
-        report.promise_stdout({"-"}); // to the commands of missing shards
+        report.promise_stdout({"-"}); // to missing shards' commands
         return merge_golden_shards(arguments, report);
     }
     return 0;
 }
 
-// Returns the options of pieces. A shard without a folder of pieces makes results for `golden merge`.
+// Returns the options for pieces. A shard without a piece folder makes results for `golden merge`.
 std::vector<Option> golden_piece_options(PieceOptions& to)
 {
     std::vector<Option> options = piece_options(to);

@@ -1,4 +1,4 @@
-// The folder of a run's results: a run replaces the earlier one's files when its own are whole.
+// A run's result folder: a run replaces the earlier one's files when its own are whole.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace burnish {
 
-inline constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown", "logs"}; // within the folder of results
+inline constexpr const char* kResultFolders[] = {"pictures", "goldens", "shown", "logs"}; // within the result folder
 
 // Returns true for "FOLDER/NAME" with one of these folders.
 bool is_result_file(const std::string& path);
 
-// The marker in a folder of results.
+// The marker in a result folder.
 struct ResultOrigin {
     Share shard;
-    std::string manifest;             // manifest_hash() of its rows
-    std::vector<std::string> words{}; // of a shard's command, without the shard and its folder; else empty
+    std::string manifest;             // manifest_hash() over its rows
+    std::vector<std::string> words{}; // a shard command's words, without the shard and its folder; else empty
 };
 Result<ResultOrigin> origin_of_results(const std::string& folder);
 
-// Files in the making. They lie in a folder within that of the earlier results, and are removed with this object unless taken over.
+// Files in the making. They lie in a folder within the earlier results' folder, and are removed with this object unless taken over.
 class NewResults {
   public:
     explicit NewResults(const std::string& results) : results_(results), folder_(results + "/.new"), old_(results + "/.old") {}
@@ -31,11 +31,11 @@ class NewResults {
     NewResults& operator=(const NewResults&) = delete;
     ~NewResults();
 
-    // Makes the folders. Refuses a folder of results with files of other programs, one that holds an input, and one into which another run
+    // Makes the folders. Refuses a result folder with other programs' files, one that holds an input, and one into which another run
     // writes.
     Status make(const std::vector<std::string>& inputs, const ResultOrigin& origin);
     const std::string& folder() const { return folder_; }
-    Status take_over(); // moves the files into the place of the earlier ones
+    Status take_over(); // moves the files into the earlier ones' place
 
   private:
     Status move_all();

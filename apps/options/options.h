@@ -1,4 +1,4 @@
-// The options of `burnish render`: as given on the command line, then checked and resolved.
+// The options for `burnish render`: as given on the command line, then checked and resolved.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -30,26 +30,26 @@ enum class FloorChoice { off, shadow, stage, mirror, automatic }; // automatic: 
 struct RenderOptions {
     std::string scene = "builtin:teapot";
     Moment moment;
-    std::vector<AreaLight> lights;      // besides those of the scene
-    std::vector<std::string> as_tables; // of as_mc's lobes, or folders of them; empty: frames make their own
-    std::string ltc_table;              // of area lights; empty: the program's own
+    std::vector<AreaLight> lights;      // besides the scene's own
+    std::vector<std::string> as_tables; // for as_mc's lobes, or folders with tables; empty: frames make their own
+    std::string ltc_table;              // for area lights; empty: the program's own
     MaterialOverrides overrides;        // what all materials take
     MipSettings mips;
     FloorChoice floor = FloorChoice::automatic;
-    int band_rows = 0;      // rows of a band, where the picture is drawn in bands; 0: it is drawn at once
-    bool in_pieces = false; // a signal ends the process between blocks of a reference, as with a checkpoint
+    int band_rows = 0;      // a band's rows, where the picture is drawn in bands; 0: it is drawn at once
+    bool in_pieces = false; // a signal ends the process between a reference's blocks, as with a checkpoint
     std::vector<std::string> outputs;
-    std::vector<std::string> aov;       // layers of .exr outputs
-    Shown show = Shown::light;          // false colour of 8-bit outputs
-    std::string risks;                  // picture of the atlas's risks for the technique; "-": text only; empty: none
-    Shadows shadows = Shadows::off;     // of lights, by ray-traced samples
+    std::vector<std::string> aov;       // .exr outputs' layers
+    Shown show = Shown::light;          // 8-bit outputs' false colour
+    std::string risks;                  // picture with the atlas's risks for the technique; "-": text only; empty: none
+    Shadows shadows = Shadows::off;     // for lights, by ray-traced samples
     int shadow_samples = 16;            // a pixel
     Resolve resolve = Resolve::display; // for 8-bit outputs; linear by default where samples are not kept
     std::string stats_file;             // empty: none; "-": standard output
-    bool counts_operations = false;     // of a frame, for stats_file
+    bool counts_operations = false;     // in a frame, for stats_file
     std::string trace_file;             // empty: none
-    std::optional<double> budget;       // largest mean HDR-FLIP: the plan chooses technique and samples of each material
-    std::optional<double> budget_ms;    // largest processor time of the frame, milliseconds
+    std::optional<double> budget;       // largest mean HDR-FLIP: the plan chooses each material's technique and samples
+    std::optional<double> budget_ms;    // the frame's largest processor time, milliseconds
     bool fixes_technique = false;       // given beside a budget
     int fixed_samples = 0;              // given beside a budget; 0: none
     std::string plan_file, plan_out;    // plan to draw by, and plan to write; empty: none
@@ -85,31 +85,31 @@ struct RenderOptions {
     int verbosity = 0;
 };
 
-inline constexpr int kBandTile = 64; // pixels along a side of .exr tiles, in pictures that no frame holds; their bands have whole tiles
+inline constexpr int kBandTile = 64; // pixels along .exr tiles' sides, in pictures that no frame holds; their bands have whole tiles
 
-// Returns the floor of `burnish render`. By default built-in scenes stand on the stage if the background is drawn, except those with a
-// floor of their own.
+// Returns the floor for `burnish render`. By default built-in scenes stand on the stage if the background is drawn, except scenes with
+// their own floor.
 FloorSettings floor_of(const RenderOptions& options);
 
-// Returns true if pictures need the samples of pixels: 8-bit ones that are not plain means. The reference keeps no samples.
+// Returns true if pictures need pixels' samples: 8-bit ones that are not plain means. The reference keeps no samples.
 bool needs_parts(const RenderOptions& options);
 
-// Targets of the command line's values. Most values are final here; some wait for other options.
+// Targets for the command line's values. Most values are final here; some wait for other options.
 struct RenderArguments {
     RenderOptions plain;
     PictureSize size = {1280, 720};
-    std::optional<std::int64_t> samples;   // none: the default of the technique or the reference
-    std::string animate;                   // in the syntax of --animate
+    std::optional<std::int64_t> samples;   // none: the technique's or the reference's default
+    std::string animate;                   // in --animate's syntax
     int steps = 60;                        // for --animate
     std::optional<std::int64_t> band_rows; // none: chosen
     bool may_have_bands = false;           // one picture, which the command can write by rows
     PieceOptions pieces;
 };
 
-// Returns all options of `burnish render`. Other subcommands take rows from this table. `to` must outlive the table.
+// Returns all options for `burnish render`. Other subcommands take rows from this table. `to` must outlive the table.
 OptionTable render_option_table(RenderArguments& to);
 
-std::string reference_mode_name(const RenderOptions& options); // in the syntax of --reference-mode
+std::string reference_mode_name(const RenderOptions& options); // in --reference-mode's syntax
 
 // Reports every error that can be found before a file is opened. `given` is the table that filled `arguments`; an option absent from the
 // table counts as not given.

@@ -1,4 +1,4 @@
-// Plans a frame: chooses technique and samples of each material, so that the picture's error holds a budget at the least cost.
+// Plans a frame: chooses each material's technique and samples, so that the picture's error holds a budget at the least cost.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,13 +10,13 @@
 namespace burnish {
 
 struct PlanBudget {               // at least one
-    std::optional<double> error;  // largest mean HDR-FLIP of the picture, above 0
-    std::optional<double> cpu_ms; // largest processor time of the frame on this machine; the error goes first
+    std::optional<double> error;  // the picture's largest mean HDR-FLIP, above 0
+    std::optional<double> cpu_ms; // the frame's largest processor time on this machine; the error goes first
 };
 
-struct PlanStep { // a setting of one material
+struct PlanStep { // one material's setting
     MaterialTechnique setting;
-    double error = 0.0, cost = 0.0; // mean HDR-FLIP over its pixels; instructions of all its pixels
+    double error = 0.0, cost = 0.0; // mean HDR-FLIP over its pixels; instructions for all its pixels
 };
 
 struct PlannedMaterial {
@@ -24,16 +24,16 @@ struct PlannedMaterial {
     double share = 0.0; // of the picture's pixels
     PlanStep chosen;
     std::optional<PlanStep> cheaper, better; // the next settings that none beats in cost and error
-    std::vector<PlanStep> all;               // every setting of the probe
+    std::vector<PlanStep> all;               // every setting that was probed
 };
 
 struct Plan {
     std::vector<PlannedMaterial> materials; // by index in the scene
-    double error = 0.0;                     // predicted mean HDR-FLIP of the picture
-    double cost = 0.0, default_cost = 0.0;  // instructions for shading, and those of the default technique
+    double error = 0.0;                     // the picture's predicted mean HDR-FLIP
+    double cost = 0.0, default_cost = 0.0;  // instructions for shading, and the default technique's instructions
     std::optional<double> default_error;    // predicted for the default technique; none: the probe has it not
     int probe_width = 0, probe_height = 0;
-    std::optional<double> cpu_ms; // predicted; only for a budget of time
+    std::optional<double> cpu_ms; // predicted; only for a time budget
     std::string aside;            // why nothing was planned: then `materials` is empty
     std::vector<MaterialTechnique> settings() const;
 };
@@ -42,21 +42,21 @@ struct Plan {
 inline constexpr double kPlanSafety = 1.3;
 inline constexpr double kTimeSafety = 1.05; // the same for times
 
-// A budget of time draws the cheapest plan once, to measure. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage
+// A time budget draws the cheapest plan once, to measure. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage
 // for a budget that no setting reaches.
 Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const std::string& technique, int samples);
 
 // Returns a plan in words: a line for the picture, then one for each visible material.
 std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget);
 
-// The subject of a plan. A plan for another subject is refused.
+// A plan's subject. A plan for another subject is refused.
 struct PlanSubject {
     std::string scene, environment, view; // names, and the camera in words
     int width = 0, height = 0;
-    std::string content; // hash of scene, environment and options
+    std::string content; // hash over scene, environment and options
 };
 std::string plan_json(const Plan& plan, const PlanSubject& subject);
-// Reads the settings of a plan file. Errors: ExitCode::bad_input, with the JSON path of the first member that differs from `subject` or is
+// Reads a plan file's settings. Errors: ExitCode::bad_input, with the JSON path of the first member that differs from `subject` or is
 // malformed.
 Result<std::vector<MaterialTechnique>> read_plan(const std::string& path, const PlanSubject& subject, std::size_t materials);
 

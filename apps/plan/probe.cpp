@@ -16,22 +16,22 @@
 namespace burnish {
 namespace {
 
-constexpr double kLeastPixels = 14400;          // of a probe, unless the step would be below
-constexpr int kLeastStep = 4, kMostStep = 8;    // pixels of the frame a side of one of the probe's
+constexpr double kLeastPixels = 14400;          // in a probe, unless the step would be below
+constexpr int kLeastStep = 4, kMostStep = 8;    // frame pixels along a probe pixel's side
 constexpr float kProbePpd = 0.5f * kDefaultPpd; // between the frame's filter and one as fine as the probe
 constexpr int kRandomSamples = 32;              // of mc, for each of two seeds
 constexpr std::uint32_t kSeeds[] = {0x51ed270b, 0x2545f491};
-constexpr double kPriorShare = 0.25; // error of the best prefiltered setting over its distance to a single fetch; see the notebook
+constexpr double kPriorShare = 0.25; // the best prefiltered setting's error over its distance to a single fetch; see the notebook
 constexpr double kLeastShare = 0.05; // the same at least
 constexpr double kMostShare = 0.8;   // the same at most: where noise is skewed, two noisy pictures deceive
-constexpr double kNoiseOff = 0.2;    // relative deviation of the noise that two noisy pictures tell
+constexpr double kNoiseOff = 0.2;    // the noise's relative deviation, as two noisy pictures tell
 // FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
 constexpr double kFlipExponent = 0.7;
-constexpr int kBlock = 8;         // pixels a side of a block, whose errors count as independent
-constexpr int kMostExposures = 6; // of HDR-FLIP, over the range of the frame
+constexpr int kBlock = 8;         // pixels along a block's side; blocks' errors count as independent
+constexpr int kMostExposures = 6; // for HDR-FLIP, over the frame's range
 constexpr int kUnseen = -1;
 
-// Materials of the probe's pixels; kUnseen for pixels without a solid surface, or with blended surfaces before it.
+// The probe pixels' materials; kUnseen for pixels without a solid surface, or with blended surfaces before it.
 struct PixelMaterials {
     std::vector<int> of; // [pixel]
     int width = 0, height = 0;
@@ -52,7 +52,7 @@ PixelMaterials materials_of(const Frame& frame, const DrawTables& tables, std::s
     return m;
 }
 
-// Squared distance between colours that a FLIP error stands for, and back. Squares of independent errors add.
+// Squared distance between colours that a FLIP error stands for, and back. Independent errors' squares add.
 double squared(double flip)
 {
     return det_pow(std::max(0.0, flip), 2.0 / kFlipExponent);
@@ -62,13 +62,13 @@ double flip_of(double square)
     return det_pow(std::max(0.0, square), 0.5 * kFlipExponent);
 }
 
-// Returns the squared error of one noisy picture to the truth, relative to two noisy ones'.
+// Returns one noisy picture's squared error to the truth, relative to two noisy ones'.
 double squared_error_of_one()
 {
     return flip_of(0.5) * flip_of(0.5);
 }
 
-// Returns the mean error of each material's pixels.
+// Returns the mean error over each material's pixels.
 std::vector<double> mean_errors(const Image& error, const PixelMaterials& materials)
 {
     std::vector<double> sums(materials.pixels.size(), 0.0);
@@ -80,17 +80,17 @@ std::vector<double> mean_errors(const Image& error, const PixelMaterials& materi
     return sums;
 }
 
-// Moments of errors over a material's pixels: of a picture against noisy ones, and of one noisy picture.
+// Error moments over a material's pixels: for a picture against noisy ones, and for one noisy picture.
 struct Moments {
-    double mean = 0.0, square = 0.0, noise_square = 0.0; // mean error, means of squared errors
+    double mean = 0.0, square = 0.0, noise_square = 0.0; // mean error, squared errors' means
     double deviation = 0.0;                              // standard error of `square` - `noise_square`
 };
 
-// of_a, of_b: errors of the picture against two independent noisy ones; of_noise: of these against each other. Blocks of pixels tell the
+// of_a, of_b: the picture's errors against two independent noisy ones; of_noise: errors between these two. Pixel blocks tell the
 // deviation.
 std::vector<Moments> moments_of(const Image& of_a, const Image& of_b, const Image& of_noise, const PixelMaterials& materials)
 {
-    // Sums over a block's pixels of one material, and over blocks
+    // Sums over a block's pixels with one material, and over blocks
     struct Block {
         double mean = 0.0, square = 0.0, noise_square = 0.0, pixels = 0.0;
     };
@@ -140,8 +140,8 @@ bool prefiltered(const MaterialTechnique& m)
     return !(find_technique(m.technique)->traits & kSamplesLobe);
 }
 
-// Returns the mean error of the best prefiltered setting on a material. The measured error without its noise counts as far as it stands out
-// of its deviation. A guess by the distance to a single fetch counts for the rest.
+// Returns the best prefiltered setting's mean error on a material. The measured error without its noise counts as far as this error exceeds
+// its deviation. A guess by the distance to a single fetch counts for the rest.
 double own_error(const Moments& m, double fetch)
 {
     const double guess = kPriorShare * fetch, least = kLeastShare * fetch, risen = std::max(0.0, m.square - m.noise_square);
@@ -158,7 +158,7 @@ double sum_of(const Image& error)
     return std::accumulate(error.f32(), error.f32() + pixels, 0.0);
 }
 
-// Returns the error of two noisy pictures as FLIP filters a frame, relative to `error`, as it filters the probe.
+// Returns two noisy pictures' error as FLIP filters a frame, relative to `error`, as it filters the probe.
 double noise_filter(const Image& a, const Image& b, const Image& error, FlipOptions flip, const Jobs& jobs)
 {
     flip.ppd = kDefaultPpd;
@@ -225,7 +225,7 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         n *= filtered * flip_of(0.5);
     // Find each setting's distance to the best one
     std::vector<std::vector<double>> distances;
-    std::vector<double> fetch(count, 1.0); // of the better single fetch
+    std::vector<double> fetch(count, 1.0); // the better single fetch's
     double fetch_ms = noisy_ms;
     for (const MaterialTechnique& s : all) {
         distances.emplace_back(count, 0.0);

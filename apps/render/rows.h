@@ -1,4 +1,4 @@
-// Rows of a picture, drawn through windows. Their pixels have the bits of the whole picture.
+// Picture rows, drawn through windows. Their pixels have the whole picture's bits.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace burnish {
 
-// The rows of a band, in each form that some output needs.
+// A band's rows, in each form that some output needs.
 struct DrawnBand {
     Image linear;                   // f32, RGB or RGBA
     Image layered;                  // f32, with --aov
@@ -41,17 +41,17 @@ struct Bands {
 
 bool writes_png(const RenderOptions& options);
 
-// Returns true if pixels of the picture read their neighbours.
+// Returns true if the picture's pixels read their neighbours.
 bool has_margin(const RenderOptions& options, const FrameDesc& desc, const Session& session);
 
-// Draws the rows from `top` on, a multiple of kWindowStep. Fails with ExitCode::usage at FrameDesc::window for pictures that are drawn as a
+// Draws the rows from `top` on; kWindowStep divides `top`. Fails with ExitCode::usage at FrameDesc::window for pictures that are drawn as a
 // whole.
 Result<DrawnBand> draw_rows(const Bands& bands, int top, int rows);
 
-// Adds up the figures of windows.
+// Adds up windows' figures.
 void add_stats(const FrameStats& from, FrameStats& to);
 
-// The hash of a picture, as pixel_hash(), from its bands.
+// A picture's hash, as pixel_hash(), from its bands.
 class BandHash {
   public:
     BandHash(int width, int height);

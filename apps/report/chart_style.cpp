@@ -5,7 +5,7 @@
 namespace burnish {
 namespace {
 
-// One colour for each family of techniques, safe for red-green colour blindness, with enough contrast on light and dark paper. A letter
+// One colour for each technique family, safe for red-green colour blindness, with enough contrast on light and dark paper. A letter
 // marks relatives within a family.
 struct Tint {
     const char* name;
@@ -21,14 +21,14 @@ constexpr Tint kTints[] = {
 struct ChartLineStyle {
     const char *css_class, *tint; // tint: null: the family's
     double width, opacity;        // px, [0,1]
-    double on, off;               // px of dashes and gaps, 0: none
+    double on, off;               // px a dash and a gap, 0: none
 };
 constexpr ChartLineStyle kLines[] = {
     {"grid", "grid", 1.0, 1.0, 0.0, 0.0},    {"front", "soft", 5.0, 0.35, 0.0, 0.0},  {"whisker", nullptr, 1.0, 0.6, 0.0, 0.0},
     {"level", nullptr, 1.3, 0.75, 5.0, 4.0}, {"curve", nullptr, 1.3, 0.75, 0.0, 0.0},
 };
 
-// Changes of text by class; several classes may apply.
+// Text changes by class; several classes may apply.
 struct TextChange {
     const char* css_class;
     const char* tint; // null: left as it is
@@ -46,7 +46,7 @@ constexpr TextChange kTexts[] = {
     {"value", nullptr, 12.0, 0.0, false, false},
 };
 
-// Text colours inside coloured cells, independent of the paper.
+// Text colours inside coloured cells, whatever the paper.
 struct CellInk {
     const char* css_class;
     unsigned rgb;

@@ -53,16 +53,16 @@ constexpr std::size_t kChanges = 0
 #include "apps/risks/risks.def"
     ;
 using Changes = std::array<float, kChanges>;
-// Least visible differences, by Change, in the logarithm of a pixel's luminance.
+// Least visible differences, by Change, in a pixel's log luminance.
 constexpr Changes kSeen = {0.12f, 0.12f, 0.12f, 0.25f, 0.2f, 0.0f};
 constexpr float kBlack = 0.1f; // relative to the picture's median luminance: pixels are compared on top of this
 
-constexpr int kLookedAt = 3600, kMostStep = 16; // pixels of the small picture, about; largest step between them
+constexpr int kLookedAt = 3600, kMostStep = 16; // the small picture's pixels, about; largest step between them
 constexpr float kDefaultNdotV = 0.7f;           // for entries whose path does not move the eye
 constexpr std::uint8_t kUnmarkedGrey = 48;
 struct Active { // a rule that this picture may break
     std::size_t rule;
-    float least; // limit of the rule's measure
+    float least; // the limit on the rule's measure
     std::string beyond;
 };
 
@@ -74,7 +74,7 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
-// Describes the onset of an entry for any scene. The eye of a failure scene and a tilt by two angles become an angle.
+// Describes an entry's onset for any scene. A failure scene's eye and a tilt by two angles become an angle.
 std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 {
     if (setting.options.eye && setting.values.starts_with("eye "))
@@ -123,7 +123,7 @@ bool shaded(const PixelLayers& at)
     return at.normal[0] != 0.0f || at.normal[1] != 0.0f || at.normal[2] != 0.0f;
 }
 
-// Return roughness of the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
+// Return roughness for the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
 float narrow_of(const RiskInputs& i)
 {
     return std::sqrt(std::max(i.across, 0.3f * i.along));
@@ -137,7 +137,7 @@ float bent_of(const RiskInputs& i)
     return round_of(i) * std::clamp(1.2f - i.eta(), 0.0f, 1.0f);
 }
 
-// Examines the pixels of one picture.
+// Examines one picture's pixels.
 class Looker {
   public:
     Looker(const Session& session, const FrameDesc& desc, const RiskInputs& inputs, const Frame& frame)
@@ -191,7 +191,7 @@ float Looker::median() const
     return *middle;
 }
 
-// Returns the luminance of the extracted lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
+// Returns the luminance in the extracted lights' highlights without masking, for the anisotropic GGX lobe and for the round one.
 glm::vec2 Looker::extracted_lights(const glm::vec3& n, const glm::vec3& u, const glm::vec3& w, const RiskInputs& i,
                                    const glm::vec3& v) const
 {
@@ -203,7 +203,7 @@ glm::vec2 Looker::extracted_lights(const glm::vec3& n, const glm::vec3& u, const
             continue;
         const glm::vec3 h = v + lamp.direction;
         const float hn = glm::dot(h, n), hu = glm::dot(h, u), hw = glm::dot(h, w);
-        const auto ggx = [&](float a, float b) { // density of slopes; the light's size widens the lobe
+        const auto ggx = [&](float a, float b) { // slope density; the light's size widens the lobe
             const float s = std::max(a, lamp.radius), t = std::max(b, lamp.radius), x = hu / (hn * s), y = hw / (hn * t),
                         k = 1.0f + x * x + y * y;
             return 1.0f / (3.14159265f * s * t * k * k);
@@ -214,7 +214,7 @@ glm::vec2 Looker::extracted_lights(const glm::vec3& n, const glm::vec3& u, const
     return sum;
 }
 
-// Returns log-luminance differences between approximations of the lobe. Entries not set in `asked` may hold any number.
+// Returns log-luminance differences between the lobe's approximations. Entries not set in `asked` may hold any number.
 Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::vec3& v, std::uint32_t asked) const
 {
     const auto wanted = [&](Change change) { return (asked >> static_cast<unsigned>(change) & 1u) != 0; };
@@ -222,7 +222,7 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     const float luminance = luminance_of(at.albedo), f0 = 0.04f + (luminance - 0.04f) * at.metalness;
     const float away = 1.0f - i.n_dot_v, away2 = away * away, fresnel = f0 + (1.0f - f0) * away2 * away2 * away;
     const float other = luminance * (1.0f - at.metalness) * sky_.diffuse(turned_ ? turn_ * n : n) + black_;
-    // Slopes of GGX along one axis, density (1 + t^2)^-1.5: medians of five equal parts.
+    // GGX slopes along one axis, density (1 + t^2)^-1.5: five equal parts' medians.
     constexpr float kPlaces[] = {-1.3333f, -0.4364f, 0.0f, 0.4364f, 1.3333f};
     const float narrow = narrow_of(i), round = round_of(i);
     float sum = 0.0f, least = 1e30f, most = 0.0f;
@@ -285,7 +285,7 @@ std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std:
     return bits;
 }
 
-// Returns well separated hues for any number of rules.
+// Returns well separated hues for any rule count.
 std::array<std::uint8_t, 3> colour_of(std::size_t rule)
 {
     const float hue = std::fmod(0.61803f * static_cast<float>(rule), 1.0f) * 6.0f;
@@ -297,7 +297,7 @@ std::array<std::uint8_t, 3> colour_of(std::size_t rule)
     return rgb;
 }
 
-// Returns "lime #b8ff46": the nearest of twelve names, and the bytes.
+// Returns "lime #b8ff46": the nearest among twelve names, and the bytes.
 std::string words_of_colour(std::size_t rule)
 {
     constexpr const char* kNames[] = {"red",  "orange", "yellow", "lime",   "green",   "mint",

@@ -15,7 +15,7 @@ namespace burnish {
 
 inline constexpr int kNone = -1;
 
-// One vertex table for the whole scene; a primitive owns a contiguous range of it. Object space.
+// One vertex table for the whole scene; a primitive owns a contiguous range in this table. Object space.
 struct VertexTable {
     Column<float> px, py, pz;     // position, finite
     Column<float> nx, ny, nz;     // unit normal
@@ -43,7 +43,7 @@ struct Node {
     std::int32_t parent = kNone, mesh = kNone, camera = kNone, light = kNone, area_light = kNone;
     bool stage = false;           // its mesh is a floor or backdrop, which views do not frame
     glm::mat4 local{1.0f};        // to the parent's space
-    glm::dvec3 local_beyond{0.0}; // what floats leave of its translation
+    glm::dvec3 local_beyond{0.0}; // the translation's rest that floats leave
     glm::mat4 world{1.0f};        // to world space, from the scene's origin; update_world() fills it
 };
 
@@ -59,7 +59,7 @@ struct TextureRef {
     bool used() const { return texture != kNone; }
 };
 
-struct FieldKinds { // of material.def, light.def and area_light.def
+struct FieldKinds { // in material.def, light.def and area_light.def
     using number = float;
     using vec2 = glm::vec2;
     using vec3 = glm::vec3;
@@ -67,10 +67,10 @@ struct FieldKinds { // of material.def, light.def and area_light.def
     using flag = bool;
 };
 
-// Material::emitter, besides kSolidEmitter + the place of an area light among those of the draw tables.
+// Material::emitter, besides kSolidEmitter + an area light's place in the draw tables.
 inline constexpr int kNoEmitter = 0;    // it shows no area light
-inline constexpr int kOpenEmitter = 1;  // rays of light pass through it; cameras see it
-inline constexpr int kSolidEmitter = 2; // it stands in the way of light
+inline constexpr int kOpenEmitter = 1;  // light rays pass through it; cameras see it
+inline constexpr int kSolidEmitter = 2; // it stands in the light's way
 
 struct Material { // material.def
     std::string name;
@@ -80,7 +80,7 @@ struct Material { // material.def
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
     int emitter = kNoEmitter; // whether it shows an area light, see above
-    bool heights = false;     // the alpha of normal_tex holds heights, [0,1]
+    bool heights = false;     // normal_tex's alpha holds heights, [0,1]
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };
@@ -94,7 +94,7 @@ struct Texture { // an image with its sampler
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-struct Light { // light.def; shines along -Z of its node
+struct Light { // light.def; shines along its node's -Z
     std::string name;
     LightType type = LightType::point;
 #define BN_LIGHT_FACTOR(kind, name, fallback, path, least, most) FieldKinds::kind name = FieldKinds::kind(fallback);
@@ -110,7 +110,7 @@ struct AreaLight { // area_light.def
     AreaShape shape = AreaShape::quad;
     std::vector<glm::vec3> points; // metres, in its node's space
     bool two_sided = false;
-    bool solid = false;           // it stands in the way of other light, as a surface does
+    bool solid = false;           // it stands in other light's way, as a surface does
     std::int32_t texture = kNone; // of quads: what radiance is multiplied by, its lower left corner at the first point and its lower
                                   // right one at the second
     std::string texture_file;     // the same where it is not read yet (read_area_texture())
@@ -118,7 +118,7 @@ struct AreaLight { // area_light.def
 #include "core/scene/area_light.def"
 };
 
-struct Camera { // looks along -Z of its node, +Y up
+struct Camera { // looks along its node's -Z, +Y up
     std::string name;
     bool orthographic = false;
     float yfov = 0.78539816f;        // radians, perspective
@@ -139,22 +139,22 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<AreaLight> area_lights;
     std::vector<Camera> cameras;
-    glm::dvec3 origin{0.0};            // of places in world space; 0 but for scenes far away (core/scene/origin.h)
-    std::vector<std::string> variants; // names of its file's variants (KHR_materials_variants), which Moment::variant chooses from
-    bool image_light = false;          // its file has a light of images for it (image_light.h)
+    glm::dvec3 origin{0.0};            // for places in world space; 0 but for scenes far away (core/scene/origin.h)
+    std::vector<std::string> variants; // its file's variant names (KHR_materials_variants), which Moment::variant chooses from
+    bool image_light = false;          // its file has an image light for it (image_light.h)
     std::vector<std::string> files;    // paths of every file that was read for it
     std::vector<std::string> warnings; // one line each, in the order found
 };
 
-// The state that a scene is read in: a moment of one of its animations, and a variant of its materials.
+// The state that a scene is read in: a moment in an animation, and a variant for the materials.
 struct Moment {
     std::optional<float> seconds; // from 0 on; empty: the scene at rest
     int animation = 0;
-    std::string variant = {}; // a name of Scene::variants; empty: the meshes' own materials
+    std::string variant = {}; // a name in Scene::variants; empty: the meshes' own materials
 };
 
 void update_world(Scene& scene); // fills Node::world from Node::local and the origin
-// Transforms of all nodes to world space, from 0, with all digits of the file.
+// All nodes' transforms to world space, from 0, with all the file's digits.
 std::vector<glm::dmat4> exact_world(const Scene& scene);
 
 } // namespace burnish

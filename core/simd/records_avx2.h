@@ -1,5 +1,5 @@
-// Records, quads and texels in eight lanes (part of lanes_avx2.h). 128-bit loads read arrays of structs, and registers
-// transpose them. The transposes put SIMD lane 4q + j into 128-bit part q of register j. Then one vpermilps with
+// Records, quads and texels in eight lanes (part of lanes_avx2.h). 128-bit loads read struct arrays, and registers
+// transpose them. The transposes put SIMD lane 4q + j into register j's 128-bit part q. Then one vpermilps with
 // immediate j spreads a lane's weight over the part.
 #pragma once
 
@@ -16,7 +16,7 @@ BN_INLINE lane_indices spill(integer i)
     __asm__("" : "+m"(s.at)); // keeps the indices in memory: GCC would extract them one by one with shuffles
     return s;
 }
-// Returns the starts of 64-byte records in units of 8 bytes, the largest scale in an address.
+// Returns the starts of 64-byte records in 8-byte units, the largest scale in an address.
 BN_INLINE lane_indices spill_records(integer index)
 {
     lane_indices s;
@@ -27,13 +27,13 @@ BN_INLINE const float* record_at(const void* base, const lane_indices& i, int la
 {
     return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
-// Loads four floats from the records of lanes j and 4 + j.
+// Loads four floats from the records for lanes j and 4 + j.
 BN_INLINE __m256 quads_at(const void* base, const lane_indices& i, int j)
 {
     const __m256 q = _mm256_castps128_ps256(_mm_loadu_ps(record_at(base, i, j)));
     return _mm256_insertf128_ps(q, _mm_loadu_ps(record_at(base, i, j + 4)), 1);
 }
-// Transposes. Part q of r[j] holds the four fields of lane 4q + j; out[f] holds field f of every lane.
+// Transposes. Part q in r[j] holds the four fields for lane 4q + j; out[f] holds every lane's field f.
 BN_INLINE void transpose_quads(const __m256 r[4], real out[4])
 {
     const __m256d t0 = _mm256_castps_pd(_mm256_unpacklo_ps(r[0], r[1]));
@@ -45,7 +45,7 @@ BN_INLINE void transpose_quads(const __m256 r[4], real out[4])
     out[2].v = _mm256_castpd_ps(_mm256_unpacklo_pd(t2, t3));
     out[3].v = _mm256_castpd_ps(_mm256_unpackhi_pd(t2, t3));
 }
-// Spreads the weight of lane 4q + j over part q.
+// Spreads the weight for lane 4q + j over part q.
 BN_INLINE __m256 lane_weight(__m256 w, int j)
 {
     switch (j) {
@@ -184,7 +184,7 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm256_store_si256(reinterpret_cast<__m256i*>(p.row1.at), row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
-// Adds one lane's texels. w0, w1: weights of the upper and lower row, [left of four lanes, right of the same lanes].
+// Adds one lane's texels. w0, w1: weights for the upper and lower row, [left of four lanes, right of the same lanes].
 template <int kLane> BN_INLINE void texel_add_lane(texel_acc& acc, texel_buffer texels, const texel_plan& p, __m256 w0, __m256 w1)
 {
     const __m256 p0 = _mm256_mul_ps(lane_weight(w0, kLane & 3), texel_pair(texels, p.row0, kLane));

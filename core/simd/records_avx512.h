@@ -1,5 +1,5 @@
-// Records, quads and texels in sixteen lanes (part of lanes_avx512.h). 128-bit to 512-bit loads read arrays of structs,
-// and registers transpose them. The transposes put SIMD lane 4q + j into 128-bit part q of register j. Then one
+// Records, quads and texels in sixteen lanes (part of lanes_avx512.h). 128-bit to 512-bit loads read struct arrays,
+// and registers transpose them. The transposes put SIMD lane 4q + j into register j's 128-bit part q. Then one
 // vpermilps with immediate j spreads a lane's weight over the part.
 #pragma once
 
@@ -16,7 +16,7 @@ BN_INLINE lane_indices spill(integer i)
     __asm__("" : "+m"(s.at)); // keeps the indices in memory: GCC would extract them one by one with shuffles
     return s;
 }
-// Returns the starts of 64-byte records in units of 8 bytes, the largest scale in an address.
+// Returns the starts of 64-byte records in 8-byte units, the largest scale in an address.
 BN_INLINE lane_indices spill_records(integer index)
 {
     lane_indices s;
@@ -27,7 +27,7 @@ BN_INLINE const float* record_at(const void* base, const lane_indices& i, int la
 {
     return reinterpret_cast<const float*>(static_cast<const char*>(base) + std::size_t{8} * i.at[lane]);
 }
-// Loads four floats from the records of lanes j, 4 + j, 8 + j, 12 + j.
+// Loads four floats from the records for lanes j, 4 + j, 8 + j, 12 + j.
 BN_INLINE __m512 quads_at(const void* base, const lane_indices& i, int j)
 {
     __m512 q = _mm512_castps128_ps512(_mm_loadu_ps(record_at(base, i, j)));
@@ -35,7 +35,7 @@ BN_INLINE __m512 quads_at(const void* base, const lane_indices& i, int j)
     q = _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 8)), 2);
     return _mm512_insertf32x4(q, _mm_loadu_ps(record_at(base, i, j + 12)), 3);
 }
-// Transposes. Part q of r[j] holds the four fields of lane 4q + j; out[f] holds field f of every lane.
+// Transposes. Part q in r[j] holds the four fields for lane 4q + j; out[f] holds every lane's field f.
 BN_INLINE void transpose_quads(const __m512 r[4], real out[4])
 {
     const __m512d t0 = _mm512_castps_pd(_mm512_unpacklo_ps(r[0], r[1]));
@@ -47,7 +47,7 @@ BN_INLINE void transpose_quads(const __m512 r[4], real out[4])
     out[2].v = _mm512_castpd_ps(_mm512_unpacklo_pd(t2, t3));
     out[3].v = _mm512_castpd_ps(_mm512_unpackhi_pd(t2, t3));
 }
-// Spreads the weight of lane 4q + j over part q.
+// Spreads the weight for lane 4q + j over part q.
 BN_INLINE __m512 lane_weight(real w, int j)
 {
     switch (j) {
@@ -210,7 +210,7 @@ BN_INLINE void plan_texels(texel_plan& p, integer row0, integer row1, real w00, 
     _mm512_store_si512(p.row1.at, row1.v);
     p.w00 = w00, p.w10 = w10, p.w01 = w01, p.w11 = w11;
 }
-// Adds the texels of lanes kLane and kLane + 4. w0, w1: texel_weights() of the upper and lower row.
+// Adds the texels for lanes kLane and kLane + 4. w0, w1: texel_weights() for the upper and lower row.
 template <int kLane> BN_INLINE void texel_add_lanes(texel_acc& acc, texel_buffer texels, const texel_plan& p, real w0, real w1)
 {
     constexpr int kAt = kLane < 8 ? kLane : kLane - 4;

@@ -1,4 +1,4 @@
-// Input and output of every renderer: one frame description, one picture. The renderers meet here and nowhere else.
+// Every renderer's input and output: one frame description, one picture. The renderers meet here and nowhere else.
 // Pixel (0,0) is the top left one. Pixel centres are at .5. Clip space is Vulkan's with reversed depth (1 near, 0 far).
 #pragma once
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace burnish {
 struct View {                                                            // a resolved camera
     glm::vec3 eye{0.0f}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; // orthonormal, world space
     bool orthographic = false;
-    float tan_half_x = 1.0f, tan_half_y = 1.0f; // of the half angles; orthographic: half extents in metres
+    float tan_half_x = 1.0f, tan_half_y = 1.0f; // for the half angles; orthographic: half extents in metres
     float znear = 0.01f;                        // metres; the far plane is at infinity (perspective)
     float zfar = 0.0f;                          // orthographic only
 };
@@ -36,11 +36,11 @@ struct View {                                                            // a re
 // ExitCode::usage if no camera has this index.
 Result<View> make_view(const Scene& scene, int camera, int width, int height);
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height);
-struct Framing {                       // direction of the default view: three quarters, so that a cube shows three faces
+struct Framing {                       // the default view's direction: three quarters, so that a cube shows three faces
     float azimuth_rad = 0.61086524f;   // direction to the eye, from +Z towards +X
     float elevation_rad = 0.48869219f; // above the horizon
     float fov_y_rad = 0.78539816f;     // vertical field of view
-    std::optional<glm::vec3> target;   // centre of the picture; if empty, the scene's outline is centred
+    std::optional<glm::vec3> target;   // the picture's centre; if empty, the scene's outline is centred
 };
 // Returns the view from the nearest place in this direction that shows the whole scene with a margin.
 View auto_frame(const DrawTables& tables, int width, int height, const Framing& framing);
@@ -50,18 +50,18 @@ glm::mat4 clip_from_world(const View& view);
 
 inline constexpr int kMaxPictureSide = 16384; // pixels
 inline constexpr int kMaxSampleBits = 28 - kLessBits;
-inline constexpr std::int64_t kMaxPictureSamples = 1ll << kMaxSampleBits; // width * height * msaa: 2 GiB of depth and triangle ids
+inline constexpr std::int64_t kMaxPictureSamples = 1ll << kMaxSampleBits; // width * height * msaa: 2 GiB for depth and triangle ids
 
-// The window of a picture that a frame draws. Pixels have the bits that they have where a frame draws the whole picture.
+// The picture window that a frame draws. Pixels have the bits that they have where a frame draws the whole picture.
 struct PictureWindow {
     int picture_width = 0, picture_height = 0; // pixels, at most kMaxWindowedSide; 0: the frame is the whole picture
     int left = 0, top = 0;                     // the frame's first pixel in the picture, multiples of kWindowStep
 };
 inline constexpr int kMaxWindowedSide = 65536, kWindowStep = 8; // pixels
-// A picture with a longer side than kMaxPictureSide consists of cells. Snapped positions count from the middle of a cell, so a window
+// A picture with a longer side than kMaxPictureSide consists of cells. Snapped positions count from a cell's middle, so a window
 // reaches beyond one cell by kWindowStep at most.
 inline constexpr int kWindowCell = 16384; // pixels
-int window_cell(int first, int size);     // of a window's side
+int window_cell(int first, int size);     // for a window's side
 
 struct MaterialTechnique { // of one material
     std::string technique = "auto";
@@ -71,14 +71,14 @@ struct MaterialTechnique { // of one material
 struct FrameDesc {
     int width = 1280, height = 720;
     int msaa = 8; // 1, 2, 4, 8, 16
-    View view;    // of the whole picture
+    View view;    // for the whole picture
     PictureWindow window;
     std::string technique = "auto";
     int samples = 16; // for techniques that take samples; `burnish render` takes TechniqueInfo::default_samples
-    // Techniques and samples of the scene's materials, by index, in place of the two fields above; empty: those for all. A technique that
+    // The scene materials' techniques and samples, by index, in place of the two fields above; empty: those for all. A technique that
     // reads the box-filtered environment cannot be one of them.
     std::vector<MaterialTechnique> by_material;
-    // Options of techniques (shading/models.def). raster/frame/choices.h names the numbers of fields that choose.
+    // Technique options (shading/models.def). raster/frame/choices.h names the numbers in fields that choose.
 #define BN_DESC_number(id, fallback) float id = static_cast<float>(fallback);
 #define BN_DESC_whole(id, fallback) std::uint32_t id = fallback;
 #define BN_DESC_flag(id, fallback) bool id = (fallback) != 0;
@@ -88,8 +88,8 @@ struct FrameDesc {
 #define BN_DESC_angles(id, fallback) glm::vec2 id##_rad{glm::radians(static_cast<float>(fallback))};
 #define BN_PARAMETER(id, kind, option, fallback, least, most, unit, summary, readers) BN_DESC_##kind(id, fallback)
 #include "shading/models.def"
-    float roughness = -1.0f; // >= 0: roughness of every material
-    float anisotropy = 0.0f; // eta of every material, [-1, 1], if override_anisotropy is set
+    float roughness = -1.0f; // >= 0: every material's roughness
+    float anisotropy = 0.0f; // every material's eta, [-1, 1], if override_anisotropy is set
     bool override_anisotropy = false;
     int tile_size = 64;          // 32 or 64; never changes the picture
     int texture_anisotropy = 16; // most taps along the major axis, 1..16
@@ -104,7 +104,7 @@ struct FrameDesc {
 };
 // Checks that a rasterizer can draw the description: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
-// Return the size of the picture that a frame shows, or shows a window of.
+// Return the picture's size. The frame shows this picture, or its window.
 inline int picture_width(const FrameDesc& desc)
 {
     return desc.window.picture_width > 0 ? desc.window.picture_width : desc.width;
@@ -116,13 +116,13 @@ inline int picture_height(const FrameDesc& desc)
 
 struct SamplingStats {                // for renderers that integrate by random samples
     std::uint64_t samples = 0;        // per pixel
-    std::uint64_t samples_before = 0; // part of `samples` that came from a checkpoint
+    std::uint64_t samples_before = 0; // among `samples`, from a checkpoint
     bool resumed = false;             // a checkpoint was found
     bool stopped = false;             // the caller asked to end before all samples were taken
-    double relative_error = 0.0;      // half width, relative to the mean, of the 95 % confidence interval, averaged over pixels
+    double relative_error = 0.0;      // the 95 % confidence interval's half width, relative to the mean, averaged over pixels
     double million_samples_per_second = 0.0;
     std::uint64_t rays = 0;
-    double ray_share = 0.0; // share of the workers' time spent tracing rays
+    double ray_share = 0.0; // the workers' time share for tracing rays
 };
 
 struct FrameStats {
@@ -132,22 +132,22 @@ struct FrameStats {
     std::uint64_t background_pixels = 0;         // pixels with at least one uncovered sample
     bool samples_emulated = false;               // one pass per sample, because the device lacks this sample count
     bool depth_interpolated = false;             // depth comes from the device, not from the tile renderer's formula
-    double ms = 0.0;                             // wall time of the frame
+    double ms = 0.0;                             // the frame's wall time
     double device_ms = 0.0, device_cpu_ms = 0.0; // from submission to the device's fence: wall and process time
     SamplingStats sampling;
 };
 
-// Intermediate values of a frame, for comparisons word by word. Floats are stored as their bits.
+// A frame's intermediate values, for comparisons word by word. Floats are stored as their bits.
 struct StageRecords {
     Column<std::uint32_t> vertices; // [vertex][kVertexWords]: clip x, y, w, z; snapped x, y, 1/256 pixel; 1/w; depth
     Column<std::uint32_t> depths;   // [pixel][sample]
-    // [pixel][sample][kPairWords] (shading/lang/recorded.h), at the first sample of each visible (pixel, triangle) pair: sample mask,
+    // [pixel][sample][kPairWords] (shading/lang/recorded.h), at each visible (pixel, triangle) pair's first sample: sample mask,
     // interpolants, material inputs, colour. All 0 elsewhere. A background pair sets only mask and colour.
     Column<std::uint32_t> pairs;
 };
 inline constexpr int kVertexWords = 8;
 
-// Layers of the surface at a pixel's central sample, the nearest to its centre (central_sample()). All 0 if the sample shows no triangle.
+// The surface's layers at a pixel's central sample, the nearest to its centre (central_sample()). All 0 if the sample shows no triangle.
 // Values come from the (pixel, triangle) pair, at the point where the pair is shaded. A blended surface counts if its alpha exceeds a
 // half.
 template <int words> struct LayerValue {
@@ -165,8 +165,8 @@ static_assert(sizeof(PixelLayers) == kLayerWords * sizeof(float));
 struct Frame {
     Image color;                        // f32 RGB, linear Rec.709 scene radiance
     Image variance;                     // variance of `color` as an estimate, per channel; empty if `color` is not an estimate
-    Column<std::uint32_t> triangle_ids; // [pixel][sample] global id of the visible solid triangle, else kNoTriangle
-    Column<float> through;        // [pixel][sample] transmittance of blended surfaces, [0,1]; with triangle_ids; empty if nothing blends
+    Column<std::uint32_t> triangle_ids; // [pixel][sample] the visible solid triangle's global id, else kNoTriangle
+    Column<float> through;        // [pixel][sample] blended surfaces' transmittance, [0,1]; with triangle_ids; empty if nothing blends
     FrameProfile profile;         // empty unless asked for
     StageRecords stages;          // with FrameDesc::stages
     Column<PixelLayers> layers;   // [pixel], with FrameDesc::layers
@@ -199,38 +199,38 @@ struct RenderInput {
     const Environment& environment;
     const DfgTable& dfg;
     const Jobs& jobs;
-    const ltc::ShadingTables* ltc = nullptr; // of area lights; none: ltc::shipped_tables()
-    const PhongFiles* phong = nullptr;       // of as_mc's lobes; none: frames make their own
-    const SceneMips& mips = kBoxMips;        // how levels of the scene's maps are made
-    KeptPyramids* pyramids = nullptr;        // texture pyramids of an earlier renderer of the same scene, and of this one
+    const ltc::ShadingTables* ltc = nullptr; // for area lights; none: ltc::shipped_tables()
+    const PhongFiles* phong = nullptr;       // for as_mc's lobes; none: frames make their own
+    const SceneMips& mips = kBoxMips;        // how levels for the scene's maps are made
+    KeptPyramids* pyramids = nullptr;        // texture pyramids from an earlier renderer for the same scene, and from this one
 };
 
-enum class Sampling { none, count, grid }; // meaning of FrameDesc::samples for a technique: unused, N samples, n x n samples
+enum class Sampling { none, count, grid }; // FrameDesc::samples' meaning for a technique: unused, N samples, n x n samples
 
 struct TechniqueInfo {
     const char* name;
     const char* summary;
     Sampling sampling;
     int default_samples, most_samples;
-    int traits; // sum of traits in shading/lang/records.h
+    int traits; // summed traits from shading/lang/records.h
 };
 const std::vector<TechniqueInfo>& techniques();               // from shading/models.def
 const TechniqueInfo* find_technique(const std::string& name); // accepts automatic_technique() too; null if unknown
 const TechniqueInfo& automatic_technique();                   // "auto": stands for chosen_technique()
-const TechniqueInfo& chosen_technique();                      // of techniques()
+const TechniqueInfo& chosen_technique();                      // among techniques()
 const TechniqueInfo& technique_of(const FrameDesc& desc);     // resolves "auto"
 const TechniqueInfo& technique_of(const FrameDesc& desc, std::size_t material);
-int samples_of(const FrameDesc& desc, std::size_t material);        // those of its technique
+int samples_of(const FrameDesc& desc, std::size_t material);        // its technique's
 int traits_for(const TechniqueInfo& technique, bool anisotropic);   // traits on a material with or without anisotropy
-int effective_samples(const TechniqueInfo& technique, int samples); // of the requested `samples`
+int effective_samples(const TechniqueInfo& technique, int samples); // from the requested `samples`
 
-struct ParameterInfo {            // a parameter of techniques
+struct ParameterInfo {            // a technique parameter
     const char* name;             // the field of FrameDesc; angles lack the suffix _rad
     const char* option;           // "axis-k"; reports write it as axis_k
     double fallback, least, most; // angles in degrees
     const char* unit;             // a choice lists its names here
     const char* summary;
-    const char* readers;      // name prefixes of techniques that read it, and "reference"
+    const char* readers;      // name prefixes for techniques that read it, and "reference"
     float FrameDesc::*number; // exactly one of these members is not null
     std::uint32_t FrameDesc::*whole;
     bool FrameDesc::*flag;
@@ -257,7 +257,7 @@ const std::vector<AreaWayInfo>& area_ways(); // from shading/models.def, in orde
 struct ModelInfo {
     const char* name;
     const char* summary;
-    int lobe, lobe_traits; // index and traits of its lobe (shading/lang/records.h); -1 if it cannot lie on a surface
+    int lobe, lobe_traits; // its lobe's index and traits (shading/lang/records.h); -1 if it cannot lie on a surface
 };
 const std::vector<ModelInfo>& models(); // from shading/models.def
 const ModelInfo& lobe_model(int lobe);  // by lobe index
@@ -267,8 +267,8 @@ Status check_lobe(const FrameDesc& desc, const TechniqueInfo& technique); // che
 
 // Returns a 64-bit hash over the size and every colour word's bits. Equal pictures have equal hashes on every machine.
 std::uint64_t pixel_hash(const Image& image);
-std::uint64_t count_not_finite(const Image& image); // number of pixels with a NaN or Inf channel; an empty image has none
-// Returns a frame as RGBA. The frame must be drawn with triangle_ids and without background. Alpha is the mean coverage of a pixel's
+std::uint64_t count_not_finite(const Image& image); // counts pixels with a NaN or Inf channel; an empty image has none
+// Returns a frame as RGBA. The frame must be drawn with triangle_ids and without background. Alpha is a pixel's mean coverage over its
 // samples (1 under a solid triangle, 1 - through elsewhere). Colours are associated (multiplied by alpha), as in `color`. through:
 // Frame::through, may be empty.
 Image with_coverage(const Image& color, const Column<std::uint32_t>& triangle_ids, const Column<float>& through);

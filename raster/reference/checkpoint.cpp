@@ -21,7 +21,7 @@ struct Header { // then each block's passes as 32 bits, then the picture's sums,
     char magic[8];
     std::uint64_t key;
     std::int32_t width, height;
-    std::uint64_t content_hash; // of all later bytes
+    std::uint64_t content_hash; // over all later bytes
 };
 
 std::size_t picture_size(const Accumulator& a)
@@ -107,7 +107,7 @@ struct BlocksHeader { // then the states of each block's pixels, row by row: sum
     std::uint32_t first_pass, passes; // of each block
 };
 
-// Calls `use` for each row of a block's pixels: index of the first pixel, number of pixels.
+// Calls `use` for each row in a block's pixels: the first pixel's index, the pixel count.
 template <class Use> void each_row(const Accumulator& a, std::size_t index, const Use& use)
 {
     const PixelBlock block = block_of(a, index, 0);
@@ -144,7 +144,7 @@ std::vector<std::uint8_t> blocks_of(const Accumulator& a, std::uint64_t key, std
 
 namespace {
 
-// Adds a sum of 2^k passes to a block's pixels. Allocates the sums that the block then has. from: the pixels' states.
+// Adds a sum over 2^k passes to a block's pixels. Allocates the sums that the block then has. from: the pixels' states.
 void add_to_block(Accumulator& into, std::size_t index, int k, const std::uint8_t* from)
 {
     const std::uint32_t passes = into.passes[index], then = passes + (1u << k);
@@ -179,7 +179,7 @@ Status take_blocks(const std::vector<std::uint8_t>& bytes, std::uint64_t key, Ac
             return refuse("is a part whose passes do not follow the passes before it");
         each_row(into, i, [&](std::size_t, std::size_t width) { pixels += width; });
     }
-    // A sum of 2^k passes is a node of the tree only behind a multiple of 2^k passes
+    // A sum over 2^k passes is a tree node only behind a multiple of 2^k passes
     const std::uint32_t largest = std::bit_floor(h.passes);
     if (h.passes == 0 || (h.first_pass - into.first_pass) % largest != 0 || h.first_pass + h.passes < h.first_pass ||
         bytes.size() != sizeof h + pixels * static_cast<std::size_t>(std::popcount(h.passes)) * sizeof(PixelState))

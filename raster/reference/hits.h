@@ -23,14 +23,14 @@ struct LaneRays {
 struct LaneHits {
     mask found;
     integer triangle; // global id, 0 without a hit
-    real u, v, t;     // weights of the second and third vertex; distance in lengths of the direction
+    real u, v, t;     // the second and third vertices' weights; distance in direction lengths
 };
 
-struct PixelFrame { // context of a batch of lanes
+struct PixelFrame { // a lane batch's context
     const ReferenceParams& f;
     ReferenceScratch& scratch;
-    std::uint32_t seed; // of the pixel and pass
-    int first;          // camera position of lane 0
+    std::uint32_t seed; // for the pixel and pass
+    int first;          // lane 0's camera position
 };
 
 // Makes camera rays. (px, py): pixels from the image's top left corner.
@@ -96,7 +96,7 @@ BN_INLINE LaneTriangle load_triangle(const ReferenceParams& f, integer triangle)
     return t;
 }
 
-// Returns the weights of the second and third vertex where a ray meets the triangle's plane (Moeller, Trumbore 1997).
+// Returns the second and third vertices' weights where a ray meets the triangle's plane (Moeller, Trumbore 1997).
 BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
 {
     const real3 e1 = t.corner[1] - t.corner[0], e2 = t.corner[2] - t.corner[0], s = r.origin - t.corner[0];
@@ -106,8 +106,8 @@ BN_INLINE real2 plane_weights(const LaneTriangle& t, const LaneRays& r)
     return vec2_of(k_dot3(s, q) / safe, k_dot3(r.direction, k_cross(s, e1)) / safe);
 }
 
-// Geometry at hits, from locate_hits(). footprint: camera rays through the horizontal and the vertical neighbour in the same quad of 2x2
-// pixels; null: textures at full detail.
+// Geometry at hits, from locate_hits(). footprint: camera rays through the horizontal and the vertical neighbour in the same 2x2 quad;
+// null: textures at full detail.
 struct LaneGeometry {
     visible_point fragment;
     real3 position, normal; // normal: the triangle's, unit, towards the ray's origin
@@ -235,7 +235,7 @@ BN_STAGE real passed_share(const PixelFrame& p, const LaneHits& h, const LaneRay
     return passed;
 }
 
-// Finds the solid surfaces behind camera rays. through: transmittance of the blended surfaces before them, [0,1].
+// Finds the solid surfaces behind camera rays. through: the blended surfaces' transmittance before them, [0,1].
 BN_INLINE LaneHits find_solid_hits(const PixelFrame& p, LaneRays r, mask wanted, real& through)
 {
     through = lit(1.0);
@@ -261,7 +261,7 @@ struct LaneSurface { // surface at a hit; without a hit only `reflects` and `emi
     real3 position, normal; // normal: the triangle's
     mask reflects;
     mask emitter; // shows an area light; for later hits, a solid one
-    real3 decay;  // log2 of the light's share left after a metre of the ray before the hit
+    real3 decay;  // log2 of the light's share left after a metre along the ray before the hit
 };
 
 BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresnel_parts& b)
@@ -278,7 +278,7 @@ BN_INLINE fresnel_parts select_parts(mask m, const fresnel_parts& a, const fresn
     return r;
 }
 
-// Returns the parts of a surface for lanes beside others whose parts reflect otherwise.
+// Returns a surface's parts for lanes beside others whose parts reflect otherwise.
 BN_INLINE fresnel_parts parts_beside(const surface& s)
 {
     if (s.exact)
@@ -288,7 +288,7 @@ BN_INLINE fresnel_parts parts_beside(const surface& s)
     return {none, none, black, none, one, white, black, s.f0, s.f90, none, none, one, one, none, black};
 }
 
-// Selects coatings. Lanes of a surface without the coating have a share of 0.
+// Selects coatings. Lanes on a surface without the coating have share 0.
 BN_INLINE void select_coatings(mask m, const SurfaceBsdf& a, const SurfaceBsdf& b, SurfaceBsdf& r)
 {
     r.coatings = a.coatings | b.coatings;
@@ -337,14 +337,14 @@ BN_INLINE SurfaceBsdf select_surface_bsdf(mask m, const SurfaceBsdf& a, const Su
     return r;
 }
 
-// Reflection and emission of one material at the hits.
+// One material's reflection and emission at the hits.
 struct MaterialAtHits {
     SurfaceBsdf r;
     real3 emission;
 };
 
-// Replaces x by one of the material's facets if the pixel sees all of them. Facets are chosen in proportion to their
-// weights, by a hash of the hit's texture coordinates, which differ between rays.
+// Replaces x by a material facet if the pixel sees all the material's facets. Facets are chosen in proportion to their
+// weights, by a hash over the hit's texture coordinates, which differ between rays.
 BN_STAGE void choose_facets(const ReferenceParams& f, const MaterialRecord& m, const material_inputs& at, const LaneGeometry& g,
                             shaded_point& x)
 {

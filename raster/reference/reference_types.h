@@ -1,4 +1,4 @@
-// Input and output of the reference renderer's lane code: plain data, shared by baseline code and instruction-set objects.
+// The input and output for the reference renderer's lane code: plain data, shared by baseline code and instruction-set objects.
 #pragma once
 #include <cstdint>
 
@@ -31,7 +31,7 @@ struct PixelState { // over some passes: mean and sum of squared differences fro
     double mean[3], m2[3];
 };
 
-// Merges the states of two sets of passes (Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing sample
+// Merges two pass sets' states (Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing sample
 // variances").
 static inline __attribute__((always_inline)) PixelState merged(const PixelState& a, double passes_a, const PixelState& b, double passes_b)
 {
@@ -45,10 +45,10 @@ static inline __attribute__((always_inline)) PixelState merged(const PixelState&
     return r;
 }
 
-inline constexpr int kMostSums = 32; // the bits of a number of passes
+inline constexpr int kMostSums = 32; // a pass count's bits
 
-// Adds the state of the next 2^k passes to a pixel's partial sums. Passes form a binary tree: sums[k] holds 2^k of them where bit k of
-// `passes` is set, and two sums of one size become the next one. So a picture's bits do not depend on who made which 2^k passes. passes:
+// Adds the next 2^k passes' state to a pixel's partial sums. Passes form a binary tree: sums[k] holds 2^k passes where `passes` has bit k
+// set, and two sums with equal sizes become the next one. So a picture's bits do not depend on who made which 2^k passes. passes:
 // in the sums so far, a multiple of 2^k.
 static inline __attribute__((always_inline)) void add_sum(PixelState* sums, std::uint32_t passes, int k, PixelState next)
 {
@@ -61,7 +61,7 @@ struct RayCount {
     std::uint64_t rays, ticks, all_ticks; // time stamp counter ticks: inside Embree, and in total
 };
 
-struct ReferenceScratch { // of one worker
+struct ReferenceScratch { // one worker's
     RayPacket packet;
     RayCount count;
 };
@@ -82,14 +82,14 @@ static inline __attribute__((always_inline)) PixelState total_of_sums(const Pixe
 
 struct PixelBlock {
     std::int32_t x0, y0, width, height;
-    std::size_t first_pixel;        // of the columns, row-major
-    std::uint32_t first_pass, done; // the first pass of the sums, and how many they hold
+    std::size_t first_pixel;        // the columns', row-major
+    std::uint32_t first_pass, done; // the sums' first pass, and how many they hold
     std::uint32_t passes;           // to add
-    PixelState* totals;             // a column of all pixels: takes the pixels' totals in place of their sums; null: sums are kept
+    PixelState* totals;             // a column with all pixels: takes the pixels' totals in place of their sums; null: sums are kept
 };
 
 struct ReferenceFns { // one table per instruction set
-    // Adds passes to a block's pixels. sums: a column of pixels, from first_pixel on, for each bit that is set in the block's passes,
+    // Adds passes to a block's pixels. sums: a pixel column, from first_pixel on, for each bit that is set in the block's passes,
     // before or, without totals, afterwards.
     void (*add_passes)(const ReferenceParams&, const PixelBlock&, ReferenceScratch&, PixelState* const* sums);
     // Traces the sample positions in one pixel row. Writes ids[pixel][sample], the solid triangles' global ids, and the transmittance of

@@ -26,17 +26,17 @@
 namespace burnish {
 namespace {
 
-// Radii and heights are in radii of the scene, the half diagonal of its bounds.
+// Radii and heights are in scene radii. A scene's radius is half its bounds' diagonal.
 constexpr int kSectors = 256;    // around the centre
 constexpr int kFloorRings = 144; // of vertices on the floor
 constexpr int kCoveRings = 48;   // on the backdrop
 constexpr double kFloorRadius = 3.0;
 constexpr double kWallRadius = 6.0, kCoveRadius = 2.5, kWallHeight = 6.0, kTop = 9.0;
 constexpr int kFloorRays = 256, kVertexRays = 64; // of a vertex
-constexpr std::size_t kMostDarkened = 1u << 20;   // vertices of a scene that is darkened
+constexpr std::size_t kMostDarkened = 1u << 20;   // vertices in a scene that is darkened
 constexpr double kSpread = 0.015;                 // around a vertex, about the distance to the next
-constexpr double kLift = 1e-4;                    // of a ray's origin above the scene's lowest place
-constexpr double kBelow = 2e-3;                   // of the floor below that place, so that a ground of the scene's own hides the floor
+constexpr double kLift = 1e-4;                    // from the scene's lowest place up to a ray's origin
+constexpr double kBelow = 2e-3;                   // from that place down to the floor, so that the scene's own ground hides the floor
 
 double mix(double a, double b, double t)
 {
@@ -53,14 +53,14 @@ struct Place { // on the profile that turns around the scene's axis
     double radius, height;
 };
 
-// Returns the floor's radius of a ring. Rings are dense near the centre, where shadows are.
+// Returns a ring's radius on the floor. Rings are dense near the centre, where shadows are.
 double floor_radius(int ring)
 {
     const double t = static_cast<double>(ring) / kFloorRings;
     return kFloorRadius * mix(t, t * t, 0.6);
 }
 
-// Returns the profile of the backdrop, from the floor's rim to the top.
+// Returns the backdrop's profile, from the floor's rim to the top.
 Place backdrop_place(int ring)
 {
     const double t = 4.0 * ring / kCoveRings, start = kWallRadius - kCoveRadius;
@@ -75,7 +75,7 @@ Place backdrop_place(int ring)
     return {ring == kCoveRings ? 0.0 : kWallRadius * det_cos(angle), mix(kWallHeight, kTop, det_sin(angle))};
 }
 
-// Returns the light that falls on a place of the stage: a pool around the scene that fades outwards and upwards.
+// Returns the light that falls on a place on the stage: a pool around the scene that fades outwards and upwards.
 double pool_of_light(const Place& p)
 {
     return mix(0.1, 1.0, 1.0 - smooth(0.6, 6.0, p.radius + p.height));
@@ -108,7 +108,7 @@ struct Seer { // a place that looks at the sky
     glm::dvec3 place, normal;
 };
 
-// Returns points of the unit disc, one for each ray of a place (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
+// Returns points in the unit disc, one for each ray from a place (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 std::vector<glm::dvec2> disc_points(int count)
 {
     std::vector<glm::dvec2> points;
@@ -119,7 +119,7 @@ std::vector<glm::dvec2> disc_points(int count)
     return points;
 }
 
-// Returns the share of the sky that each place sees. spread: the radius around a place where its rays begin, metres. With it a thin wall
+// Returns the sky share that each place sees. spread: the radius around a place where its rays begin, metres. With it a thin wall
 // that stands on the place hides what it hides beside the place.
 std::vector<float> visibility_of(const std::vector<Seer>& seers, int ray_count, double spread, const RayScene& rays, const Jobs& jobs)
 {
@@ -156,7 +156,7 @@ std::vector<float> visibility_of(const std::vector<Seer>& seers, int ray_count, 
     return seen;
 }
 
-// Returns the materials that hide nothing of the sky from a floor.
+// Returns the materials that hide no sky from a floor.
 std::vector<bool> clear_materials(const Scene& scene)
 {
     std::vector<bool> clear;
@@ -165,7 +165,7 @@ std::vector<bool> clear_materials(const Scene& scene)
     return clear;
 }
 
-// Finds the visibility of the sky, from the cache where it is kept.
+// Finds the sky's visibility, from the cache where it is kept.
 class SkyFinder {
   public:
     SkyFinder(const Scene& scene, const DrawTables& tables, const FloorSettings& settings)
@@ -202,7 +202,7 @@ class SkyFinder {
             rays_ = make_tree_scene(scene_, tables_, jobs_, best_isa(), clear_);
         return visibility_of(seers, ray_count, spread, *rays_, jobs_);
     }
-    // Returns the hash of everything that decides the visibility.
+    // Returns a hash over everything that decides the visibility.
     std::uint64_t hash_of(const std::vector<Seer>& seers, int ray_count, double spread) const
     {
         std::vector<std::uint8_t> hides;
@@ -225,15 +225,15 @@ class SkyFinder {
     std::unique_ptr<RayScene> rays_; // made when a ray is wanted
 };
 
-// Returns true if vertex colours may hold the visibility of the sky: they dim the light of lamps in the scene too.
+// Returns true if vertex colours may hold the sky's visibility: such colours dim the scene's lamplight too.
 bool darkens_vertices(const DrawTables& tables)
 {
     const bool lamps = std::any_of(tables.lights.begin(), tables.lights.end(), [](const PunctualLight& l) { return !l.directional; });
     return !lamps && tables.area_lights.empty() && tables.px.size() <= kMostDarkened;
 }
 
-// Returns the visibility of the vertices on dielectrics without vertex colours, and makes their primitives use colours. lift: of rays above
-// their surfaces, metres.
+// Returns the vertices' visibility on dielectrics without vertex colours, and makes their primitives use colours. lift: from their surfaces
+// up to the rays' origins, metres.
 Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, double lift, SkyFinder& sky)
 {
     std::vector<std::uint32_t> vertices, darkened;
@@ -265,7 +265,7 @@ Column<float> visibility_of_vertices(Scene& scene, const DrawTables& tables, dou
     return all;
 }
 
-// Returns the bounds of all that is no light; of the lights where there is nothing else.
+// Returns the bounds around all that is no light; around the lights where there is nothing else.
 std::pair<glm::dvec3, glm::dvec3> bounds_of_things(const Scene& scene, const DrawTables& tables)
 {
     glm::dvec3 low(tables.bounds_min), high(tables.bounds_max);
@@ -282,7 +282,7 @@ std::pair<glm::dvec3, glm::dvec3> bounds_of_things(const Scene& scene, const Dra
 
 struct Ground { // where the floor lies
     glm::dvec3 centre;
-    double radius; // of the scene, metres
+    double radius; // the scene's, metres
 };
 
 class FloorBuilder {
@@ -299,7 +299,7 @@ class FloorBuilder {
         const glm::dvec2 a = around_[static_cast<std::size_t>(sector % kSectors)] * (p.radius * ground_.radius);
         return ground_.centre + glm::dvec3(a.x, p.height * ground_.radius, a.y);
     }
-    // Adds a surface of rings. shade(sector, ring): vertex colour. Its normals point up, so it is lit evenly.
+    // Adds a surface made from rings. shade(sector, ring): vertex colour. Its normals point up, so it is lit evenly.
     template <class Profile, class Shade>
     void add(const char* name, std::int32_t material, int rings, const Profile& profile, const Shade& shade)
     {
@@ -351,7 +351,7 @@ Result<Column<float>> lay_floor(Scene& scene, const FloorSettings& settings, con
     const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
     const Ground ground{{0.5 * (low.x + high.x), low.y - kBelow * radius, 0.5 * (low.z + high.z)}, radius};
     FloorBuilder builder(scene, ground);
-    // Find the visibility of the sky
+    // Find the sky's visibility
     constexpr std::size_t kRow = kSectors;
     std::vector<float> seen((kFloorRings + 1) * kRow, 1.0f);
     if (settings.shaded) {

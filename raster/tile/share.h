@@ -14,13 +14,13 @@ inline namespace BN_ISA_NS {
 inline constexpr int kWidthWord = 0, kReadWords = 10, kFactorWord = 10; // neighbours read the words before kReadWords
 static_assert(kSharedWords == kFactorWord + 3 && kSharedPlanes == kReadWords + 1);
 
-// Returns word k of the records, by fragment.
+// Returns the records' word k, by fragment.
 BN_INLINE float* shared_word(const TileScratch& s, int k)
 {
     return s.shared_words + static_cast<std::ptrdiff_t>(s.shared_capacity) * k;
 }
 
-// Returns word k of shared_pixel::record, by pixel. Plane kReadWords holds shared_pixel::cover.
+// Returns shared_pixel::record's word k, by pixel. Plane kReadWords holds shared_pixel::cover.
 BN_INLINE float* shared_plane(const TileScratch& s, int k)
 {
     return s.shared_pixels + std::ptrdiff_t{kSharedPixels} * k;
@@ -41,7 +41,7 @@ BN_INLINE void begin_sharing(TileScratch& s)
     __builtin_memset(shared_plane(s, kReadWords), 0, sizeof(float) * kSharedPixels);
 }
 
-// Stores the records of a batch; `rest` lies in its colours.
+// Stores a batch's records; `rest` lies in its colours.
 BN_INLINE void store_shared_samples(const Tile& t, const Batch& b, const shared_sample_record& r)
 {
     store_batch(t, b, r.rest);
@@ -67,7 +67,7 @@ BN_INLINE shared_sample_record record_of_words(const real words[kReadWords])
     return shared_sample_of_words(all);
 }
 
-// Calls body(place, passes, lanes, at) for each register of pixels. place: shared_place() of its first pixel; others: for_each_register().
+// Calls body(place, passes, lanes, at) for each pixel register. place: shared_place() for its first pixel; others: for_each_register().
 template <class Body> BN_INLINE void for_each_run(const Tile& t, const Body& body)
 {
     const int blocks_x = t.f.tile_size / kBlock;
@@ -77,7 +77,7 @@ template <class Body> BN_INLINE void for_each_run(const Tile& t, const Body& bod
     });
 }
 
-// Loads the first `count` words of the records of a pass. m: its lanes.
+// Loads the first `count` words in a pass's records. m: its lanes.
 BN_INLINE void load_words(const TileScratch& s, int count, std::uint32_t at, std::uint32_t lanes, mask m, real* to)
 {
     for (int k = 0; k < count; ++k)
@@ -116,7 +116,7 @@ BN_INLINE void fill_planes(const Tile& t)
     });
 }
 
-// Returns the shared record of a register of pixels.
+// Returns a pixel register's shared record.
 BN_INLINE shared_pixel load_pixels(const TileScratch& s, int place)
 {
     const auto word = [&](int k) {
@@ -129,7 +129,7 @@ BN_INLINE shared_pixel load_pixels(const TileScratch& s, int place)
     return {record_of_words(words), word(kReadWords)};
 }
 
-// Returns the mean light over the windows of a register of pixels.
+// Returns the mean light over a pixel register's windows.
 BN_INLINE real3 window_light(const TileScratch& s, const shared_sample_record& own, int place)
 {
     shared_sample_mean mean = shared_sample_mean_begin(own);

@@ -1,4 +1,4 @@
-// Tables of the tile renderer: plain data, shared by baseline code and instruction-set objects. Sub-pixel units: 1/256 pixel, x right, y
+// The tile renderer's tables: plain data, shared by baseline code and instruction-set objects. Sub-pixel units: 1/256 pixel, x right, y
 // down, relative to the image's integer centre pixel, so that |x|, |y| < 2^22.
 #pragma once
 #include <cstdint>
@@ -13,9 +13,9 @@ inline constexpr int kBlock = 8; // coverage and hierarchical depth work on 8x8 
 inline constexpr int kBlockPixels = kBlock * kBlock;
 inline constexpr int kMaxTileSize = 64; // pixels along a side
 
-// Tables of shared samples by pixel: rows of a tile with a margin around them.
+// Shared-sample tables by pixel: a tile's rows with a margin around them.
 inline constexpr int kSharedMargin = 8, kSharedStride = kMaxTileSize + 2 * kSharedMargin;
-inline constexpr int kSharedPixels = (kMaxTileSize + 3) * kSharedStride; // one row before and one after, and a row of spare lanes
+inline constexpr int kSharedPixels = (kMaxTileSize + 3) * kSharedStride; // one row before and one after, and a row with spare lanes
 inline constexpr int kSharedWords = 13, kSharedPlanes = 11;              // see share.h
 
 // A transformed vertex.
@@ -35,10 +35,10 @@ struct alignas(64) TriangleSetup {
 };
 static_assert(sizeof(TriangleSetup) == 64);
 
-// Piece of a triangle that crossed the near plane or left the guard band. Corners are barycentrics in the whole triangle.
+// Piece from a triangle that crossed the near plane or left the guard band. Corners are barycentrics in the whole triangle.
 struct alignas(64) ClipRecord {
-    float bary[9];          // corner j of the piece = sum_k bary[3j+k] * vertex k
-    std::int32_t vertex[3]; // of the whole triangle
+    float bary[9];          // the piece's corner j = sum_k bary[3j+k] * vertex k
+    std::int32_t vertex[3]; // the whole triangle's
     std::uint32_t triangle; // its global id
     float pad[3];
 };
@@ -49,17 +49,17 @@ struct ClippedPiece {
     ClipRecord record;
 };
 
-// A triangle list's entry is the global id of a whole triangle, below 2^31 / 3 (make_draw_tables ensures this), or kClippedEntry and a
+// A triangle list's entry is a whole triangle's global id, below 2^31 / 3 (make_draw_tables ensures this), or kClippedEntry and a
 // piece's index.
 inline constexpr std::uint32_t kClippedEntry = 1u << 31;
 
 // Consecutive entries that may touch the same tiles.
 struct TileRun {
-    std::uint32_t first_tile, last_tile; // x | y << 16: corners of their rectangle
+    std::uint32_t first_tile, last_tile; // x | y << 16: their rectangle's corners
     std::uint32_t count;
 };
 
-struct ChunkOutput { // output of a chunk of clusters, in draw order
+struct ChunkOutput { // a cluster chunk's output, in draw order
     std::uint32_t* entries;
     TileRun* runs; // cover all entries
     std::uint32_t count, run_count, capacity;
@@ -82,7 +82,7 @@ inline void add_run(ChunkOutput& out, std::uint32_t first_tile, std::uint32_t la
 
 // All frame data that a tile needs; constant while the frame is drawn.
 struct FrameParams : ShadingFrame {
-    std::int32_t tile_size; // pixels along a side of a tile's memory, a power of two
+    std::int32_t tile_size; // pixels along the side in a tile's memory, a power of two
     std::int32_t tile_step; // pixels from a tile's own pixels to the next tile's
     std::int32_t tile_rim;  // pixels around its own that a tile shades too, for neighbours that share samples
     std::int32_t tiles_x, tiles_y;
@@ -91,11 +91,11 @@ struct FrameParams : ShadingFrame {
     bool defers_bodies;      // leaves tiles that show transmissive materials undrawn
 };
 
-// A tile's pixels. Every pixel of the image is one tile's own.
+// A tile's pixels. Every image pixel is one tile's own.
 struct TileRect {
-    int x0, y0;                         // corner of its memory in the image: multiples of kBlock, so that depths do not depend on tiles
+    int x0, y0;                         // its memory's corner in the image: multiples of kBlock, so that depths do not depend on tiles
     int first_x, first_y;               // its first pixel, from x0, y0
-    int width, height;                  // ends of its pixels, from x0, y0; at most FrameParams::tile_size
+    int width, height;                  // its pixels' ends, from x0, y0; at most FrameParams::tile_size
     int own_x0, own_y0, own_x1, own_y1; // its own pixels, from x0, y0; the end is exclusive
     bool whole() const { return own_x0 == 0 && own_y0 == 0 && own_x1 == width && own_y1 == height; }
     bool owns(int x, int y) const { return x >= own_x0 && x < own_x1 && y >= own_y0 && y < own_y1; }
@@ -120,13 +120,13 @@ inline TileRect tile_rect(const FrameParams& f, int left, int top, int right, in
 
 inline constexpr std::int32_t kNoMaterial = -1, kManyMaterials = -2; // in place of a material
 
-// Callback at the end of every stage in a profiled tile. material: the shaded fragments' material, or -1. used, all: lanes in use, and
+// Callback at every stage's end in a profiled tile. material: the shaded fragments' material, or -1. used, all: lanes in use, and
 // their total.
 struct TileClock {
     void (*lap)(TileClock& self, FrameStage stage, std::int32_t material, std::uint32_t used, std::uint32_t all);
 };
 
-// State of a block's samples. An `empty` or `whole` block has no samples in memory until something else is drawn there.
+// A block's sample state. An `empty` or `whole` block has no samples in memory until something else is drawn there.
 enum class BlockState : std::uint8_t {
     empty, // shows no triangle
     whole, // shows one triangle: depths follow the block's plane
@@ -143,11 +143,11 @@ struct BlockPlane {
 struct TileScratch;
 
 // A tile's blended surfaces, one depth layer after another from the nearest on (depth peeling, Everitt 2001). Memory holds one layer, for
-// any number of layers.
+// any layer count.
 struct PeelScratch {
-    TileScratch* layer;        // fragments of the current layer; its triangles are the tile's
-    float* alpha;              // of the layer, by fragment
-    float* depth;              // [block][sample][64] of the last layer; -1 if no further layer is visible
+    TileScratch* layer;        // the current layer's fragments; its triangles are the tile's
+    float* alpha;              // the layer's, by fragment
+    float* depth;              // [block][sample][64] in the last layer; -1 if no further layer is visible
     std::int32_t* id;          // [block][sample][64] its triangle
     float *red, *green, *blue; // [block][sample][64] blended_light::over
     float* through;            // [block][sample][64] blended_light::through
@@ -155,15 +155,15 @@ struct PeelScratch {
     bool* done;                // [block] no further layer
     std::uint32_t* triangles;  // blended triangles in the tile's list; from begin_layers() on the nearest first
     std::uint32_t* order;      // room for as many
-    float* nearest;            // by number in the tile's list: depth of the nearest vertex
+    float* nearest;            // by number in the tile's list: the nearest vertex's depth
     std::uint32_t triangle_count;
     std::uint32_t passed;         // triangles at the front of the list that no further layer shows
-    float nearest_open;           // greatest of `depth`
+    float nearest_open;           // greatest in `depth`
     std::uint32_t fragment_count; // in all layers, in the tile's own pixels
     float* output_through;        // the frame's [pixel][sample], or null
 };
 
-// Scratch memory of one worker, sized for a tile's worst case, so tile loops never allocate.
+// One worker's scratch memory, sized for a tile's worst case, so tile loops never allocate.
 struct TileScratch {
     float* depth;              // [block][sample][64], reversed, 0 = empty; for drawn blocks
     std::uint32_t* ids;        // [block][sample][64], index into `triangles`, or kNoTriangle; for drawn blocks
@@ -176,10 +176,10 @@ struct TileScratch {
     TriangleSetup* triangles;        // by entry; pieces come with setups, others are made here. kLanes may be written at any entry
     const ClipRecord* clips;         // for the tile's pieces
     std::uint32_t* drawn_singly;     // triangles that lanes do not share
-    std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, in the order of list_fragments
+    std::int32_t* fragment_triangle; // visible (pixel, triangle) pairs, in list_fragments' order
     std::int32_t* fragment_pixel;    // x | y << 8, in the tile
     std::int32_t* fragment_mask;     // covered samples, bit s = sample s
-    std::uint8_t* register_passes;   // by register of pixels: largest number of fragments per pixel
+    std::uint8_t* register_passes;   // by pixel register: the largest fragment count in a pixel
     std::uint32_t* pass_lanes;       // by pass: the register's pixels with a fragment in it, bit i = lane i
     float *red, *green, *blue;       // shaded colour by fragment
     float* shared_words;             // [word][shared_capacity] records that fragments share (share.h), by fragment
@@ -187,7 +187,7 @@ struct TileScratch {
     std::size_t shared_capacity;
     std::int32_t* order;            // fragments sorted by material slot
     bool in_list_order;             // `order` would hold 0, 1, 2... and is not written
-    std::int32_t only_material;     // of all triangles in the tile; or kNoMaterial, kManyMaterials
+    std::int32_t only_material;     // all triangles' in the tile; or kNoMaterial, kManyMaterials
     std::int32_t* slot_of_material; // by material; -1 outside a tile
     std::int32_t* slot_material;    // by slot
     std::uint32_t* slot_begin;      // by slot, into `order`
@@ -202,20 +202,20 @@ struct TileScratch {
     PeelScratch* peel;                           // null if no material blends
 };
 
-struct LaneWork { // of counted lanes: sums, products, quotients and roots of floats; bytes that loads and fetches ask for
+struct LaneWork { // by counted lanes: float sums, products, quotients and roots; bytes that loads and fetches ask for
     std::uint64_t operations, bytes;
 };
 
 struct TileFns { // one table per instruction set
     void (*transform_vertices)(const FrameParams&, std::uint32_t first, std::uint32_t count);
     void (*bin_triangles)(const FrameParams&, std::uint32_t first, std::uint32_t count, ChunkOutput&);
-    // Computes the rectangles of tiles that entries may touch, as in TileRun. left, top: the first tile's first own pixel. Pieces get all
+    // Computes the tile rectangles that entries may touch, as in TileRun. left, top: the first tile's first own pixel. Pieces get all
     // tiles. kLanes may be read and written at any entry.
     void (*touch_tiles)(const FrameParams&, int left, int top, const std::uint32_t* entries, std::uint32_t count, std::uint32_t* first_tile,
                         std::uint32_t* last_tile);
     void (*render_tile)(const FrameParams&, const TileRect&, TileScratch&);
     void (*record_vertices)(const FrameParams&, std::uint32_t count, std::uint32_t* out); // StageRecords::vertices
-    LaneWork (*work)(); // the calling thread's so far; 0 of lanes that do not count
+    LaneWork (*work)(); // the calling thread's so far; 0 for lanes that do not count
     int lanes;          // kLanes
 };
 BN_DECLARE_FNS(TileFns);

@@ -1,5 +1,5 @@
 // Records that all three renderers read: the frame, its lights and materials. One text for C++ and GLSL: structs and arrays
-// of 32-bit scalars, which std430 and C++ lay out alike. raster/frame/frame_record.h fills them. They hold neither C++
+// with 32-bit scalars, which std430 and C++ lay out alike. raster/frame/frame_record.h fills them. They hold neither C++
 // pointers nor places in device buffers.
 #ifndef BN_RECORDS_H
 #define BN_RECORDS_H
@@ -10,7 +10,7 @@ namespace burnish {
 
 const int kMaxSamples = 16; // samples per pixel
 const int kMaxExtractedLights = 8;
-const int kLobeSliceSize = 24; // texels along n.v in a table of one lobe's albedo; half as many along the azimuth
+const int kLobeSliceSize = 24; // texels along n.v in one lobe's albedo table; half as many along the azimuth
 const int kTextureSlots = 0    // per material
 #define BN_SLOT(slot, at, texture, encoding, power) +1
 #include "core/scene/material.def"
@@ -18,20 +18,20 @@ const int kTextureSlots = 0    // per material
 
 // The sub-pixel grid: x right, y down, origin at the image's integer centre pixel.
 const int kSubpixel = 256;      // units per pixel
-const int kGuardBand = 1 << 22; // bound on |x|, |y| of any snapped vertex
+const int kGuardBand = 1 << 22; // any snapped vertex's bound on |x|, |y|
 // Unclipped triangles stay inside kWholeBand; clipping cuts at kCutBand, between kWholeBand and the guard band's edge. So
 // no triangle cuts a vertex that its neighbour keeps, and both see the vertex at one place.
 const int kWholeBand = kGuardBand / 16 * 15, kCutBand = kGuardBand / 32 * 31;
 const int kNeedsClip = -(1 << 30);                             // replaces a snapped x: behind the near plane or outside the guard band
-const int kClipPlanes = 5, kMostCorners = 3 + kClipPlanes + 1; // near plane and guard band; corners of a clipped triangle, and one spare
-const int kFrontFacing = 1, kClipped = 2;                      // bits of a triangle's info, below its material
+const int kClipPlanes = 5, kMostCorners = 3 + kClipPlanes + 1; // near plane and guard band; a clipped triangle's corners, and one spare
+const int kFrontFacing = 1, kClipped = 2;                      // bits in a triangle's info, below its material
 
 #define BN_ALPHA_MODE(name, at) const int kAlpha_##name = at;
 #include "core/scene/material.def"
 
 // Technique traits (shading/models.def).
 const int kTestsHorizon = 1;    // tests every sample against the surface's horizon; other techniques fade
-const int kSamplesLobe = 2;     // samples the lobe itself; other techniques are scaled by the ratio of its albedo to the default lobe's
+const int kSamplesLobe = 2;     // samples the lobe itself; other techniques are scaled by its albedo over the default lobe's
 const int kTakesRoundLobes = 4; // treats every lobe as round with the same roughness; lights then do so too
 const int kReadsBox = 8;        // reads the environment's box-filtered mip chain
 const int kGgxGrid = 16;        // its grid holds GGX slopes; otherwise Beckmann slopes
@@ -40,15 +40,15 @@ const int kAutomatic = 64;      // `auto` takes this technique
 const int kRoundAlone = 128;    // shares no samples on materials without anisotropy
 
 const int kSamplesInterface = 256; // samples both sides of transmissive surfaces; others fetch transmitted light once
-const int kPhongGrid = 512;        // its grid holds half vectors of an Ashikhmin-Shirley lobe, as many as samples
+const int kPhongGrid = 512;        // its grid holds an Ashikhmin-Shirley lobe's half vectors, as many as samples
 
 const int kFrameGramSchmidt = 0, kFrameQuaternion = 1, kFrameNormalOnly = 2, kFrameOff = 3; // FrameDesc::frame_map
 const int kParallaxInTexture = 0, kParallaxOnSurface = 1;                                   // FrameDesc::pom_metric
-const int kPhongBlock = 6; // number of GridSamples in a block: 16 floats, four values for each of four sets, with padding
+const int kPhongBlock = 6; // GridSamples in a block: 16 floats, four values for each of four sets, with padding
 const int kLeastParallaxSteps = 8, kMostParallaxSteps = 32; // steps to the deepest place: seen from straight above, and at grazing angles
 const int kFresnelSchlick = 0, kFresnelConductor = 1, kFresnelDielectric = 2; // FrameDesc::fresnel
 
-// Lobe traits (shading/models.def), and the words of the lobes' lines.
+// Lobe traits (shading/models.def), and the words in the lobes' lines.
 const int kDefaultLobe = 1;  // the default lobe
 const int kRoundLobe = 2;    // replaces it for lights, on materials without a grain and where a technique treats lobes as round
 const int kTiltedLobe = 4;   // replaces the default lobe where lobes are tilted
@@ -75,10 +75,10 @@ const int kCoatings = 0 // layers above a material's own lobe
 const int kMostFacets = 32; // per material, see MaterialRecord::facet
 const int kKeptKnots = 4;   // view cosines, see MaterialRecord::kept
 
-// Slope moments in a material's textures: none; moments of a tilt or normal map alone; moments of the map and the lobe;
+// Slope moments in a material's textures: none; a tilt or normal map's moments alone; the map's and the lobe's moments;
 // moments that the frame ignores.
 const int kNoMoments = 0, kMomentsOfTilt = 1, kMomentsOfAll = 2, kMomentsUnseen = 3;
-const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // factors of means and of second moments in texels
+const float kSlopeScale = 16.0f, kMomentScale = 256.0f; // factors on means and on second moments in texels
 const int kAreaWays = 0                                 // methods for area lights
 #define BN_AREA_LIGHTS(id, at, name, summary) +1
 #include "shading/models.def"
@@ -88,8 +88,8 @@ const int kAreaWays = 0                                 // methods for area ligh
 #define BN_AREA_SHAPE(name, at, least, most, what) const int kArea_##name = at;
 #include "core/scene/area_light.def"
 const int kMostAreaCorners = 16;
-const float kLightPictureSpread = 0.8f; // blur of each level of a light's picture: standard deviation, in that level's texels
-const int kLightPictureTaps = 8;        // taps along the footprint of one fetch from the levels
+const float kLightPictureSpread = 0.8f; // blur in each level of a light's picture: standard deviation, in that level's texels
+const int kLightPictureTaps = 8;        // taps along one fetch's footprint in the levels
 
 struct ViewRecord { // the renderer's View as plain numbers
     float eye[3], right[3], up[3], forward[3];
@@ -116,9 +116,9 @@ struct ExtractedLightRecord {                 // an evenly bright ellipse on the
     float radiance[3], irradiance[3];         // the ellipse's radiance; irradiance on a surface that faces the ellipse
 };
 
-struct LtcTableRecord { // layout of an LTC table (shading/bake/ltc/grid.h)
+struct LtcTableRecord { // an LTC table's layout (shading/bake/ltc/grid.h)
     int root_alpha, basis, over_alpha, inverse, alphas;
-    int round_first; // first texel of the table for round lobes
+    int round_first; // the first texel in the table for round lobes
 };
 
 // The frame. Flags are 0 or 1.
@@ -136,11 +136,11 @@ struct FrameRecord {
     int extracted_light_count;
     ExtractedLightRecord extracted_lights[kMaxExtractedLights];
     int grid_count;                 // samples in the grid
-    int dfg_size, lobe_albedo_size; // sizes of the directional albedo tables
+    int dfg_size, lobe_albedo_size; // the directional albedo tables' sizes
     int light_count;
     int area_light_count; // 0 where the frame ignores area lights
     LtcTableRecord ltc;
-    int positions;    // something reads the positions of visible points
+    int positions;    // something reads the visible points' positions
     int layer_sample; // the pixel sample that layers are drawn from; -1: no layers
     int background, texture_taps;
     int behind; // texture of what lies behind transmissive bodies, its inverse depths are the next one; -1: none
@@ -191,16 +191,16 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
 #include "core/scene/material.def"
     float dielectric_f0[3], dielectric_f90; // derived from ior and specular
     float clearcoat_f0;                     // derived from clearcoat_ior
-    float grain[2];                         // cosine and sine of anisotropy_rotation
+    float grain[2];                         // anisotropy_rotation's cosine and sine
     int textured, uses_color, anisotropic;
     int tilted;                      // the lobe tilts against its surface, by the material's tilt or the frame's
-    float tilt_cos[2], tilt_sin[2];  // of the summed tilt angles
-    float tilt_slope[2];             // mean slopes of the summed tilt, along tangent and bitangent
+    float tilt_cos[2], tilt_sin[2];  // for the summed tilt angles
+    float tilt_slope[2];             // the summed tilt's mean slopes, along tangent and bitangent
     int tilt_mapped, moments;        // a texture holds slopes; kNoMoments...
-    float level_gain;                // how much the spread of normals between taps widens lobes, by mip filter; -1: unfiltered
-    int coat_spread;                 // the alpha of the coat's normal map widens the coat's lobe
+    float level_gain;                // how much the normals' spread between taps widens lobes, by mip filter; -1: unfiltered
+    int coat_spread;                 // the alpha in the coat's normal map widens the coat's lobe
     int parallax;                    // the normal map's alpha holds heights, and the frame uses them
-    float parallax_depth;            // depth of height 0, in lengths of texture coordinates
+    float parallax_depth;            // depth at height 0, in texture-coordinate lengths
     int emitter;                     // as in core/scene's Material: the area light that it shows, if any
     int conductor;                   // has its own complex index: conductor_eta, conductor_k
     int roughness_fixed;             // by an override: the texture gives metalness only
@@ -214,20 +214,20 @@ struct MaterialRecord { // Material as plain numbers, with derived values; emiss
     float body_decay[3];             // log2 of the light's share left after a metre inside
     int hidden;                      // left out of the frame
     int coatings;                    // bit i: has coating i of shading/coatings.def in some place
-    int lights_lobe;                 // index in shading/models.def of the lobe for punctual lights
+    int lights_lobe;                 // the lobe for punctual lights, an index in shading/models.def
     float anisotropy_blend; // anisotropy_blend_of() of its factors where lobe_line's albedo fades; 1 elsewhere and where slopes widen
                             // lobes
-    int albedo_slice;       // first pair of the albedo slice for a lobe with constant widths; else -1
+    int albedo_slice;       // the albedo slice's first pair for a lobe with constant widths; else -1
     int phong_slice; // the same for the Ashikhmin-Shirley lobe, where the technique samples this lobe or the frame compensates it; else -1
     int frame_map;   // the frame's; kFrameQuaternion where textures hold a mip filter's lobes, which are made for it
-    int phong_set;   // first sample of this lobe's half vectors in the grid; -1: each fragment computes its own
+    int phong_set;   // the first sample in the grid for this lobe's half vectors; -1: each fragment computes its own
     int keeps;       // the alpha of normal-map levels is the share of light that facets keep, see bake/mip/kept_light.h
-    float kept[kKeptKnots];        // loss of light at view cosines .1, .4, .7, 1, as multiples of the levels' value
-    int facets;                    // groups of normals that replace the map from afar, see bake/mip/facets.h
-    float facets_from;             // share of light that facets lose there
+    float kept[kKeptKnots];        // light loss at view cosines .1, .4, .7, 1, as multiples of the levels' value
+    int facets;                    // normal groups that replace the map from afar, see bake/mip/facets.h
+    float facets_from;             // light share that facets lose there
     float facet[4 * kMostFacets];  // x, y, weight, spread of each
-    float facets_kept[kKeptKnots]; // share of light that the map keeps over the share that its groups keep, by view cosine as `kept`
-    float groups_kept[kKeptKnots]; // share of light that its groups keep
+    float facets_kept[kKeptKnots]; // light share that the map keeps over the share that its groups keep, by view cosine as `kept`
+    float groups_kept[kKeptKnots]; // light share that its groups keep
     TextureBinding textures[kTextureSlots];
 };
 

@@ -29,42 +29,42 @@ struct SceneJudgement {
     std::string reason;      // for unusable and missing ones
     bool not_finite = false; // the picture holds NaN or infinities
     bool from_eight_bits = false;
-    double to_truth = 0.0;    // mean LDR-FLIP of the picture to the truth
+    double to_truth = 0.0;    // the picture's mean LDR-FLIP to the truth
     double usual = 0.0;       // of Judgement::way to the truth
-    double to_right = 0.0;    // of the picture to the truth or to Judgement::way, the least
-    double to_usual = 0.0;    // of the picture to Judgement::way
+    double to_right = 0.0;    // from the picture to the truth or to Judgement::way, the least
+    double to_usual = 0.0;    // from the picture to Judgement::way
     int nearest = kNoMistake; // none is nearer than Judgement::way
-    double to_nearest = 2.0;  // of the picture to that one
+    double to_nearest = 2.0;  // from the picture to that one
     double nearest_ev = 0.0;  // its exposure, if it is kExposure
-    double explained = 0.0;   // of the picture to the one with the mistakes found; to_usual without any
+    double explained = 0.0;   // from the picture to the one with the mistakes found; to_usual without any
 };
 
 struct FoundMistake {
     int mutant = kNoMistake;
     std::vector<std::string> scenes;  // that it changes
-    double before = 0.0, after = 0.0; // mean FLIP of their pictures to those without and with it
+    double before = 0.0, after = 0.0; // their pictures' mean FLIP to pictures without and with the mistake
 };
 
 struct Judgement {
     const RightWay* way = &right_ways().front(); // without a mistake, nearest to the pictures
     std::vector<SceneJudgement> scenes;
-    double noise = 0.0;                 // mean FLIP of the engine's right pictures to its way: it filters light in a way of its own
+    double noise = 0.0;                 // mean FLIP from the engine's right pictures to its way: the engine filters light in its own way
     double right_up_to = 0.0;           // mean FLIP to the truth or to the engine's way
     std::vector<FoundMistake> mistakes; // the one that explains most comes first
-    double exposure_ev = 0.0;           // of the pictures against what is right, where that is a mistake; else 0
+    double exposure_ev = 0.0;           // the pictures' exposure against the right one, where a mistake; else 0
     bool all_right() const;
     bool way_is_known() const;                    // most scenes are right, or explained
     std::vector<std::string> unexplained() const; // scenes that are wrong, and look like no known mistake
 };
 
-// Judges the pictures, one for each of the folder's scenes.
+// Judges the pictures, one for each scene in the folder.
 Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
                                  const std::vector<EnginePicture>& pictures, const Jobs& jobs);
 
 // Returns the picture as displays show it at kConformEv, u8 RGB.
 Image shown_picture(const Image& linear);
 
-// Returns the mean LDR-FLIP of two pictures.
+// Returns two pictures' mean LDR-FLIP.
 double mean_flip(const Image& reference, const Image& test, const Jobs& jobs);
 
 } // namespace burnish

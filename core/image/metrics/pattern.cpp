@@ -120,7 +120,7 @@ Plane high_passed(const Plane& error, const Plane& inside, const Plane& weight, 
     return out;
 }
 
-// Returns the variance of ln(reference) by the reference's noise, inside surfaces, else 0. variance: of means, with the reference's
+// Returns the variance of ln(reference) by the reference's noise, inside surfaces, else 0. variance: the means', with the reference's
 // channels.
 Plane noise_of(const Image& variance, const Plane& reference, const Plane& inside, double least, const Grid& grid)
 {
@@ -150,7 +150,7 @@ double mean_inside(const Plane& plane, std::int64_t pixels)
 }
 
 // Returns the autocovariance at a lag that the high-pass filter leaves of white noise with a variance of 1. The filter subtracts a Gaussian
-// from the pixel itself; the blur beyond the edges of surfaces is left out.
+// from the pixel itself; the blur beyond surface edges is left out.
 double high_passed_noise(int lag)
 {
     const double s2 = kPatternSigma * kPatternSigma, lag2 = static_cast<double>(lag) * lag;
@@ -158,7 +158,7 @@ double high_passed_noise(int lag)
     return (lag == 0 ? 1.0 : 0.0) - 2.0 * gaussian + both;
 }
 
-// Two errors of one test, against two references or twice against one.
+// One test's two errors, against two references or twice against one.
 struct Errors {
     const Plane &first, &second, &inside;
     const Grid& grid;
@@ -172,7 +172,7 @@ struct Errors {
     }
 };
 
-// Returns the autocovariance of the high-passed error along an axis, for lags from 0 on.
+// Returns the high-passed error's autocovariance along an axis, for lags from 0 on.
 std::array<double, kPatternLags + 1> autocovariance(const Errors& e, bool along_y)
 {
     struct Sum {
@@ -204,7 +204,7 @@ std::array<double, kPatternLags + 1> autocovariance(const Errors& e, bool along_
 }
 
 // Finds the strongest period along an axis, and keeps it in `f` if none before was stronger. The spectrum is Blackman's and Tukey's (1958):
-// the transform of the autocovariance under a Hann window, here divided by its value for a sinusoid with a variance of 1.
+// the autocovariance's transform under a Hann window, here divided by its value for a sinusoid with a variance of 1.
 void find_period(const std::array<double, kPatternLags + 1>& covariance, bool along_y, PatternFigures& f)
 {
     for (double period = 2.0; period <= kLongestPeriod; period += 0.5) {
@@ -224,7 +224,7 @@ void find_period(const std::array<double, kPatternLags + 1>& covariance, bool al
 struct StepMean {
     double sum = 0.0, count = 0.0;
 
-    // Returns the ratio of two means, NaN where noise or a lack of steps leaves none above 0.
+    // Returns two means' ratio, NaN where noise or missing steps leave none above 0.
     double over(const StepMean& other) const
     {
         const bool known = sum > 0.0 && other.sum > 0.0;
@@ -232,7 +232,7 @@ struct StepMean {
     }
 };
 
-// Compares the steps of the error between neighbours along an axis.
+// Compares the error's steps between neighbours along an axis.
 void find_steps(const Errors& e, bool along_y, PatternFigures& f)
 {
     StepMean within_quads, between_quads, within_tiles, between_tiles;

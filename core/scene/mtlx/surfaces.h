@@ -1,4 +1,4 @@
-// The surfaces of MaterialX as values of one list of parts.
+// MaterialX surfaces as values in one part list.
 #pragma once
 #include <array>
 #include <string>
@@ -17,7 +17,7 @@ enum class Part {
 
 using Parts = std::array<Input, static_cast<std::size_t>(Part::count)>;
 
-// Returns the surface's parts, with the defaults of its kind. unknown: receives the names of inputs that are no part, where a picture or a
+// Returns the surface's parts, with its kind's defaults. unknown: receives input names that are no part, where a picture or a
 // number other than 0 stands.
 Parts parts_of(const SurfaceMaterial& surface, std::vector<std::string>& unknown);
 
@@ -30,7 +30,7 @@ inline float number(const Parts& parts, Part part)
     return at(parts, part).value.x;
 }
 
-// Widths of a GGX lobe along the tangent and across it.
+// A GGX lobe's widths along the tangent and across it.
 struct Widths {
     double along, across;
 };

@@ -28,23 +28,23 @@ double brightness(const float* rgb)
 }
 
 // Wide lobes still have weight at the horizon, where n.l has an edge. Pieces are then limited to their size at this distance, for a lobe
-// of width 1.
+// with width 1.
 constexpr double kWidest = 0.3;
 
-// Returns the quads along an edge of a face. A face of one texel is part of a quad.
+// Returns the quads along a face's edge. A face with one texel belongs to a quad.
 std::size_t quads_along(int size)
 {
     return static_cast<std::size_t>(std::max(size / 2, 1));
 }
 
-// Returns where texel (x, y) of a level stands among the quads of its face.
+// Returns where texel (x, y) in a level stands among its face's quads.
 std::size_t place_in_quads(int size, int x, int y)
 {
     const std::size_t quad = static_cast<std::size_t>(y / 2) * quads_along(size) + static_cast<std::size_t>(x / 2);
     return quad * 4 + static_cast<std::size_t>(y % 2 * 2 + x % 2);
 }
 
-// Returns the index of a texel's x among the places of a level. Its y and z stand 4 and 8 numbers behind.
+// Returns the index for a texel's x among a level's places. Its y and z stand 4 and 8 numbers behind.
 std::size_t index_of_place(int size, int face, int x, int y)
 {
     const std::size_t at = place_in_quads(size, x, y);
@@ -60,7 +60,7 @@ Direction place_of(const LightTree& tree, int level, int face, int x, int y)
     return {static_cast<double>(p[0]), static_cast<double>(p[4]), static_cast<double>(p[8])};
 }
 
-// Returns the mean direction of a texel's light, from the finer level. Without light, solid angle weighs.
+// Returns the mean direction to a texel's light, from the finer level. Without light, solid angle weighs.
 Direction mean_place(const LightTree& tree, int level, int face, int x, int y)
 {
     const CubeLevel& fine = tree.boxes[static_cast<std::size_t>(level - 1)];
@@ -155,7 +155,7 @@ struct Gathering {
     const std::function<void(int, int, std::span<const PrefilterTerm>)>& use;
     const LightTreeFns& fns;
 
-    // Gathers for the blocks [x, x + along) x [y, y + along) from the list of a larger square.
+    // Gathers for the blocks [x, x + along) x [y, y + along) from a larger square's list.
     void gather(int x, int y, int along, std::size_t depth, const GatherList& from)
     {
         // Bound the blocks' circles
@@ -164,7 +164,7 @@ struct Gathering {
         GatherInput in = input;
         in.nearer = in.farther = all.radius;
         if (along > 1) {
-            constexpr double kRounding = 1e-9; // far above that of the distances
+            constexpr double kRounding = 1e-9; // far above the distances' rounding
             const double half = 0.5 * along;
             all.centre =
                 normalized(cube_direction(square.face, square.u0 + (x + half) * square.side, square.v0 + (y + half) * square.side));

@@ -7,14 +7,14 @@ namespace burnish {
 inline namespace BN_ISA_NS {
 namespace {
 
-constexpr double kHorizon = 1.41421356237309505; // chord of a quarter turn
-constexpr double kPlaceError = 1e-6;             // above the rounding of a place to single precision
+constexpr double kHorizon = 1.41421356237309505; // a quarter turn's chord
+constexpr double kPlaceError = 1e-6;             // above a place's rounding to single precision
 
 // Adds a part to all blocks.
 using Way = unsigned char;
 constexpr long long take_it = 0, leave_out = 1, open_it = 2, differ = 3;
 
-// The four parts of a texel, in loops of four that compilers turn into lanes.
+// A texel's four parts, in loops over four that compilers turn into lanes.
 struct Parts {
     double x[4], y[4], z[4]; // unit directions
     double angle[4];         // sr
@@ -27,7 +27,7 @@ struct Texel {
     int level, x, y;
 };
 
-// Writes the unit directions of a finest texel's centres.
+// Writes the unit directions to a finest texel's centres.
 void centres(int face, int size, int x, int y, Parts& p)
 {
     const double step = 2.0 / size;
@@ -61,14 +61,15 @@ void take_root(Four& x)
         x[k] = std::sqrt(x[k]);
 }
 
-// Writes positive numbers where a part opens. distance: from the nearest place of a block.
+// Writes positive numbers where a part opens. distance: from a block's nearest place.
 void find_openness(const GatherInput& in, const Four& distance, const Four& angle, Four& open)
 {
     const Four reach = distance * distance + in.width2, most = in.farthest2 + Four{};
     open = angle - in.opening2 * (most < reach ? most : reach);
 }
 
-// Finds the ways of parts whose directions are known. margin: error of the distance to the horizon. Returns false if a leaf lies within it.
+// Finds the ways for parts whose directions are known. margin: the error in the distance to the horizon. Returns false if a leaf lies
+// within it.
 bool choose(const GatherInput& in, bool leaves, double margin, Parts& p)
 {
     Four x, y, z, angle;
@@ -94,7 +95,7 @@ bool choose(const GatherInput& in, bool leaves, double margin, Parts& p)
     return true;
 }
 
-// Looks at the parts of a texel.
+// Looks at a texel's parts.
 void look(const GatherInput& in, int face, const Texel& texel, Parts& p)
 {
     const LightLevel& below = in.levels[texel.level - 1];
@@ -113,7 +114,7 @@ void look(const GatherInput& in, int face, const Texel& texel, Parts& p)
         if (choose(in, leaves, leaves ? kPlaceError : 0.0, p))
             return;
     }
-    // The places of the finest level are rounded: near the horizon its distances need the centres themselves
+    // The finest level's places are rounded: near the horizon its distances need the centres themselves
     centres(face, below.size, texel.x, texel.y, p);
     choose(in, leaves, 0.0, p);
 }
@@ -142,7 +143,7 @@ void add_mark(const GatherMark& mark, GatherList& to)
     to.marks[to.mark_count++] = mark;
 }
 
-// Walks the parts of a mark, depth first.
+// Walks a mark's parts, depth first.
 bool walk(const GatherInput& in, const GatherMark& mark, GatherList& to)
 {
     Parts stack[kMostLightLevels];

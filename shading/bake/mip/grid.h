@@ -1,4 +1,4 @@
-// A common grid for maps with several sizes, and reads of maps at its points.
+// A common grid for maps with several sizes, and map reads at its points.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace burnish {
 
-struct Grid { // size of the result, and interpolation of maps
+struct Grid { // the result's size, and the maps' interpolation
     int width = 0, height = 0;
     WrapMode wrap_s = WrapMode::repeat, wrap_t = WrapMode::repeat;
     bool nearest = false;
@@ -24,7 +24,7 @@ struct Grid { // size of the result, and interpolation of maps
     }
 };
 
-// The two texels in a row or column on either side of a grid point, and the second one's share.
+// The two texels in a row or column beside a grid point, and the second one's share.
 struct Neighbours {
     int low, high;
     float share;
@@ -55,11 +55,11 @@ template <class Value> float on_grid(const Image& map, const Grid& grid, int x, 
     return v.share == 0.0f ? low : low + v.share * (row(v.high) - low);
 }
 
-struct TexelShare { // weight of a texel or row in a finer level
+struct TexelShare { // a texel's or row's weight in a finer level
     int at;
     double weight;
 };
-// Returns the `source` texels that texel i of `target` covers, with exact overlaps.
+// Returns the `source` texels that texel i in `target` covers, with exact overlaps.
 inline std::vector<TexelShare> shares_of(int i, int source, int target)
 {
     std::vector<TexelShare> shares;
@@ -71,7 +71,7 @@ inline std::vector<TexelShare> shares_of(int i, int source, int target)
     return shares;
 }
 
-// Returns the number of levels from 1 on. Sides are halved and rounded down, at least 1.
+// Returns the level count from 1 on. Sides are halved and rounded down, at least 1.
 inline int levels_below(int width, int height)
 {
     int levels = 0;
@@ -80,7 +80,7 @@ inline int levels_below(int width, int height)
     return levels;
 }
 
-// Returns the finer level that level l is made from: the smallest level whose texels tile the footprints of l, or level 0.
+// Returns the finer level that level l is made from: the smallest level whose texels tile l's footprints, or level 0.
 inline int finer_level(int width, int height, int l)
 {
     const auto side = [](int of, int level) { return std::max(1, of >> level); };
@@ -90,7 +90,7 @@ inline int finer_level(int width, int height, int l)
     return from;
 }
 
-// Returns the number of levels that can be made in bands of rows, because their sides halve without remainder. Later levels need only the
+// Counts the levels that can be made in row bands, because their sides halve without remainder. Later levels need only the
 // last one.
 inline int banded_levels(int width, int height)
 {

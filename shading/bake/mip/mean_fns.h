@@ -1,5 +1,5 @@
-// Lane code for mip levels of normals and lobes. Texels are in the lanes and sums have a fixed order, so the bits depend neither on the
-// lane width nor on the split of work. Rows are planes, one after another, `stride` floats apart. `count` texels of each plane are written
+// Lane code for normals' and lobes' mip levels. Texels are in the lanes and sums have a fixed order, so the bits depend neither on the
+// lane width nor on the work's split. Rows are planes, one after another, `stride` floats apart. `count` texels in each plane are written
 // in whole slots, and rows have room for that. Interfaces use plain pointers.
 #pragma once
 #include <cstddef>
@@ -11,16 +11,16 @@ namespace burnish::mip {
 
 inline constexpr int kRowSlots = 16, kPointPlanes = 6, kMostStates = 9, kLobeChannels = 5;
 
-constexpr float kMostSlope = 5.6712818f; // tangent of 80 degrees, for mean slopes
+constexpr float kMostSlope = 5.6712818f; // the tangent at 80 degrees, for mean slopes
 
-// Indices of the means whose product forms a covariance: for slopes, and for normals in space.
+// Indices for the means whose product forms a covariance: for slopes, and for normals in space.
 struct MeanPair {
     std::size_t i, j;
 };
 constexpr MeanPair kFlatPairs[] = {{0, 0}, {1, 1}, {0, 1}};
 constexpr MeanPair kSpacePairs[] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
-// Returns the distance between planes of a row, padded to whole slots.
+// Returns the distance between a row's planes, padded to whole slots.
 inline std::size_t row_stride(std::size_t texels)
 {
     return (texels + kRowSlots - 1) / kRowSlots * kRowSlots;
@@ -34,9 +34,9 @@ struct CodeWork { // converts 8-bit codes to numbers in [0,1]
     float* to;
 };
 
-struct NormalWork { // converts red, green, blue of a normal map in place to unit normals; any length
+struct NormalWork { // converts a normal map's red, green, blue in place to unit normals; any length
     std::size_t count, stride;
-    float scale; // factor of x and y
+    float scale; // factor on x and y
     float* planes;
 };
 
@@ -48,28 +48,28 @@ struct CovarianceWork {
     float* to; // 3 planes
 };
 
-// Averaged quantities. baseline: normal, a, b, c. covariance: normal, covariance. leadr: mean slope, covariance of slopes. ssgt and kappa:
+// Averaged quantities. baseline: normal, a, b, c. covariance: normal, covariance. leadr: mean slope, slope covariance. ssgt and kappa:
 // normal, squared widths in space.
 enum class Mean : std::uint32_t { baseline, covariance, leadr, ssgt, kappa };
 
-struct StateWork { // makes states of points: kPointPlanes planes, unit normal, covariance in its frame
+struct StateWork { // makes points' states: kPointPlanes planes, unit normal, covariance in its frame
     Mean mean;
     std::size_t count, stride;
     const float* points;
     float* states;
 };
 
-struct MergeWork { // merges squares of four texels: their mean, and the spread of their means
+struct MergeWork { // merges squares with four texels: their mean, and their means' spread
     Mean mean;
-    float spread; // factor of that spread, if the mean has any
+    float spread; // factor on that spread, if the mean has any
     std::size_t count, stride;
-    const float *top, *bottom; // states of two rows of texels
+    const float *top, *bottom; // two texel rows' states
     std::size_t from_stride;
     int across; // 2; 1: a level with unchanged width
     float* states;
 };
 
-struct TexelWork { // makes texels of states
+struct TexelWork { // makes texels from states
     Mean mean;
     std::size_t count, stride;
     float* states; // normals are made unit again if a filter goes on from level to level
@@ -79,10 +79,10 @@ struct TexelWork { // makes texels of states
 struct TensorWork { // converts points to texels' planes
     std::size_t count, stride;
     const float* points;
-    float* to; // kLobeChannels planes with the same stride: x and y of the normal, a, b, c
+    float* to; // kLobeChannels planes with the same stride: the normal's x and y, a, b, c
 };
 
-struct HashWork { // hashes a row of points; numbers kRowSlots apart in a plane are mixed into one
+struct HashWork { // hashes a point row; numbers kRowSlots apart in a plane are mixed into one
     std::size_t stride;
     const float* points;
     std::uint32_t* mixed; // [kPointPlanes][kRowSlots], output

@@ -1,30 +1,30 @@
-// File format for mip levels of materials, written by `burnish bake mip`: normals and lobes, base colours, metalness and heights.
+// File format for materials' mip levels, written by `burnish bake mip`: normals and lobes, base colours, metalness and heights.
 // Level 0 is not in the file: it follows from the material's maps. Little-endian:
 //
 //   bytes     content
 //   8         "bnmip01" and a line feed
-//   4, 4      version, 4; number of materials
-//   4, 4      number of maps; zero
+//   4, 4      version, 4; material count
+//   4, 4      map count; zero
 //
 //   then each material:
 //   16        filter name, padded with zeros
-//   4         kappa, float; 0 if the filter has none; for mipnet the kappa of its taps
-//   4, 4, 4   width and height of level 0; number of levels, from level 1 on: sides are halved and rounded down, at least 1
-//   8         hash of level 0 (MipSource::hash)
-//   8         levels_hash() of the weights for filters mipnet and teacher; else 0
-//   4, 4      kind of gains, 0: all are 1, else 1 + 2 l + m with lobe l (mipnet::Lobe) and m = 1 for metals, else 0; zero
-//   4 each    gain of each level, float: factor of its reflectances (level_gains.h)
-//   20 each   texels, rows from the top, level by level, floats: x and y of the normal in tangent space; a, b, c of the lobe in that
+//   4         kappa, float; 0 if the filter has none; for mipnet its taps' kappa
+//   4, 4, 4   level 0's width and height; level count, from level 1 on: sides are halved and rounded down, at least 1
+//   8         level 0's hash (MipSource::hash)
+//   8         the weights' levels_hash() for filters mipnet and teacher; else 0
+//   4, 4      the gains' kind, 0: all are 1, else 1 + 2 l + m with lobe l (mipnet::Lobe) and m = 1 for metals, else 0; zero
+//   4 each    each level's gain, float: factor on its reflectances (level_gains.h)
+//   20 each   texels, rows from the top, level by level, floats: the normal's x and y in tangent space; the lobe's a, b, c in that
 //             normal's frame (lobe_tensor, shading/surface/tensor.k.h)
 //
 //   then each map, once for all materials that use it:
 //   4, 4      part: 0 base colours, linear, 1 metallic-roughness as in glTF, 2 heights; kernel: 0 box, 1 kaiser
-//   8, 8      hash of level 0 (map_hash()); hash of the weighting normals (MipSource::hash of the normal map alone), 0: no weights
-//   4, 4      width and height of level 0
-//   4, 4      channels: 1 (gray, heights), 3 or 4 (alpha); number of levels, from level 1 on
-//   2 each    level by level, rows from the top, channels of a texel side by side: halves, finite
+//   8, 8      level 0's hash (map_hash()); the weighting normals' hash (MipSource::hash for the normal map alone), 0: no weights
+//   4, 4      level 0's width and height
+//   4, 4      channels: 1 (gray, heights), 3 or 4 (alpha); level count, from level 1 on
+//   2 each    level by level, rows from the top, a texel's channels side by side: halves, finite
 //
-//   8         hash of all bytes before: hash_bytes() of each MiB, seeded with the hash so far, 0 at first
+//   8         hash over all bytes before: hash_bytes() over each MiB, seeded with the hash so far, 0 at first
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -37,10 +37,10 @@
 
 namespace burnish {
 
-struct MipParts { // contents of a file
+struct MipParts { // a file's contents
     std::vector<const MipLevels*> materials;
     std::size_t map_count = 0;
-    std::function<MapLevels(std::size_t)> map; // makes a map at the moment of its writing, because large maps fill memory
+    std::function<MapLevels(std::size_t)> map; // makes a map when the map is written, because large maps fill memory
 };
 std::vector<std::uint8_t> mip_file_bytes(const MipParts& parts);
 // Writes the file as write_file_atomic() does, one map after the other.

@@ -1,4 +1,4 @@
-// Settings of mip filters for a scene, and the filter of each material.
+// A scene's settings for mip filters, and each material's filter.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -13,18 +13,18 @@ namespace burnish {
 
 enum class MipFallback { automatic, off }; // automatic: materials are left to closed forms where the net is worse than it may be
 inline constexpr float kDefaultMipKappa =
-    0.7f; // of every model of lobes: makes the least error of the numbers tried (bench/lab/notebook/mip_filters.md)
+    0.7f; // for every lobe model: makes the least error among the numbers tried (bench/lab/notebook/mip_filters.md)
 
 struct MipSettings {             // of all materials
-    MipFilter filter{};          // the first: that of the file of levels, where there is one
-    std::optional<float> kappa;  // of filters kappa and mipnet; none: kDefaultMipKappa
-    std::string net;             // weights of `burnish train mip` for filter mipnet; empty: the program's
-    int brdf = 0;                // model of lobes that the program's and gains are for, a place of BN_LOBE
+    MipFilter filter{};          // the first: the level file's filter, where there is a file
+    std::optional<float> kappa;  // for filters kappa and mipnet; none: kDefaultMipKappa
+    std::string net;             // weights from `burnish train mip` for filter mipnet; empty: the program's
+    int brdf = 0;                // lobe model that the program's weights and gains are for, a place in BN_LOBE
     MipFallback fallback{};      // of filter mipnet
-    bool gains = false;          // reflectances of levels are multiplied by their gains
-    bool couple_albedo = false;  // base colours and metalness of levels weigh as their texels face light and eye
+    bool gains = false;          // levels' reflectances are multiplied by their gains
+    bool couple_albedo = false;  // levels' base colours and metalness weigh as their texels face light and eye
     bool kaiser_colours = false; // and are averaged by ColourKernel::kaiser
-    std::string pyramid;         // levels of `burnish bake mip`
+    std::string pyramid;         // levels from `burnish bake mip`
     int threads = 0;             // that make levels; 0: all cores
     bool use_cache = false;      // levels that take long are looked for in the cache, and kept there
     bool frames_override = true; // false: no frame sets roughness, anisotropy or FrameDesc::frame_map off; its textures are not made
@@ -36,26 +36,26 @@ struct MipSettings {             // of all materials
 Status check_mip_settings(const MipSettings& settings);
 
 struct MaterialMips {                           // of one material
-    MipFilter filter{};                         // of its normals and lobes
-    float kappa = 0.0f;                         // of filter kappa, and of the taps of mipnet
+    MipFilter filter{};                         // for its normals and lobes
+    float kappa = 0.0f;                         // for filter kappa, and for mipnet's taps
     bool coupled = false;                       // base colours and metalness weigh as their texels face light and eye
     bool kaiser = false;                        // they are averaged by ColourKernel::kaiser
-    bool gains = false;                         // reflectances of levels are multiplied by their gains
+    bool gains = false;                         // levels' reflectances are multiplied by their gains
     mipnet::Lobe lobe{};                        // of gains
-    std::shared_ptr<const mipnet::Weights> net; // of filter mipnet; none: levels are brought along
+    std::shared_ptr<const mipnet::Weights> net; // for filter mipnet; none: levels are brought along
 };
 
 struct SceneMips {
-    std::vector<MaterialMips> materials;   // by material of the scene; those beyond its end are filtered by box
-    std::shared_ptr<const MipFile> baked;  // levels that were baked beforehand; none: made of the maps
-    std::shared_ptr<const MipFile> cached; // the same as are made of the maps, found in the cache or kept there
+    std::vector<MaterialMips> materials;   // by scene material; materials beyond its end are filtered by box
+    std::shared_ptr<const MipFile> baked;  // levels that were baked beforehand; none: made from the maps
+    std::shared_ptr<const MipFile> cached; // the same as are made from the maps, found in the cache or kept there
     bool frames_override = true;           // MipSettings::frames_override
 
     const MaterialMips& of(std::size_t material) const;
 };
-extern const SceneMips kBoxMips; // of a scene whose materials are all filtered by box
+extern const SceneMips kBoxMips; // for a scene whose materials are all filtered by box
 
-// Returns what settings ask for each of so many materials. Nets and lobes of gains are not settled yet.
+// Returns the settings' requests for each material. materials: how many. Nets and the gains' lobes are not settled yet.
 SceneMips asked_mips(const MipSettings& settings, std::size_t materials);
 
 } // namespace burnish

@@ -2,8 +2,8 @@
 // bits depend neither on the lane width nor on how work is split. Interfaces use plain pointers.
 //
 // Numbers are floats, or doubles in the tests' oracle. Texels have five channels, stored as planes: nx, ny (unit normal), a, b, c (tensor,
-// see tensor.h). If a level has n texels, texel j n + i in the next finer level is the j-th of four under texel i: j = 0 to 3 advance
-// along x first. All n are multiples of kSlots.
+// see tensor.h). If a level has n texels, texel j n + i in the next finer level is the j-th among four under texel i: j = 0 to 3 advance
+// along x first. kSlots divides every n.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,16 +16,16 @@ enum class Lobe : std::uint32_t { ggx_aniso, beckmann, ashikhmin_shirley };
 enum class Layout : std::uint32_t { paper, cov };
 
 inline constexpr int kChannels = 5, kMostLayers = 8, kSlots = 16;
-inline constexpr int kTrainedLevels = 5, kTileSide = 32, kTiles = kSlots; // of a shard: 16 tiles of 32 x 32, one per lane
-inline constexpr float kLeak = 0.01f;                                     // slope of a hidden unit below 0
+inline constexpr int kTrainedLevels = 5, kTileSide = 32, kTiles = kSlots; // in a shard: 16 tiles with 32 x 32 texels, one per lane
+inline constexpr float kLeak = 0.01f;                                     // a hidden unit's slope below 0
 
-struct Dense { // layers of a net; width[0] inputs, width[count] outputs
+struct Dense { // a net's layers; width[0] inputs, width[count] outputs
     int count = 0;
     int width[kMostLayers + 1] = {};
     std::size_t weights[kMostLayers] = {}, bias[kMostLayers] = {}; // first index; [output][input]
 };
 
-struct Plan { // layout of the list of numbers
+struct Plan { // the number list's layout
     Lobe lobe = Lobe::ggx_aniso;
     Layout layout = Layout::cov;
     Dense a, b; // a: from four texels; b: from sixteen, those four, and `a`'s result. b.count 0: `a` alone
@@ -36,19 +36,19 @@ struct Plan { // layout of the list of numbers
 struct ForwardWork { // one level
     const Plan* plan;
     const void* weights;       // plan->count numbers
-    std::size_t texels;        // of the level, n
-    const void* children;      // kChannels planes of 4 n
-    const void* grandchildren; // of 16 n; null: none, net `a` makes the level alone
-    const void* great;         // of 64 n, for nets that are `far`; null: each of the sixteen stands for its four
+    std::size_t texels;        // in the level, n
+    const void* children;      // kChannels planes with 4 n
+    const void* grandchildren; // with 16 n; null: none, net `a` makes the level alone
+    const void* great;         // with 64 n, for nets that are `far`; null: each grandchild stands for its four
     void* out;                 // of n
     void* memory;              // forward_bytes(), at a cache line
 };
 
-struct RadianceWork { // reflected radiance of texels
+struct RadianceWork { // texels' reflected radiance
     Lobe lobe;
     std::size_t texels;
     const float* planes;   // kChannels planes
-    const float* to_light; // 3 planes of unit vectors
+    const float* to_light; // 3 planes, unit vectors
     const float* to_eye;
     const float* intensity; // a plane
     float f0, diffuse;      // reflectances
