@@ -74,7 +74,7 @@ Examples:
 enum class BakeFormat { none, pyramid, exr_mip, png_levels, ktx2, dds, exr }; // the levels of mip, then the textures of environment
 
 struct BakeArguments {
-    std::string what = "ltc", picture, heights, output, preview;
+    std::string what = "direction", picture, heights, output, preview;
     DirectionFrom from = DirectionFrom::hue;
     Strokes strokes = Strokes::grooves;
     double strength = 1.0;
@@ -111,8 +111,9 @@ OptionTable bake_option_table(BakeArguments& to)
     limits.add("", limit_options(to.limits));
     table.add(
         "",
-        {{"WHAT", "", "{}",
-          choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut", "environment", "mip"})},
+        {Option("WHAT", "", "{}",
+                choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut", "environment", "mip"}))
+             .must_be_given(),
          {"PICTURE", "", "Source picture; for displaced the mesh, for mip a scene or a folder of pictures, for tpr the second expression",
           file(to.picture), ""},
          {"HEIGHTS", "", "Height map for displaced", file(to.heights), ""}});

@@ -188,7 +188,7 @@ Status read_command_line(Command& command, const std::vector<std::string>& words
     Given given = Reader(options, words).read();
     for (std::size_t i = 0; i < options.size(); ++i)
         if (options[i].required && given.texts[i].empty() && given.wrong.empty())
-            given.wrong = options[i].name + " is required";
+            given.wrong = options[i].name + " is required" + (options[i].help == "{}" ? ": " + options[i].meaning() : "");
     if (!given.wrong.empty())
         return usage_error("", fmt::format("{} (see burnish {} --help)", given.wrong, command.name));
     for (std::size_t i = 0; i < options.size(); ++i) {

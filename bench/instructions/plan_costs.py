@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Holds apps/plan/costs.def to counted instructions: each setting on two brushed spheres, within 3 %.
+"""Holds apps/plan/costs.def to counted instructions: each setting on two brushed spheres, at most 3 % dearer than the table says.
 
 Usage: plan_costs.py --program build/release/bench_instructions [--scale FACTOR]
 
 The eye is near a sphere's centre, so that every pixel sees its lobe from above. --scale multiplies the table's costs, to see the check fail.
-Settings with more than 512 samples are left out: their costs are lines through the others. Exit code 1: a cost is off; 77: skipped, as
+A table that is too cheap lets plans exceed their budgets. One that is too dear is a note: plans then spend less than they may.
+Settings with more than 512 samples are left out: their costs are lines through the others. Exit code 1: a cost is too cheap; 77: skipped, as
 count.py is.
 """
 
@@ -60,8 +61,9 @@ def main():
             wanted = options.scale * (fixed + sample * (samples if kind == "all" else line_samples(samples, lobe[1])))
             counted = counts[place(row, lobe)] / PIXELS
             off = wanted / counted - 1
-            faults += abs(off) > count.TOLERANCE
-            print(f"{place(row, lobe):<32} {counted:>9.1f} {wanted:>9.1f} {100 * off:>+7.2f}%{' is off' if abs(off) > count.TOLERANCE else ''}")
+            verdict = " is too cheap" if off < -count.TOLERANCE else " is dearer than counted: lower it" if off > count.TOLERANCE else ""
+            faults += off < -count.TOLERANCE
+            print(f"{place(row, lobe):<32} {counted:>9.1f} {wanted:>9.1f} {100 * off:>+7.2f}%{verdict}")
     return 1 if faults else 0
 
 

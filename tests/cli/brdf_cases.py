@@ -1,12 +1,8 @@
 """--brdf: every surface model, under lamps, in mc, in the reference, on a device."""
 
 import json
-import pathlib
-import subprocess
-import sys
 
-from harness import Skipped, case, check
-
+from harness import case, check
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
@@ -120,22 +116,3 @@ def devices(bench):
 @case("brdf.devices_give_the_same_words_by_all", tier="nightly")
 def devices_by_all(bench):
     devices_agree(bench, *((name,) for name in lobes(bench)))
-
-
-@case("brdf.models_match_their_references_on_one_sheet", tier="nightly")
-def models_match_their_references_on_one_sheet(bench):
-    needs_embree(bench)
-    script = pathlib.Path(__file__).resolve().parents[2] / "bench/lab/models_sheet.py"
-    words = (sys.executable, "-B", script, "--program", bench.program, "-o", "sheet.png", "--side", "32", "--samples", "256",
-             "--reference-samples", "128", "--work", "work", "--fail-flip")
-
-    def sheet(limit):
-        return subprocess.run([*words, limit], cwd=bench.folder, env=bench.environment({}), capture_output=True, text=True)
-
-    done = sheet("0.12")
-    check(done.returncode == 0, f"{done.stdout}{done.stderr}")
-    drawn = {line.split()[0] for line in done.stdout.splitlines()}
-    check(drawn == set(lobes(bench)) | {"lambert", "ellipsoid_dielectric"}, f"it shows {drawn}")
-    check((bench.folder / "sheet.png").read_bytes().startswith(b"\x89PNG"), "no sheet")
-    (bench.folder / "work/ward.pfm").write_bytes((bench.folder / "work/heidrich_seidel.pfm").read_bytes())
-    check(sheet("0.12").returncode == 1, "another picture than the model's is close to its reference too")

@@ -325,8 +325,6 @@ def albedo(bench):
     check(losses > 8 and worst < 0.02, f"{losses} lobes that lose light, off by {worst}")
 
 
-
-
 # Runs shaders on the points that the page holds. WebGL 2 draws a pixel for each point.
 RUN_WEBGL = """async function run(shader) {
     const canvas = document.createElement("canvas");

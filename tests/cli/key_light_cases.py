@@ -2,12 +2,10 @@
 
 import json
 import pathlib
-import subprocess
-import sys
 
 from compare_cases import png
 from environment_files import even, exr, hdr, rgbe, with_texels
-from harness import SMALL, Failed, Skipped, case, check, scratch
+from harness import SMALL, case, check, scratch
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NAN, INF = float("nan"), float("inf")
@@ -129,64 +127,3 @@ def same_on_every_road(bench):
             found = bench.figures("builtin:spheres", "--env", "builtin:sky", *SMALL, *words, *road)
             hashes.setdefault(found["pixel_hash"], []).append(road)
         check(len(hashes) == 1, f"{words}: {hashes}")
-
-
-@case("key_lights.lower_the_error_under_suns", tier="nightly")
-def lower_the_error(bench):
-    """The small table of bench/lab/key_lights.py: under suns, extracted lights lower the mean error to at most .85 times."""
-    if "reference" not in bench.run("info").expect(0).out:
-        raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
-                          capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
-    print(done.stdout)
-    if done.returncode not in (0, 1):
-        raise Failed(done.stderr)
-    check(done.returncode == 0, "a place is worse with extracted lights than without")
-    for env in ("builtin:sky", "low_sun", "two_suns"):
-        rows = [row for row in json.loads((bench.folder / "t.json").read_text()) if env in row["env"]]
-        off, on = (sum(row[f"flip_{k}"] for row in rows) for k in ("off", "auto"))
-        check(rows and rows[0]["key_lights"] > 0 and on < 0.85 * off, f"{env}: {off} -> {on}")
-
-
-def made_up_report(flips, cpu=1.0):
-    """Returns a report in the format of `burnish chart`, with two places; flips: by technique, a number a place."""
-    return {"rows": [{"scene": "s", "env": env, "technique": technique, "flip_mean": flip, "cpu_ms_median": cpu * (samples or 1),
-                      "settings": {"samples": samples, "roughness": 0.5, "anisotropy": 0.8}}
-                     for technique, found in flips.items()
-                     for samples in ((None,) if technique in ("bent_normal", "split_isotropic") else (16, 12))
-                     for env, flip in zip(("sun", "none"), found)]}
-
-
-@case("key_lights.table_of_aims_is_counted_by_places")
-def table_of_aims(_):
-    """Runs bench/lab/aims.py on invented reports."""
-    sys.path.append(str(ROOT / "bench/lab"))
-    import aims  # noqa: PLC0415
-    flips = {"lobe_line": (0.02, 0.05), "major_axis_weighted": (0.1, 0.1), "bent_normal": (0.06, 0.04), "split_isotropic": (0.2, 0.2)}
-    on = aims.places_of(made_up_report(flips))
-    off = aims.places_of(made_up_report({**flips, "lobe_line": (0.035, 0.045)}))
-    cpu = aims.places_of(made_up_report(flips), "cpu_ms_median")
-    ratios = aims.ratios_of_time(cpu)
-    check(ratios == {16: 1.0, 12: 0.75} and aims.most_within(ratios) == 16, f"{ratios}")
-    check(aims.most_within({16: 1.01, 14: 0.9, 12: 0.8}) == 14 and aims.most_within({16: 1.2, 12: 1.1}) == 12, "the most within the time, or the least")
-    found = aims.judge(on, off, on["major_axis_weighted:16"], "lobe_line:16", {"sun": 1, "none": 0})
-    reached = [(result["reached"], result["met"]) for result in found]
-    check(reached == [("0.350", True), ("0.700", False), ("0.700", False), ("50.0 %", False), ("100.0 %", True), ("1", False), ("0.571", False)],
-          f"{reached}")
-
-
-@case("key_lights.aims_are_measured_by_one_command", tier="nightly")
-def aims_are_measured(bench):
-    """Runs the short form, four places, where lobe_line must be the best."""
-    if "reference" not in bench.run("info").expect(0).out:
-        raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],
-                          capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
-    print(done.stdout)
-    if done.returncode:
-        raise Failed(done.stderr)
-    found = json.loads((bench.folder / "a.json").read_text())
-    check(len(found["places"]) == 4 and all(0.0 < place["noise"] < 0.1 for place in found["places"]), f"{found['places']}")
-    reached = {result["aim"]: result["reached"] for result in found["aims"]}
-    check(float(reached["lobe_line to major_axis_weighted as it was, equal time"]) < 0.9, f"{reached}")
-    check(float(reached["lobe_line to bent_normal, both with extracted lights"]) < 0.7, f"{reached}")

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from fault_cases import CHART, REFERENCE, TINY, needs_embree
-from harness import Skipped, case, check
+from harness import case, check
 
 
 def start(bench, words, env=None):
@@ -145,51 +145,6 @@ def bakes_long(bench):
     killed_bakes(bench, 40)
 
 
-def killed_reports(bench, words, kills):
-    """`race` and `parity` write once, at the end, completely or not at all. Cached pipelines do no harm to the next run."""
-    own = kills > 10  # a separate cache, so that pipelines are compiled and written repeatedly
-    env = {"XDG_CACHE_HOME": str(bench.folder / "cache")} if own else {}
-    env["GALLIVM_PERF"] = "nopt"  # optimising pipelines would take longer than drawing
-    words = (*words, "--json", "found.json")
-    begin = time.monotonic()
-    done = bench.run(*words, env=env, timeout=500.0)
-    if done.code == 77:
-        raise Skipped(done.err.strip())
-    done.expect(0)
-    longest = time.monotonic() - begin
-    rows = len(json.loads((bench.folder / "found.json").read_text())["rows"])
-
-    def whole():
-        path = bench.folder / "found.json"
-        check(not path.exists() or len(json.loads(path.read_text())["rows"]) == rows, "half a report")
-        path.unlink(missing_ok=True)
-        for kept in (bench.folder / "cache/burnish").glob("pipelines-*"):
-            kept.unlink()
-
-    kill_at_random(bench, words, kills, 11, longest, env, whole)
-    bench.run(*words, env=env, timeout=500.0).expect(0)
-    whole()
-    left = temporary(path.name for path in bench.folder.rglob("*"))
-    check(not left, f"left: {left}")
-
-
-RACE = ("race", "builtin:teapot", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe",
-        "--env-size", "16", "--env-samples", "16")
-PARITY = ("parity", "builtin:plate", "--size", "64x48", "--technique", "split_isotropic,mc", "--msaa", "1", "--device", "lavapipe",
-          "--env-size", "16", "--env-samples", "16")
-
-
-@case("kill.races_report_all_or_nothing", tier="nightly")
-def races(bench):
-    killed_reports(bench, RACE, 2)
-
-
-@case("kill.races_report_all_or_nothing_long", tier="nightly")
-def races_long(bench):
-    killed_reports(bench, RACE, 15)
-    killed_reports(bench, PARITY, 15)
-
-
 def killed_renders(bench, kills):
     words = ("render", *TINY, "-o", "o.exr", "-o", "o.png", "--stats", "s.json")
     longest = seconds_of(bench, words) + 0.05
@@ -215,22 +170,9 @@ def renders_long(bench):
     killed_renders(bench, 60)
 
 
-# Jobs by name: the words, and their output (a file or a folder), equal in every run. {} is a name before its suffix.
-JOBS = {
-    "tables": (("bake", "ltc", "--resolution", "4", "--steps", "6", "--samples", "4", "-q", "-o", "{}.ltc"), ("{}.ltc",)),
-    "trainings": (("train", "mip", "--steps", "12", "--size", "1x4", "-q", "-o", "{}.mipnet"), ("{}.mipnet",)),
-    "levels": (("bake", "mip", "builtin:shaderballs", "--mip-filter", "mipnet", "--couple", "albedo", "-q", "-o", "{}.mip", "--preview", "{}"), ("{}.mip", "{}")),
-    "environments": (("bake", "environment", "builtin:sky", "--env-size", "64", "--env-samples", "64", "-q", "-o", "{}"), ("{}",)),
-    "atlases": (("atlas", "albedo_by_a_fit", "--quick", "--threads", "2", "-q", "-o", "{}"), ("{}/atlas.json",)),
-}
-
-
-def killed_job(bench, name, kills):
+def killed_job(bench, words, made, kills):
     """A file under its final name is complete after a kill. The command, given again, makes the bytes of an uninterrupted run and leaves
     nothing else."""
-    if name == "atlases":
-        needs_embree(bench)
-    words, made = JOBS[name]
     of = lambda word: [text.replace("{}", word) for text in words]
     env = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
 
@@ -257,9 +199,18 @@ def killed_job(bench, name, kills):
     check(not left, f"left: {left}")
 
 
-for job in JOBS:
-    case(f"kill.{job}_are_made_whole", tier="nightly")(lambda bench, job=job: killed_job(bench, job, 2))
-    case(f"kill.{job}_are_made_whole_long", tier="nightly")(lambda bench, job=job: killed_job(bench, job, 25))
+def add_job(name, words, made, needs=lambda bench: None):
+    """Words of a job and its output (files or folders), equal in every run. {} is a name before its suffix. needs: skips."""
+    def killed(bench, kills):
+        needs(bench)
+        killed_job(bench, words, made, kills)
+
+    case(f"kill.{name}_are_made_whole", tier="nightly")(lambda bench: killed(bench, 2))
+    case(f"kill.{name}_are_made_whole_long", tier="nightly")(lambda bench: killed(bench, 25))
+
+
+add_job("levels", ("bake", "mip", "builtin:shaderballs", "--mip-filter", "mipnet", "--couple", "albedo", "-q", "-o", "{}.mip", "--preview", "{}"), ("{}.mip", "{}"))
+add_job("environments", ("bake", "environment", "builtin:sky", "--env-size", "64", "--env-samples", "64", "-q", "-o", "{}"), ("{}",))
 
 
 def sets_of_textures(bench, rounds, formats):

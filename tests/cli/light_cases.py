@@ -2,15 +2,16 @@
 
 import json
 import math
+import pathlib
 import struct
 
-from bake_cases import SHIPPED
 from direction_cases import SMALL
 from gltf_files import data_uri, png, text, triangle
 from harness import Skipped, case, check, scratch
 from parity_cases import check_equal, parity
 from reference_cases import needs_embree
 
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "shading/bake/ltc/ggx.ltc"
 QUAD = "quad:points=-1,1,-1/1,1,-1/1,1,1/-1,1,1:radiance=3,2,1"
 DARK = ("--env", "builtin:night", "--size", "48x32", "--msaa", "1", "--env-size", "16", "--env-samples", "4")
 
@@ -140,31 +141,6 @@ def sealed(data):
     return data[:-8] + struct.pack("<Q", xxh64(data[:-8]))
 
 
-@case("lights.tables_that_are_none_say_one_line", "input")
-def tables(bench):
-    data = SHIPPED.read_bytes()
-    check(sealed(data) == data, "the shipped table does not end with its hash")
-    at = 32 + 4 * 11 * (((3 * 8 + 2) * 11 + 5) * 8 + 1)  # entry [theta 3][phi 2][alpha 5][lambda 1]
-    place, (turned,) = "[theta 3][phi 2][alpha 5][lambda 1]", struct.unpack_from("<f", data, at + 16)
-    put = lambda offset, value: sealed(data[:offset] + struct.pack("<f", value) + data[offset + 4:])
-    bench.run("bake", "ltc", "--resolution", "4", "--steps", "0", "-o", "four.ltc", "-q").expect(0)
-    files = {"magic": (b"x" + data[1:], "not a table"), "short": (data[:-100], "bytes, which must be"), "empty": (b"", "empty.ltc"),
-             "nan": (put(at + 20, float("nan")), place), "flat": (put(at + 16, -turned), f"{place}: has no positive determinant"),
-             "other": (data[:8] + b"\1\0\0\0" + data[12:], "version 1")}
-    for name, (text_of, needle) in files.items():
-        (bench.folder / f"{name}.ltc").write_bytes(text_of)
-        bench.run("render", "builtin:lights", *SMALL, "--ltc-table", f"{name}.ltc", "-o", "a.png").expect(4).expect_one_line(f"{name}.ltc", needle)
-    flags, = struct.unpack_from("<I", data, 16)
-    (bench.folder / "ward.ltc").write_bytes(sealed(data[:16] + struct.pack("<I", flags | 3 << 12) + data[20:]))
-    of_ward = ("builtin:lights", *DARK, "--ltc-table", "ward.ltc", "--technique", "mc")
-    for brdf in ((), ("--brdf", "beckmann")):
-        bench.run("render", *of_ward, *brdf, "-o", "a.png").expect(4).expect_one_line("ward.ltc", "of ward lobes")
-    bench.run("render", *of_ward, "--brdf", "ward", "-o", "ward.png").expect(0)
-    bench.run("render", *SMALL, "--ltc-table", "four.ltc", "-o", "a.png").expect(4).expect_one_line("four.ltc", "has 4 nodes", "tables of 8")
-    bench.run("render", *SMALL, "--ltc-table", "none.ltc", "-o", "a.png").expect(4).expect_one_line("none.ltc")
-    check("a.png" not in bench.left_behind(), "a picture was written")
-
-
 @case("lights.tables_take_the_place_of_the_program_s_own")
 def own(bench):
     round_table = SHIPPED.parent / "ggx_round.ltc"
@@ -183,15 +159,6 @@ def own(bench):
     for way in ("ltc", "ltc-isotropic"):
         other = bench.figures("builtin:lights", *DARK, "--area-lights", way, "--ltc-table", "dark.ltc")["pixel_hash"]
         check((other == hashes[way]) == (way == "ltc-isotropic"), f"{way} by a table of other lobes")
-
-
-@case("lights.tables_of_nodes_fitted_alone_draw_another_picture", tier="nightly")
-def nodes(bench):
-    bench.run("bake", "ltc", "--resolution", "8", "--steps", "0", "-o", "nodes.ltc", "-q", timeout=600).expect(0)
-    for way in ("ltc", "ltc-isotropic"):
-        words = ("builtin:lights", *DARK, "--area-lights", way)
-        own_hash, other = (bench.figures(*words, *more)["pixel_hash"] for more in ((), ("--ltc-table", "nodes.ltc")))
-        check((other == own_hash) == (way == "ltc-isotropic"), f"{way} by a table of nodes fitted alone")
 
 
 def ball_over_plane(ball):

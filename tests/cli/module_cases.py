@@ -136,22 +136,6 @@ def babylon(bench):
     check("//" not in seen["definitions"].split("const int burnish_levels")[0], "a comment, whose semicolons the engine takes for ends of statements")
 
 
-@case("export.modules_bring_engines_nearer_to_the_truth", tier="nightly")
-def nearer(bench):
-    engines = os.environ.get("BURNISH_ENGINES", "")
-    if not engines:
-        raise Skipped("no engines: BURNISH_ENGINES is to name a folder with node_modules that holds three, babylonjs and babylonjs-loaders")
-    done = subprocess.run(["python3", "-B", ROOT / "bench/lab/conform.py", "--program", bench.program, "--engines", engines, "--work", bench.folder / "work",
-                           "--only", "three,babylon", "--modules", "lobe_line:64", "--json", bench.folder / "rows.json"], capture_output=True, text=True)
-    check(done.returncode == 0, done.stderr[-1500:])
-    for row in json.loads((bench.folder / "rows.json").read_text()):
-        before, after = row["flip_to_truth"]["as_it_is"], row["flip_to_truth"]["module"]
-        for scene in ("rotation_0", "rotation_30", "rotation_90", "smooth", "direction_map", "own_tangents", "no_tangents", "mirrored_node", "minified", "coat"):
-            check(after[scene] < 0.5 * before[scene], f"{row['engine']}, {scene}: {before[scene]:.3f} before, {after[scene]:.3f} with the module")
-        for scene in ("mirror", "round", "lamp"):
-            check(abs(after[scene] - before[scene]) < 1e-6, f"{row['engine']}, {scene}: changed")
-
-
 def project(bench, engine):
     """Copies an example project into the case's folder, and writes its modules as npm does before `start`."""
     folder = bench.folder / engine

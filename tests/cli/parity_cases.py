@@ -1,6 +1,5 @@
 """The Vulkan renderer against the tile renderer, bit by bit; `burnish parity` detects planted defects."""
 
-import csv
 import json
 import pathlib
 import re
@@ -321,120 +320,6 @@ def wrong_options(bench):
     bench.run("render", "--device", "lavapipe").expect(2).expect_one_line("--device")
     bench.run("race", "--devices", "lavapipe,").expect(2).expect_one_line("--devices")
     bench.run("race", "--msaa", ",1").expect(2).expect_one_line("--msaa")
-
-
-@case("race.rows_hold_picture_and_times", tier="nightly")
-def race_rows(bench):
-    done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
-                     "--json", "race.json", "--csv", "race.csv", timeout=540.0)
-    if done.code == 77:
-        raise Skipped(done.err.strip())
-    done.expect(0)
-    check("split_isotropic" in done.out and "geometric mean" in done.out and "split_isotropic" not in done.err, done.describe())
-    figures = [line for line in done.out.splitlines() if not line.startswith("abacus:")]  # this line names every available device
-    check(max(map(len, figures)) <= 100, f"lines are longer than 100 columns\n{done.describe()}")
-    report = json.loads((bench.folder / "race.json").read_text())
-    lines = list(csv.DictReader((bench.folder / "race.csv").open(newline="")))
-    check([row["shader"] for row in report["rows"]] == [line["shader"] for line in lines] == ["own", "lean"], f"{lines}")
-    for row, line in zip(report["rows"], lines):
-        check(line["technique"] == "split_isotropic" and float(line["ratio"]) == row["ratio"], f"{line}")
-        check(row["flip_mean"] < 0.01 and row["same_picture"], f"another picture: {row}")
-        check(all(row[key] > 0 for key in ("tile_ms", "device_ms", "tile_cpu_ms", "device_cpu_ms")), f"no times: {row}")
-        check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")
-        check(abs(report["geomean_ratio"][row["shader"]] - row["ratio"]) < 1e-6 * row["ratio"], "the mean of one row is that row")
-    check(any("abacus" in note for note in report["notes"]), "nothing is said of the device that is absent")
-
-
-@case("race.goes_on_after_a_row_that_fails", tier="nightly")
-def race_goes_on(bench):
-    (bench.folder / "broken.glb").write_text("glTF, not")
-    done = bench.run("race", "broken.glb", "builtin:teapot", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "8,1", "--runs", "1", "--devices",
-                     "lavapipe", *COARSE, "--json", "race.json", timeout=540.0)
-    if done.code == 77 and not (bench.folder / "race.json").exists():
-        raise Skipped(done.err.strip())
-    done.expect(4)
-    rows = json.loads((bench.folder / "race.json").read_text())["rows"]
-    check([bool(row["error"]) for row in rows] == 6 * [True] + 2 * [False], f"{rows}")
-    check("ratio" not in rows[5] and rows[6]["ratio"] > 0, f"{rows}")
-
-
-def lean_rows(bench, *arguments, code=0, timeout=540.0):
-    """Returns the rows of a race against the lean shader."""
-    done = bench.run("race", *arguments, "--runs", "1", "--shaders", "lean", "--devices", "lavapipe", *COARSE, "--json", "race.json", timeout=timeout)
-    if done.code == 77 and not (bench.folder / "race.json").exists():
-        raise Skipped(done.err.strip())
-    done.expect(code)
-    return json.loads((bench.folder / "race.json").read_text())["rows"]
-
-
-def check_lean(rows, count):
-    for row in rows:
-        check(not row["error"] and row["same_picture"] and row["flip_mean"] <= 0.01, f"another picture: {row}")
-        check((row["silhouettes"] > 0) == (row["msaa"] > 1) and row["silhouettes"] < 0.2, f"silhouettes: {row}")
-    check(len(rows) == count, f"{len(rows)} rows")
-
-
-@case("race.lean_draws_the_same", tier="nightly")
-def lean_draws(bench):
-    check_lean(lean_rows(bench, "builtin:teapot", "--size", "480x270", "--techniques", "split_isotropic,major_axis_adaptive", "--msaa", "4"), 2)
-
-
-@case("race.lean_draws_the_same_everywhere", tier="nightly")
-def lean_draws_all(bench):
-    """Except lobe_line and as_mc, whose samples the tile renderer shares between pixels and a fragment does not."""
-    alone = ",".join(("split_isotropic", "bent_normal", "major_axis", "major_axis_adaptive", "major_axis_weighted", "filtered_is", "filtered_is_ggx", "mc"))
-    small = lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "480x270", "--techniques", alone, "--msaa", "1")
-    check_lean(small, 24)
-    # spheres have triangles smaller than pixels there
-    check_lean(lean_rows(bench, "builtin:spheres", "builtin:teapot", "builtin:plate", "--size", "1920x1080", "--techniques", alone, "--msaa", "4",
-                         timeout=3000.0), 24)
-
-
-# Defects of the lean shader: file, text, replacement, technique that must then draw another image.
-LEAN_DEFECTS = (("techniques.glsl", "reflect(-s.v, bent)", "reflect(-s.v, s.n)", "bent_normal"),
-                ("techniques.glsl", "min(sqrt(radius), 1.0)", "min(radius, 1.0)", "major_axis_weighted"),
-                ("lean.vert", "normal = in_normal;", "normal = vec3(in_normal.xy, 1.0);", "split_isotropic"))
-
-
-def lean_with(bench, replaced, name):
-    """Compiles the lean shader with replacements (file, old text, new text). Returns the folder of its stages."""
-    if not shutil.which("glslc"):
-        raise Skipped("no glslc here")
-    source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
-    shutil.copytree(ROOT / "shading/lab/lean", source / "shading/lab/lean")
-    shaders.mkdir()
-    for file, old, new in replaced:
-        path = source / "shading/lab/lean" / file
-        check(old in path.read_text(), f"{file} does not hold '{old}' any more")
-        path.write_text(path.read_text().replace(old, new))
-    compile_listed("raster/vulkan/lab/stages.txt", source, "shading/lab", shaders)
-    return shaders
-
-
-def sees_lean_defects(bench, defects):
-    for i, (file, old, new, technique) in enumerate(defects):
-        row, = lean_rows(bench, "builtin:spheres", "--size", "160x90", "--techniques", technique, "--msaa", "1", "--shader-folder",
-                         lean_with(bench, [(file, old, new)], str(i)))
-        check(not row["error"] and not row["same_picture"], f"'{new}' in place of '{old}' is not seen: {row}")
-
-
-@case("race.sees_a_defect_of_lean")
-def sees_lean_defect(bench):
-    sees_lean_defects(bench, LEAN_DEFECTS[:1])
-
-
-@case("race.sees_defects_of_lean", tier="nightly")
-def sees_all_lean_defects(bench):
-    check_lean(lean_rows(bench, "builtin:spheres", "--size", "160x90", "--techniques", "bent_normal", "--msaa", "1", "--shader-folder",
-                         lean_with(bench, [], "whole")), 1)
-    sees_lean_defects(bench, LEAN_DEFECTS)
-
-
-@case("race.lean_refuses_what_it_does_not_draw", tier="nightly")
-def lean_refuses(bench):
-    """Refuses by row and races the other rows. An image that it would draw wrongly is not drawn."""
-    row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
-    check("extracted lights" in row["error"] and "ratio" not in row, f"{row}")
 
 
 # Defects that `parity` must catch. Columns: edits (shading file, old text, new text), samples a pixel, stages that may differ first, and

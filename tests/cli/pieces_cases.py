@@ -99,25 +99,6 @@ def chart(bench):
     one_and_pieces(bench, CHART, ("report",))
 
 
-@case("pieces.of_an_atlas_make_its_bytes", budget=30)
-def atlas(bench):
-    needs_embree(bench)
-    one_and_pieces(bench, ("atlas", "albedo_by_a_fit", "bent_normal_bends_too_far", "area_lights_left_out", "--quick", "-q"), ("atlas",))
-
-
-@case("pieces.of_a_conformance_folder_make_its_bytes", tier="nightly", budget=30)
-def conform(bench):
-    needs_embree(bench)
-    words = ("conform", "--samples", "64", "-q", "--write")
-    bench.run(*words, "one", timeout=200).expect(0)
-    bench.run(*words, "two", "--shard", "2/2", "--work", "w", timeout=200).expect(0)
-    missing = bench.run("merge", "w").expect(5)
-    check(len(missing.out.splitlines()) == 16 and not (bench.folder / "two").exists(), missing.describe())
-    bench.run(*words, "two", "--take", "--work", "w", timeout=200).expect(0)
-    bench.run("merge", "w").expect(0)
-    check(files_of(bench.folder / "one") == files_of(bench.folder / "two"), "other files")
-
-
 @case("pieces.of_baked_levels_make_their_bytes")
 def levels(bench):
     """Levels of each material, with colours and heights that the merge makes. Changed maps and options have other pieces."""
@@ -143,18 +124,6 @@ def levels(bench):
     bench.run(*words, "-o", "three.mip", "--take", "--work", "e").expect(0)
     check(len(bench.run("merge", "e").expect(4).out.splitlines()) == 2, "two jobs")
     bench.run("bake", "direction", "a.png", "-o", "b.png", "--pieces").expect(2).expect_one_line("direction", "mip")
-
-
-@case("pieces.of_a_table_make_its_bytes", budget=20)
-def table(bench):
-    one_and_pieces(bench, ("bake", "ltc", "--resolution", "4", "--steps", "2", "-q"), ("a.ltc",), machine=("--threads", "1"))
-    bench.run("bake", "ltc", "--table", "two/a.ltc", "--pieces").expect(2).expect_one_line("--table")
-
-
-@case("pieces.of_measured_nets_make_their_figures", budget=20)
-def nets(bench):
-    net = str(ROOT / "shading/bake/mipnet/ggx_aniso.mipnet")
-    one_and_pieces(bench, ("train", "mip", "--evaluate", net, "--validation", "-q"), ("figures.json",), option="--json", machine=("--threads", "1"))
 
 
 @case("pieces.of_a_timed_chart_keep_their_times")

@@ -1,17 +1,9 @@
 """The promise: pixels depend on version, scene and options alone."""
 
-import colorsys
 import json
-import math
 import os
-import pathlib
-import sys
 
-from compare_cases import png
-from harness import SMALL, Skipped, case, check, data_files, scratch
-from reference_cases import needs_embree
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "bench/lab"))
+from harness import SMALL, Skipped, case, check, data_files
 
 BUILTINS = ("builtin:teapot", "builtin:spheres", "builtin:plate")
 
@@ -144,26 +136,3 @@ def brushing_sets_in(bench):
         found = frame["flip_mean"]
         print(f"{scene}, roughness {roughness}, {msaa}x: {found:.5f}")
         check(found <= 0.002, f"{scene}, roughness {roughness}, {msaa}x: FLIP {found}")
-
-
-@case("pixels.lines_that_turn_fast_leave_no_dots", budget=4)
-def no_dots(bench):
-    """If a quad's fragments share too few of their samples, quads show: their error correlates more at two pixels than at one."""
-    needs_embree(bench)
-    from lobe_line import pattern, read_pfm
-
-    def hue(x, y):
-        u, v = x / 128 - 1.5, y / 128 - 1.0
-        angle = 0.5 * math.sin(5 * u + 2 * math.sin(4 * v)) + 0.6 * v * v + 0.15 * math.sin(17 * u * v + 9 * v)
-        return tuple(int(255 * c) for c in colorsys.hsv_to_rgb(angle % 1.0, 1, 1))
-
-    scratch(bench, "p.png", png(384, 256, hue))
-    bench.run("bake", "direction", "p.png", "-o", "d.png").expect(0)
-    words = ("builtin:plate", "--direction-map", "d.png", "--roughness", "0.3", "--anisotropy", "0.95", "--size", "300x200", "--msaa", "1",
-             "--env-size", "64", "--env-samples", "64", "--no-background", "-q")
-    bench.run("render", *words, "--samples", "16", "-o", "16.pfm").expect(0)
-    bench.run("render", *words, "--backend", "reference", "--samples", "256", "-o", "r.pfm").expect(0)
-    width, height, truth = read_pfm(bench.folder / "r.pfm")
-    found = pattern(truth, read_pfm(bench.folder / "16.pfm")[2], width, height)
-    print(found)
-    check(found["two"] < found["one"], f"dots: {found}")

@@ -8,7 +8,7 @@ import sys
 import harness
 
 HERE = pathlib.Path(__file__).resolve().parent
-LAB = HERE.parent / "lab/cli" # of subcommands of burnish-lab
+LAB = HERE.parent / "lab/cli" # of subcommands of burnish-lab and of scripts in bench/lab
 sys.path.append(str(LAB))
 FILES = {path.stem: path for folder in (HERE, LAB) for path in sorted(folder.glob("*_cases.py"))}
 MODULES = sorted(FILES)

@@ -10,9 +10,9 @@
 #include "core/base/check.h"
 #include "core/base/clock.h"
 #include "shading/bake/mip/filter.h"
-#include "shading/bake/mip/two_lobes.h"
 #include "shading/bake/mipnet/net.h"
 #include "shading/bake/mipnet/shipped.h"
+#include "shading/lab/mip/two_lobes.h"
 #include "shading/surface/tensor.k.h"
 
 namespace burnish {

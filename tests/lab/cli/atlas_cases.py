@@ -13,6 +13,7 @@ from browser import Browser
 from chart_cases import needs_embree
 from chart_page_cases import healthy
 from harness import Skipped, case, check, scratch
+from wasm_cases import package
 
 FAST = "albedo_by_a_fit" # two images of the tile renderer a step, no reference
 
@@ -304,3 +305,25 @@ def by_device(bench):
     print(f"{len(ends)} entries, {len(set(hashes.values()))} pictures")
     check(not other, f"{other} are drawn otherwise on the device")
     check(len(set(hashes.values())) > 50, "most pictures are one")
+
+
+@case("wasm.worst_places_of_the_atlas_are_drawn_anew", "of_wasm", tier="nightly", budget=150)
+def atlas_anew(bench):
+    entries = ("bent_normal_bends_too_far", "half_vectors_in_eight_bits")  # the latter reads a table of a trial
+    done = bench.run("atlas", *entries, "--quick", "--live", "--renderer", package(bench), "-o", "atlas").expect(0)
+    check("the page cannot draw 1 of 2 entries" in done.err, done.err)
+    worst = max(json.loads((bench.folder / "atlas/atlas.json").read_text())["entries"][0]["steps"], key=lambda step: step["error"])
+    with Browser(bench.folder) as browser:
+        browser.size(1200, 800)
+        browser.open(bench.folder / "atlas/index.html")
+        check(browser.value("document.querySelectorAll('.burnish-open').length") == 1, "one entry has a button")
+        browser.value("document.querySelector('.burnish-open').click()")
+        inside = "document.querySelector('dialog.burnish-live iframe')?.contentDocument"
+        browser.until(f"{inside}?.body?.dataset.proof", 120)
+        check(browser.value(f"{inside}.body.dataset.proof") == "same", browser.value(f"{inside}.getElementById('proof').textContent"))
+        name, value = worst["values"].split()
+        check(f"--{name} {value}" in browser.value(f"{inside}.getElementById('command').textContent"), f"not the worst place, {worst}")
+        browser.screenshot(bench.folder / "atlas.png", whole=False)
+        check(not browser.faults, str(browser.faults))
+    for words, text in ((["--live"], "--live: needs -o"), (["-o", "b", "--renderer", "x"], "--renderer: needs --live")):
+        check(text in bench.run("atlas", "--quick", *words, entries[0]).expect(2).err, text)

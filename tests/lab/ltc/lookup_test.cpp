@@ -6,7 +6,7 @@
 
 #include "core/math/scalar_math.h"
 #include "shading/lab/ltc/node_fit.h"
-#include "tests/lab/ltc/lit.h"
+#include "tests/unit/adversary/lit.h"
 
 namespace burnish::ltc {
 namespace {

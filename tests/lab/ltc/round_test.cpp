@@ -5,7 +5,7 @@
 
 #include "core/math/scalar_math.h"
 #include "shading/lab/ltc/polygon.h"
-#include "tests/lab/ltc/lit.h"
+#include "tests/unit/adversary/lit.h"
 
 namespace burnish::ltc {
 namespace {

@@ -1,8 +1,8 @@
 // Transformed cosines: the lookup in the shipped table, and light from a triangle, a disk and a sphere through a lobe.
 #include <cmath>
 
-#include "tests/lab/ltc/lit.h"
 #include "tests/unit/adversary/domains.h"
+#include "tests/unit/adversary/lit.h"
 
 namespace burnish::test {
 namespace {

@@ -14,7 +14,6 @@
 #include "shading/bake/mip/optimised_mip.h"
 #include "shading/bake/mip/standard_textures.h"
 #include "shading/bake/mip/texture.h"
-#include "shading/bake/mip/two_lobes.h"
 #include "shading/bake/mipnet/families.h"
 #include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
@@ -259,27 +258,6 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
             optimised_levels(flat_texels(8, 0.3f), {{flat_texels(4, 0.9f)}, {flat_texels(4, 0.3f)}}, surface, jobs);
         EXPECT_EQ(kept[0].channel[2], flat_texels(4, 0.3f).channel[2]);
     }
-}
-
-// With crossed grain, two lobes a texel err at least a quarter less than the best one, under other directions than the search used.
-TEST(mip_teacher, crossed_grain_wants_two_lobes)
-{
-    const Jobs jobs(2);
-    const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::ggx_aniso, true);
-    mipnet::Texels grain = flat_texels(32, 0.3f);
-    for (std::size_t i = 0; i < grain.count(); ++i) {
-        const bool along = (i + i / 32) % 2 == 0;
-        grain.channel[2][i] = along ? 0.5f : 0.06f, grain.channel[3][i] = along ? 0.06f : 0.5f;
-    }
-    const std::vector<mipnet::Texels> one = optimised_levels(grain, {{flat_texels(16, 0.3f)}}, surface, jobs);
-    const LobePairs two = optimised_pairs(grain, one, surface, jobs), again = optimised_pairs(grain, one, surface, Jobs(1));
-    EXPECT_EQ(two.first[0].channel[2], again.first[0].channel[2]);
-    const auto errors = mip_errors(grain, {one, two.first}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0}, {{}, two.second});
-    EXPECT_LT(errors[1][0].l1, 0.75 * errors[0][0].l1);
-    // Where one lobe suffices, two are no worse.
-    const std::vector<mipnet::Texels> flat = {flat_texels(16, 0.3f)};
-    const LobePairs same = optimised_pairs(flat_texels(32, 0.3f), flat, surface, jobs);
-    EXPECT_LT(mip_errors(flat_texels(32, 0.3f), {same.first}, surface, jobs, {.times = 8, .lamps = 0}, {same.second})[0][0].l1, 2e-3);
 }
 
 // Odd sides: texels below are shared out by area. Levels have equal bits for every thread count and instruction set.

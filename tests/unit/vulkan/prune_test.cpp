@@ -1,27 +1,24 @@
 // Stages specialised by their constants: valid SPIR-V that keeps the needed code and no more.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <cstdint>
+#include <string>
 #include <string_view>
-#include <unistd.h>
+#include <vector>
 
 #include "raster/frame/frame.h"
-#include "raster/vulkan/forward_shaders.h"
 #include "raster/vulkan/frame_numbers.h"
-#include "raster/vulkan/lab/lean.h"
 #include "raster/vulkan/prune.h"
+#include "raster/vulkan/shaders.h"
+#include "shading/lang/tables.h"
+#include "tests/unit/vulkan/pruned.h"
 
 namespace burnish::test {
 namespace {
 
-using Words = std::vector<std::uint32_t>;
-
 Words stage(const char* name)
 {
-    return *shader_words(name, "", lean_shaders()->files);
+    return *shader_words(name, "");
 }
 
 // Searches like a debugger: "NAME(" begins glslc's name for a function.
@@ -61,17 +58,6 @@ TEST(prune, leaves_everything_where_all_may_be_met)
     const Words all = stage("shade"), same = pruned(all, {-1, -1, 1, 1});
     for (const char* name : {"major_axis_specular", "as_mc_specular", "ward_eval", "store_shared_sample"})
         EXPECT_TRUE(has_function(same, name)) << name;
-}
-
-// Returns a material of the technique bent_normal, without textures and without anything special.
-MaterialRecord plain_material()
-{
-    MaterialRecord m = {};
-    while (techniques()[static_cast<std::size_t>(m.technique)].name != std::string_view("bent_normal"))
-        ++m.technique;
-    for (TextureBinding& t : m.textures)
-        t.texture = -1;
-    return m;
 }
 
 constexpr const char* kSpecial[] = {"light_of_facets",      "apply_parallax", "fetch_texture",
@@ -149,41 +135,19 @@ TEST(prune, gives_back_what_is_no_module)
         EXPECT_EQ(pruned(words, {}), words);
 }
 
-// Removes OpName and OpMemberName, which slow spirv-val down thirty times.
-Words without_names(const Words& words)
-{
-    Words kept(words.begin(), words.begin() + 5);
-    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
-        if (const std::uint32_t op = words[at] & 0xffff; op != 5 && op != 6)
-            kept.insert(kept.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
-                        words.begin() + static_cast<std::ptrdiff_t>(at + (words[at] >> 16)));
-    return kept;
-}
-
 TEST(prune, makes_valid_modules)
 {
-    if (std::system("spirv-val --version > /dev/null 2>&1") != 0)
+    if (!validator_is_there())
         GTEST_SKIP() << "no spirv-val";
-    const std::string path = (std::filesystem::temp_directory_path() / ("burnish_prune_" + std::to_string(::getpid()) + ".spv")).string();
     const struct {
         const char* name;
         std::vector<std::int32_t> constants;
     } cases[] = {{"shade", {0x2a, 0x15, 0, 1}},
                  {"compose", {0x2a, 0x15, 0, 1, -1, 1}},
                  {"share", {0x20, 1, 1, 1}},
-                 {"forward_native", {1, 1, 0, 0, 0x155}},
-                 {"lean", {1, 2, 3, 4, 5}}};
-    for (int i = 0; i < 2 * static_cast<int>(std::size(cases)); ++i) {
-        const auto& [name, constants] = cases[i / 2];
-        const bool known = i % 2 == 1;
-        Words words = pruned(stage(name), constants, known ? known_numbers({}, {plain_material()}) : std::vector<KnownNumber>());
-        EXPECT_LT(words.size(), stage(name).size()) << name << ": not understood";
-        words = without_names(words);
-        std::ofstream(path, std::ios::binary)
-            .write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * sizeof(words[0])));
-        EXPECT_EQ(std::system(("spirv-val --target-env vulkan1.3 '" + path + "'").c_str()), 0) << name << (known ? ", numbers known" : "");
-    }
-    std::filesystem::remove(path);
+                 {"forward_native", {1, 1, 0, 0, 0x155}}};
+    for (const auto& [name, constants] : cases)
+        check_pruned(name, stage(name), constants);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "shading/bake/mip/two_lobes.h"
+#include "shading/lab/mip/two_lobes.h"
 
 #include <algorithm>
 #include <cmath>

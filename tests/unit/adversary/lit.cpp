@@ -1,4 +1,4 @@
-#include "tests/lab/ltc/lit.h"
+#include "tests/unit/adversary/lit.h"
 
 #include <gtest/gtest.h>
 
