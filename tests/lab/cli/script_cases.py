@@ -17,19 +17,25 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.append(str(ROOT / "bench/lab"))
 
 
-@case("key_lights.lower_the_error_under_suns", tier="nightly")
-def lower_the_error(bench):
-    """The small table of bench/lab/key_lights.py: under suns, extracted lights lower the mean error to at most .85 times."""
-    if "reference" not in bench.run("info").expect(0).out:
-        raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/key_lights.py", "--quick", "--program", bench.program, "--json", bench.folder / "t.json"],
+def measured(bench, script):
+    """Runs the short form of a script. Returns its exit code, and the JSON it writes."""
+    needs_embree(bench)
+    found = bench.folder / "found.json"
+    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab" / script, "--quick", "--program", bench.program, "--json", found],
                           capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
     print(done.stdout)
     if done.returncode not in (0, 1):
         raise Failed(done.stderr)
-    check(done.returncode == 0, "a place is worse with extracted lights than without")
+    return done.returncode, json.loads(found.read_text())
+
+
+@case("key_lights.lower_the_error_under_suns", tier="nightly")
+def lower_the_error(bench):
+    """The small table of bench/lab/key_lights.py: under suns, extracted lights lower the mean error to at most .85 times."""
+    code, table = measured(bench, "key_lights.py")
+    check(code == 0, "a place is worse with extracted lights than without")
     for env in ("builtin:sky", "low_sun", "two_suns"):
-        rows = [row for row in json.loads((bench.folder / "t.json").read_text()) if env in row["env"]]
+        rows = [row for row in table if env in row["env"]]
         off, on = (sum(row[f"flip_{k}"] for row in rows) for k in ("off", "auto"))
         check(rows and rows[0]["key_lights"] > 0 and on < 0.85 * off, f"{env}: {off} -> {on}")
 
@@ -63,14 +69,8 @@ def table_of_aims(_):
 @case("key_lights.aims_are_measured_by_one_command", tier="nightly")
 def aims_are_measured(bench):
     """Runs the short form, four places, where lobe_line must be the best."""
-    if "reference" not in bench.run("info").expect(0).out:
-        raise Skipped("built without Embree")
-    done = subprocess.run([sys.executable, "-B", ROOT / "bench/lab/aims.py", "--quick", "--program", bench.program, "--json", bench.folder / "a.json"],
-                          capture_output=True, text=True, env=bench.environment({}), timeout=550, check=False)
-    print(done.stdout)
-    if done.returncode:
-        raise Failed(done.stderr)
-    found = json.loads((bench.folder / "a.json").read_text())
+    code, found = measured(bench, "aims.py")
+    check(code == 0, "aims.py fails")
     check(len(found["places"]) == 4 and all(0.0 < place["noise"] < 0.1 for place in found["places"]), f"{found['places']}")
     reached = {result["aim"]: result["reached"] for result in found["aims"]}
     check(float(reached["lobe_line to major_axis_weighted as it was, equal time"]) < 0.9, f"{reached}")
