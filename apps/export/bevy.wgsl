@@ -12,6 +12,7 @@
 //
 // The images are specular.ktx2, irradiance.ktx2 and lobe_albedo.ktx2 of `burnish bake environment PICTURE --format ktx2`. Leave
 // EnvironmentMapLight away, and set AmbientLight to 0: this file has the light of the environment. Lamps, emission and exposure stay Bevy's.
+// The lobe is glTF's, without light that leaves it after several bounces.
 // Meshes need tangents: without these the grain has no direction. Unlit materials are none for this file.
 #import bevy_pbr::{
     forward_io::{FragmentOutput, VertexOutput},
