@@ -16,12 +16,12 @@ constexpr const char* kHead = R"(# Where methods break
 Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.md`. `burnish atlas` holds
 what it measures to them: the onset within a step, the kind, and the largest error, which may fall.
 
-- onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold
-- worst: the largest error
-- flicker: how much more the error changes from step to step than the reference does
-- double: the error at the worst place, shaded in double
-- cure: the largest error with the cure, where one is known
-- kind: precision: doubles leave less than half of the error. Sampling: 64 times the samples do. Filtering: a reference that filters textures alike does. Else approximation
+- onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.
+- worst: the largest error.
+- flicker: how much more the error changes from step to step than the reference does.
+- double: the error at the worst place, shaded in double.
+- cure: the largest error with the cure, where one is known.
+- kind: precision: doubles leave less than half of the error. Sampling: 64 times the samples do. Filtering: a reference that filters textures alike does. Else approximation.
 
 )";
 
