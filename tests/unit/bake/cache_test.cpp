@@ -173,11 +173,15 @@ TEST_F(environment_cache, refuses_numbers_out_of_range)
     };
     EXPECT_TRUE(is_read(good));
     for (CubeMap Environment::*cube : {&Environment::specular, &Environment::irradiance, &Environment::whole}) {
-        for (const int half : {0x7c00, 0x7e00, 0xbc00, 0xfc00}) { // infinite, NaN, -1, -infinite
-            Environment bad = good;
-            (bad.*cube).texels[5] = static_cast<std::uint16_t>(half);
-            EXPECT_FALSE(is_read(bad)) << half;
-        }
+        for (const int half : {0x7c00, 0x7e00, 0x8001, 0xbc00, 0xfc00}) // infinite, NaN, the least negative, -1, -infinite
+            for (std::size_t channel = 0; channel < 4; ++channel) {
+                Environment bad = good;
+                (bad.*cube).texels[4 + channel] = static_cast<std::uint16_t>(half);
+                EXPECT_FALSE(is_read(bad)) << half << ", channel " << channel;
+            }
+        Environment light = good;
+        (light.*cube).texels[5] = 0x8000, (light.*cube).texels[6] = 0x7bff; // -0, and the largest
+        EXPECT_TRUE(is_read(light));
         for (const float scale : {-1.0f, 1e35f, std::numeric_limits<float>::quiet_NaN()}) {
             Environment bad = good;
             (bad.*cube).scale = scale;
