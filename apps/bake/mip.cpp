@@ -286,8 +286,8 @@ int run_mip(const MipBake& bake)
     if (any_pieces(bake.pieces)) {
         const std::vector<JobPiece> pieces = material_pieces(bake, scene, scene_mips, jobs);
         if (!bake.pieces.merge)
-            return run_pieces(bake.pieces, kept_words(), pieces, report);
-        const auto files = finished_pieces(bake.pieces, kept_words(), pieces);
+            return run_pieces(bake.pieces, command_words(), pieces, report);
+        const auto files = finished_pieces(bake.pieces, command_words(), pieces);
         if (!files)
             return fail(files.error());
         if (const Status taken = take_levels(*files, pieces, scene_mips); !taken)

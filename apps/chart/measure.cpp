@@ -127,7 +127,8 @@ Status Chart::at_place(const Spot& spot, const std::function<Status(const Place&
             parts.environment = *own;
         }
         if (options_.sweeps_scenes) {
-            const auto own = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights);
+            const auto own =
+                open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights, {}, jobs_.get());
             BN_TRY(own);
             parts.scene = *own;
         }
@@ -387,8 +388,8 @@ Result<MeasuredChart> measure_chart(const ChartOptions& options, const std::shar
         const Result<std::vector<JobPiece>> pieces = chart.pieces();
         BN_TRY(pieces);
         if (!options.pieces.merge)
-            return MeasuredChart{{}, false, run_pieces(options.pieces, kept_words(), *pieces, report)};
-        const auto files = finished_pieces(options.pieces, kept_words(), *pieces);
+            return MeasuredChart{{}, false, run_pieces(options.pieces, command_words(), *pieces, report)};
+        const auto files = finished_pieces(options.pieces, command_words(), *pieces);
         BN_TRY(files);
         BN_TRY(open_checkpoint());
         BN_TRY(chart.take(*files, *pieces));

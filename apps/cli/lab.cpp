@@ -14,7 +14,7 @@ namespace burnish {
 
 int start_lab()
 {
-    return start_lab(kept_words());
+    return start_lab(command_words());
 }
 
 int start_lab(const std::vector<std::string>& words, const std::string& reason)

@@ -8,9 +8,9 @@ namespace burnish {
 
 Result<std::shared_ptr<const SceneData>> open_scene(const std::string& name, const Limits& limits, const MaterialOverrides& overrides,
                                                     const MipSettings& mips, const Moment& moment, const std::vector<AreaLight>& lights,
-                                                    const FloorSettings& floor)
+                                                    const FloorSettings& floor, const Jobs* jobs)
 {
-    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, overrides, mips, moment, lights, floor);
+    Result<std::shared_ptr<const SceneData>> scene = load_scene_data(name, limits, overrides, mips, moment, lights, floor, jobs);
     if (!scene) {
         const std::string& file = scene.error().file;
         const bool of_light = std::any_of(lights.begin(), lights.end(), [&](const AreaLight& l) { return l.texture_file == file; });

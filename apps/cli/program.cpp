@@ -125,7 +125,7 @@ int run(const std::vector<std::string>& words)
         break;
     }
     // Run the subcommand
-    keep_words(words);
+    set_command_words(words);
     if (const Status read = read_command_line(*command, rest); !read)
         return fail(read.error());
     Activity::tell(!command->options.given("--quiet"));

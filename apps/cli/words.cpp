@@ -6,12 +6,12 @@ namespace {
 std::vector<std::string> kept;
 }
 
-void keep_words(const std::vector<std::string>& words)
+void set_command_words(const std::vector<std::string>& words)
 {
     kept = words;
 }
 
-const std::vector<std::string>& kept_words()
+const std::vector<std::string>& command_words()
 {
     return kept;
 }

@@ -6,8 +6,8 @@
 namespace burnish {
 
 // Keeps the command's words for the rest of the process.
-void keep_words(const std::vector<std::string>& words);
-// Returns the words of keep_words().
-const std::vector<std::string>& kept_words();
+void set_command_words(const std::vector<std::string>& words);
+// Returns the words of set_command_words().
+const std::vector<std::string>& command_words();
 
 } // namespace burnish

@@ -35,10 +35,12 @@ int main()
         return fails(session.error());
     FrameDesc desc;
     desc.width = 160, desc.height = 120;
+    desc.parts = true; // for clean edges of bright things
     desc.view = session->framed(desc.width, desc.height);
     const Result<Frame> frame = session->render(desc);
     if (!frame)
         return fails(frame.error());
-    const Status written = write_image("square.png", tonemap_to_srgb8(frame->color, Tonemap::pbr_neutral, 0.0f));
+    const Status written =
+        write_image("square.png", tonemap_to_srgb8(frame->color, Tonemap::pbr_neutral, 0.0f, frame->parts, Resolve::display));
     return written ? 0 : fails(written.error());
 }

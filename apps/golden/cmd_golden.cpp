@@ -64,7 +64,7 @@ Examples:
 // Returns this command without its shard, its folder and its job count.
 std::vector<std::string> words_of_shard()
 {
-    const std::vector<std::string> words = without_pieces(kept_words());
+    const std::vector<std::string> words = without_pieces(command_words());
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const bool apart = words[i] == "-o" || words[i] == "--output" || words[i] == "--jobs";
@@ -103,8 +103,8 @@ int check_in_pieces(const GoldenArguments& arguments, const GoldenManifest& mani
     if (!pieces)
         return fail(pieces.error());
     if (!arguments.pieces.merge)
-        return run_pieces(arguments.pieces, kept_words(), *pieces, report);
-    const auto files = finished_pieces(arguments.pieces, kept_words(), *pieces);
+        return run_pieces(arguments.pieces, command_words(), *pieces, report);
+    const auto files = finished_pieces(arguments.pieces, command_words(), *pieces);
     if (!files)
         return fail(files.error());
     NewResults fresh(arguments.results);

@@ -170,8 +170,8 @@ Result<SessionParts> parts_of_step(const RenderOptions& options, SessionParts pa
         parts.environment = *environment;
     }
     if (scene) {
-        const auto data =
-            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights, floor_of(options));
+        const auto data = open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights,
+                                     floor_of(options), parts.jobs.get());
         BN_TRY(data);
         parts.scene = *data;
     }
@@ -346,7 +346,7 @@ Status merge_row(Row& row, const std::vector<std::string>& files, const std::vec
 
 int run_row_pieces(const PieceOptions& options, Row& row, const RenderOptions& first, const OptionTable& given, Report& report)
 {
-    const std::vector<std::string>& words = kept_words();
+    const std::vector<std::string>& words = command_words();
     const std::vector<JobPiece> pieces = row_pieces(row, first, given);
     if (!options.merge)
         return run_pieces(options, words, pieces, report);

@@ -216,8 +216,8 @@ int run_bands(const RenderArguments& arguments, const OptionTable& given, const 
     }
     const std::vector<JobPiece> pieces = band_pieces(bands, given);
     if (!arguments.pieces.merge)
-        return run_pieces(arguments.pieces, kept_words(), pieces, report);
-    const auto files = finished_pieces(arguments.pieces, kept_words(), pieces);
+        return run_pieces(arguments.pieces, command_words(), pieces, report);
+    const auto files = finished_pieces(arguments.pieces, command_words(), pieces);
     if (!files)
         return fail(files.error());
     report.release();

@@ -197,8 +197,8 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     if (any_pieces(arguments.pieces)) {
         const std::vector<JobPiece> pieces = reference_pieces(options, desc, *session);
         if (!arguments.pieces.merge)
-            return run_pieces(arguments.pieces, kept_words(), pieces, report);
-        const auto files = finished_pieces(arguments.pieces, kept_words(), pieces);
+            return run_pieces(arguments.pieces, command_words(), pieces, report);
+        const auto files = finished_pieces(arguments.pieces, command_words(), pieces);
         if (!files)
             return fail(files.error());
         if (const Status taken = take_reference_pieces(options, *files, pieces); !taken)

@@ -150,8 +150,8 @@ Result<Session> prepare(const RenderOptions& options, RenderFigures& figures, st
         const TraceSpan span("load scene");
         FloorSettings floor = floor_of(options);
         floor.use_cache = options.environment.use_cache;
-        const Result<std::shared_ptr<const SceneData>> data =
-            open_scene(options.scene, options.limits, options.overrides, options.mips, options.moment, options.lights, floor);
+        const Result<std::shared_ptr<const SceneData>> data = open_scene(options.scene, options.limits, options.overrides, options.mips,
+                                                                         options.moment, options.lights, floor, parts.jobs.get());
         BN_TRY(data);
         parts.scene = *data;
     }

@@ -81,8 +81,9 @@ class Lookout {
 Image shown_picture(const Drawn& drawn)
 {
     const RenderOptions& o = drawn.options;
-    return drawn.rendered.shown.empty() ? display_picture(drawn.rendered.color, o.tonemap, o.exposure_ev, drawn.rendered.parts, o.resolve)
-                                        : drawn.rendered.shown;
+    return drawn.rendered.shown.empty()
+               ? display_picture(drawn.rendered.color, o.tonemap, o.exposure_ev, drawn.rendered.parts, o.resolve, drawn.jobs.get())
+               : drawn.rendered.shown;
 }
 
 void Drawings::note_file(const std::string& path, Time time)
@@ -158,7 +159,7 @@ std::shared_ptr<const Drawn> Drawings::drawn_of(Opened opened, Rendered rendered
     const Session& session = *opened.made.session;
     drawn->warnings = std::move(opened.made.warnings);
     drawn->warnings.insert(drawn->warnings.begin(), opened.options.warnings.begin(), opened.options.warnings.end());
-    drawn->files = files_read(session);
+    drawn->files = files_read(session), drawn->jobs = session.parts().jobs;
     const DrawTables& tables = session.tables();
     drawn->view = opened.desc.view, drawn->origin = session.scene().origin;
     drawn->centre = drawn->origin + glm::dvec3(0.5f * (tables.bounds_min + tables.bounds_max));

@@ -26,6 +26,7 @@ struct Drawn {
     glm::dvec3 origin{0.0}, centre{0.0}; // of the view's places, and of the scene's box; world space, metres
     float radius = 1.0f;                 // of the scene's box, metres
     std::vector<std::string> files{};    // that the scene and its environment were read from
+    std::shared_ptr<const Jobs> jobs{};
 };
 
 // Returns the picture as the page shows it: 8 bits, or false colours.

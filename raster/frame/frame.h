@@ -189,7 +189,7 @@ struct ShadingTables;
 }
 class PhongFiles;
 struct SceneMips;    // shading/bake/mip/settings.h
-struct KeptPyramids; // raster/frame/pyramids.h
+struct PyramidCache; // raster/frame/pyramids.h
 extern const SceneMips kBoxMips;
 
 // Everything that a renderer needs. The references must outlive the renderer.
@@ -202,7 +202,7 @@ struct RenderInput {
     const ltc::ShadingTables* ltc = nullptr; // for area lights; none: ltc::shipped_tables()
     const PhongFiles* phong = nullptr;       // for as_mc's lobes; none: frames make their own
     const SceneMips& mips = kBoxMips;        // how levels for the scene's maps are made
-    KeptPyramids* pyramids = nullptr;        // texture pyramids from an earlier renderer for the same scene, and from this one
+    PyramidCache* pyramids = nullptr;        // texture pyramids from an earlier renderer for the same scene, and from this one
 };
 
 enum class Sampling { none, count, grid }; // FrameDesc::samples' meaning for a technique: unused, N samples, n x n samples

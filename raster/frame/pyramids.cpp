@@ -515,13 +515,13 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
     return make_texture_pyramid(image, texture, key.encoding);
 }
 
-void KeptPyramids::forget_material(std::int32_t material)
+void PyramidCache::forget_material(std::int32_t material)
 {
     std::erase_if(all, [&](const auto& kept) { return kept.first.material == material; });
 }
 
 std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
-                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, KeptPyramids* kept)
+                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* kept)
 {
     // Take those that are kept
     std::vector<std::shared_ptr<const TexturePyramid>> pyramids(keys.size());

@@ -74,13 +74,13 @@ bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, 
           const MaterialMips& mips);
 
 // Pyramids that renderers of one scene hand on. A key's pyramid depends on its material's fields, if it has one, and on the scene's images.
-struct KeptPyramids {
+struct PyramidCache {
     std::vector<std::pair<PyramidKey, std::shared_ptr<const TexturePyramid>>> all;
     void forget_material(std::int32_t material); // call after a change to its fields
 };
 // Returns the pyramids of the keys. Makes those that are not kept, in parallel, and keeps exactly these.
 std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
-                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, KeptPyramids* kept);
+                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* kept);
 
 TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels);
 

@@ -205,11 +205,11 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     a.first_pass = part ? part->first_pass : 0;
     if (part && part->count && part->others.empty())
         hold_blocks(a, part->first, part->count);
-    const bool kept_up = keeps(options_);
-    const std::uint64_t key = part && part->key ? part->key : kept_up || part ? reference_key(input_, desc, options_) : 0;
-    const std::string file = kept_up ? file_of(options_, key) : "";
+    const bool resumable = keeps(options_);
+    const std::uint64_t key = part && part->key ? part->key : resumable || part ? reference_key(input_, desc, options_) : 0;
+    const std::string file = resumable ? file_of(options_, key) : "";
     // Resume from a checkpoint
-    if (kept_up) {
+    if (resumable) {
         const Result<bool> resumed = read_checkpoint(file, key, a, links_of(options_));
         BN_TRY(resumed);
         stats.resumed = *resumed;
@@ -218,7 +218,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     for (const std::vector<std::uint8_t>& other : part ? part->others : std::vector<std::vector<std::uint8_t>>())
         BN_TRY(take_blocks(other, key, a));
     free_sums(a);
-    if (!kept_up && !part && options_.target_error <= 0.0)
+    if (!resumable && !part && options_.target_error <= 0.0)
         keep_totals(a, passes);
     const BlockRange range =
         part && part->count ? BlockRange{part->first, std::size_t{part->first} + part->count} : BlockRange{0, a.passes.size()};
@@ -231,7 +231,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
     Clock::time_point written = Clock::now();
     // Also write after the last pass, because a finished checkpoint can be extended with more samples. A disk that is full for a while
     // costs an intermediate checkpoint, not the picture.
-    const auto write = [&] { return kept_up ? write_checkpoint(file, key, a, links_of(options_)) : Status{}; };
+    const auto write = [&] { return resumable ? write_checkpoint(file, key, a, links_of(options_)) : Status{}; };
     // Test after whole rounds only, so that an earlier stop cannot change the run's end.
     const auto good_enough = [&] {
         return options_.target_error > 0.0 && done >= kFewestPasses && done % round == 0 && most_passes(a) == done &&
@@ -243,7 +243,7 @@ Result<Accumulator> ReferenceRenderer::integrate(const FrameDesc& desc, const Re
         for (std::size_t begin = range.begin; begin < range.end && !stopped(); begin += in_slice) {
             advance(f, a, until, {begin, std::min(begin + in_slice, range.end)});
             progress.step(until - done);
-            if (kept_up && seconds_since(written) > options_.checkpoint_seconds) {
+            if (resumable && seconds_since(written) > options_.checkpoint_seconds) {
                 static_cast<void>(static_cast<bool>(write())); // the last write decides
                 written = Clock::now();
             }

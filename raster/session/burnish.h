@@ -110,7 +110,8 @@ const float* burnish_frame_variance(const burnish_frame* frame); /* of the refer
 /* A layer asked for with the option "layers" ("depth", "normal", ...), `channels` values a pixel; NULL: not there. */
 const float* burnish_frame_layer(const burnish_frame* frame, const char* name, int* channels);
 uint64_t burnish_frame_hash(const burnish_frame* frame); /* over the pixels' bits: equal on every machine */
-/* The tone curve of the 8-bit pictures that follow: "none", "pbr-neutral" or "aces". A new frame has pbr-neutral. */
+/* The tone curve of the 8-bit pictures that follow: "none", "pbr-neutral" or "aces". A new frame has pbr-neutral. The option "resolve" of
+ * burnish_render chooses the mean of a pixel's samples in these pictures. */
 int burnish_frame_tonemap(burnish_frame* frame, const char* name);
 /* The picture as screens show it: 8-bit sRGB, red, green, blue and 255 a pixel, by rows from the top. Lives as long as the frame, until the
  * next call. One thread at a time may make one of a frame. exposure_ev: stops, -64 to 64. */

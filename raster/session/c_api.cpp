@@ -56,11 +56,11 @@ Result<std::shared_ptr<const Environment>> environment_of(const burnish_options*
 }
 
 // Makes the session of a loaded scene.
-Status finish_open(const burnish_options* options, const CSettings& settings, std::shared_ptr<const SceneData> scene,
-                   const char* environment, burnish_session** out)
+Status finish_open(const burnish_options* options, const CSettings& settings, std::shared_ptr<const Jobs> jobs,
+                   std::shared_ptr<const SceneData> scene, const char* environment, burnish_session** out)
 {
     SessionParts parts;
-    parts.jobs = std::make_shared<const Jobs>(settings.open.threads);
+    parts.jobs = std::move(jobs);
     parts.scene = std::move(scene);
     const auto loaded = environment_of(options, settings, environment, *parts.scene, *parts.jobs);
     BN_TRY(loaded);
@@ -72,11 +72,12 @@ Status finish_open(const burnish_options* options, const CSettings& settings, st
 }
 
 // Makes a frame with its layers split off.
-Status make_frame(Frame frame, const std::vector<std::string>& layers, const DrawTables& tables, burnish_frame** to)
+Status make_frame(Frame frame, const CSettings& settings, const Session& session, burnish_frame** to)
 {
+    const std::vector<std::string>& layers = settings.layers;
     auto out = std::make_unique<burnish_frame>();
     if (!layers.empty()) {
-        Result<NamedChannels> layered = with_layers(frame.color, frame, tables, layers);
+        Result<NamedChannels> layered = with_layers(frame.color, frame, session.tables(), layers);
         BN_TRY(layered);
         out->layered = std::move(*layered);
     }
@@ -95,6 +96,7 @@ Status make_frame(Frame frame, const std::vector<std::string>& layers, const Dra
                 out->taken.push_back(std::move(values));
             }
     out->frame = std::move(frame);
+    out->resolve = settings.resolve;
     *to = out.release();
     return {};
 }
@@ -132,6 +134,12 @@ std::function<int(const char*, double)> teller(const burnish_options* options)
     return [options](const char* work, double done) { return options->progress(options->user, work, done); };
 }
 
+// Returns the frame as 8-bit sRGB.
+Image shown(const burnish_frame& frame, float exposure_ev)
+{
+    return tonemap_to_srgb8(frame.frame.color, frame.tonemap, exposure_ev, frame.frame.parts, frame.resolve);
+}
+
 Status check_exposure(float exposure_ev)
 {
     constexpr float kMostExposure = 64.0f; // stops in both directions
@@ -151,10 +159,11 @@ int burnish_open(const char* scene, const char* environment, const burnish_optio
         const Result<CSettings> settings = settings_of(options, BURNISH_OPEN);
         BN_TRY(settings);
         return run_told(teller(options), [&]() -> Status {
+            const auto jobs = std::make_shared<const Jobs>(settings->open.threads);
             const auto loaded = load_scene_data(scene, settings->open.limits, settings->overrides, settings->mips, settings->moment,
-                                                settings->lights, settings->floor);
+                                                settings->lights, settings->floor, jobs.get());
             BN_TRY(loaded);
-            return finish_open(options, *settings, *loaded, environment, out);
+            return finish_open(options, *settings, jobs, *loaded, environment, out);
         });
     });
 }
@@ -188,7 +197,7 @@ int burnish_open_meshes(const burnish_mesh* meshes, size_t count, const char* en
             }
             const auto made = make_scene_data("meshes", std::move(scene), settings->open.limits);
             BN_TRY(made);
-            return finish_open(options, *settings, *made, environment, out);
+            return finish_open(options, *settings, std::make_shared<const Jobs>(settings->open.threads), *made, environment, out);
         });
     });
 }
@@ -354,11 +363,12 @@ int burnish_render(burnish_session* session, const burnish_options* options, bur
             return usage(session ? "out" : "session", "is NULL");
         const Result<CSettings> settings = settings_of(options, BURNISH_RENDER);
         BN_TRY(settings);
-        const Result<FrameDesc> desc = desc_of(*settings, session->session);
+        Result<FrameDesc> desc = desc_of(*settings, session->session);
         BN_TRY(desc);
+        desc->parts = settings->resolve != Resolve::linear;
         Result<Frame> frame = run_told(teller(options), [&] { return draw(settings->shadows, *desc, *session); });
         BN_TRY(frame);
-        return make_frame(std::move(*frame), settings->layers, session->session.tables(), out);
+        return make_frame(std::move(*frame), *settings, session->session, out);
     });
 }
 
@@ -387,7 +397,8 @@ int burnish_reference(burnish_session* session, const burnish_options* options, 
             return reference->render(*desc);
         });
         BN_TRY(frame);
-        return make_frame(std::move(*frame), {}, session->session.tables(), out);
+        settings->layers.clear();
+        return make_frame(std::move(*frame), *settings, session->session, out);
     });
 }
 
@@ -446,12 +457,12 @@ int burnish_frame_rgba8(burnish_frame* frame, float exposure_ev, const unsigned 
         if (!frame || !pixels)
             return usage(frame ? "pixels" : "frame", "is NULL");
         BN_TRY(check_exposure(exposure_ev));
-        const Image shown = tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev);
-        const std::size_t count = static_cast<std::size_t>(shown.width) * static_cast<std::size_t>(shown.height);
+        const Image picture = shown(*frame, exposure_ev);
+        const std::size_t count = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
         frame->rgba8.resize(4 * count);
         for (std::size_t p = 0; p < count; ++p) {
             std::memcpy(&frame->rgba8[4 * p],
-                        reinterpret_cast<const unsigned char*>(shown.bytes.data()) + p * static_cast<std::size_t>(shown.channels), 3);
+                        reinterpret_cast<const unsigned char*>(picture.bytes.data()) + p * static_cast<std::size_t>(picture.channels), 3);
             frame->rgba8[4 * p + 3] = 255;
         }
         *pixels = frame->rgba8.data();
@@ -473,7 +484,7 @@ int burnish_frame_png_told(burnish_frame* frame, float exposure_ev, const burnis
         BN_TRY(check_exposure(exposure_ev));
         Result<std::string> png = run_told(teller(options), [&] {
             const Activity activity("encoding a picture");
-            return encode_png(tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+            return encode_png(shown(*frame, exposure_ev));
         });
         BN_TRY(png);
         frame->png = std::move(*png);
@@ -499,7 +510,7 @@ int burnish_write_told(const burnish_frame* frame, const char* path, float expos
                 return write_channels(path, frame->layered.image, frame->layered.names);
             if (stores_floats(path))
                 return write_image(path, frame->frame.color);
-            return write_image(path, tonemap_to_srgb8(frame->frame.color, frame->tonemap, exposure_ev));
+            return write_image(path, shown(*frame, exposure_ev));
         });
     });
 }

@@ -22,6 +22,7 @@ struct burnish_frame {
     std::vector<std::vector<float>> taken; // layers that were read
     std::vector<std::pair<std::string, int>> names;
     burnish::Tonemap tonemap = burnish::Tonemap::pbr_neutral; // of 8-bit pictures
+    burnish::Resolve resolve = burnish::Resolve::linear;
     std::string png;
     std::vector<unsigned char> rgba8;
 };

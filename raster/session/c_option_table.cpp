@@ -215,6 +215,11 @@ std::vector<Row> picture_rows()
          whole(1, 1 << 20, [](CSettings& to) -> int& { return to.shadows.samples; })},
         {"layers", "Layers of the picture, with commas between: depth, normal, albedo, ...", "", BURNISH_RENDER, layer_names()},
         {"aov", "Another name of layers", "", BURNISH_RENDER, layer_names()},
+        {"resolve",
+         "Mean of a pixel's samples in 8-bit pictures: linear (before tonemapping), display (after tonemapping) or weighted (by 1 / (1 + "
+         "luminance))",
+         "display", BURNISH_RENDER,
+         name({"linear", "display", "weighted"}, [](CSettings& to, std::size_t i) { to.resolve = static_cast<Resolve>(i); })},
     };
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image/colour.h"
 #include "raster/session/burnish.h"
 #include "raster/session/session.h"
 #include "raster/session/shadows.h"
@@ -37,6 +38,7 @@ struct CSettings {
     float zoom = 1.0f;
     std::string camera; // index or name; empty: the scene's first, if any
     std::vector<std::string> layers;
+    Resolve resolve = Resolve::display; // of 8-bit pictures of the frame
 };
 
 struct COption {

@@ -231,7 +231,7 @@ Status Session::change(SceneChanges changes)
         SessionParts parts = parts_;
         if (changes.environment)
             parts.environment = changes.environment;
-        auto kept = std::make_shared<KeptPyramids>(*pyramids_);
+        auto kept = std::make_shared<PyramidCache>(*pyramids_);
         if (changes.nodes.empty() && changes.materials.empty() && changes.primitives.empty() && changes.lights.empty()) {
             Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
             BN_TRY(next);

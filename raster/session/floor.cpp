@@ -21,7 +21,7 @@
 #include "core/scene/grid.h"
 #include "core/scene/tangents.h"
 #include "raster/rays/ray_tree.h"
-#include "raster/session/kept_visibility.h"
+#include "raster/session/visibility_cache.h"
 
 namespace burnish {
 namespace {
@@ -178,7 +178,7 @@ class SkyFinder {
         const std::string path = use_cache_ ? visibility_path(hash) : "";
         if (path.empty())
             return trace(seers, ray_count, spread);
-        std::optional<std::vector<float>> kept = read_kept_visibility(path, hash, seers.size());
+        std::optional<std::vector<float>> kept = read_visibility_cache(path, hash, seers.size());
         if (kept)
             return std::move(*kept);
         std::optional<CacheLock> lock; // until the visibility is kept
@@ -186,10 +186,10 @@ class SkyFinder {
             const Activity activity("waiting for another process that finds contact shadows");
             lock.emplace(path, kMostLockSeconds, check_stop);
         }
-        if (std::optional<std::vector<float>> made = read_kept_visibility(path, hash, seers.size()))
+        if (std::optional<std::vector<float>> made = read_visibility_cache(path, hash, seers.size()))
             return std::move(*made);
         std::vector<float> found = trace(seers, ray_count, spread);
-        static_cast<void>(keep_visibility(path, hash, found)); // a failure costs the next run its time
+        static_cast<void>(write_visibility_cache(path, hash, found)); // a failure costs the next run its time
         return found;
     }
 

@@ -198,13 +198,13 @@ Result<std::shared_ptr<const SceneData>> make_scene_data(const std::string& name
 
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits, const MaterialOverrides& overrides,
                                                          const MipSettings& mips, const Moment& moment,
-                                                         const std::vector<AreaLight>& lights, const FloorSettings& floor)
+                                                         const std::vector<AreaLight>& lights, const FloorSettings& floor, const Jobs* jobs)
 {
     using Made = Result<std::shared_ptr<const SceneData>>;
     return guarded(spec, [&]() -> Made {
         BN_TRY(check_mip_settings(mips));
         std::optional<Activity> activity("reading " + spec);
-        Result<Scene> scene = load_scene(spec, limits, moment);
+        Result<Scene> scene = load_scene(spec, limits, moment, jobs);
         BN_TRY(scene);
         if (overrides.material_is_document())
             BN_TRY(apply_mtlx(*scene, overrides.material, limits));
@@ -251,7 +251,7 @@ Result<Session> Session::make(SessionParts parts, const SessionOptions& options)
 }
 
 // pyramids: of an earlier renderer of the scene, or null.
-Result<Session> Session::make_with(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids)
+Result<Session> Session::make_with(SessionParts parts, SessionOptions options, std::shared_ptr<PyramidCache> pyramids)
 {
     if (!parts.scene || !parts.environment)
         return Error{ExitCode::usage, "", "", parts.scene ? "a session needs an environment" : "a session needs a scene",
@@ -280,7 +280,7 @@ Result<Session> Session::make_with(SessionParts parts, SessionOptions options, s
             parts.turned = std::make_shared<const DrawTables>(std::move(turned));
         }
         if (!pyramids)
-            pyramids = std::make_shared<KeptPyramids>();
+            pyramids = std::make_shared<PyramidCache>();
         RenderInput input = parts.input();
         input.pyramids = pyramids.get();
         Result<std::unique_ptr<Renderer>> renderer = make_renderer(input, options);
@@ -298,7 +298,7 @@ Result<Session> Session::open(const std::string& scene, const std::string& envir
     return guarded(scene, [&]() -> Result<Session> {
         SessionParts parts;
         parts.jobs = std::make_shared<const Jobs>(open.threads);
-        const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits);
+        const Result<std::shared_ptr<const SceneData>> data = load_scene_data(scene, open.limits, {}, {}, {}, {}, {}, parts.jobs.get());
         BN_TRY(data);
         const Result<std::shared_ptr<const Environment>> light = load_shared_environment(
             environment.empty() ? default_environment(**data) : environment, open.environment, open.limits, *parts.jobs);

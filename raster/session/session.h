@@ -45,11 +45,11 @@ struct SceneData { // a scene and its draw tables
 };
 
 // "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
-// scene, in world space. floor: that is laid under the scene.
+// scene, in world space. floor: that is laid under the scene. jobs: threads that decode pictures; null: the calling thread alone.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
                                                          const MaterialOverrides& overrides = {}, const MipSettings& mips = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {},
-                                                         const FloorSettings& floor = {});
+                                                         const FloorSettings& floor = {}, const Jobs* jobs = nullptr);
 // From a scene made in memory. The limits on pictures, area lights and what instances expand to hold here too. Columns of vertices that are
 // left out are filled (core/scene/check_scene.h). Errors: ExitCode::bad_input with the place of the first fault:
 // "/primitives/0/indices/17". A mesh without triangles or without an area, and a scene that draws nothing, are faults too.
@@ -157,15 +157,15 @@ class Session {
     View framed(int width, int height, const Framing& framing = {}) const { return auto_frame(tables(), width, height, framing); }
 
   private:
-    Session(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids, std::unique_ptr<Renderer> renderer)
+    Session(SessionParts parts, SessionOptions options, std::shared_ptr<PyramidCache> pyramids, std::unique_ptr<Renderer> renderer)
         : parts_(std::move(parts)), options_(std::move(options)), pyramids_(std::move(pyramids)), renderer_(std::move(renderer))
     {
     }
-    static Result<Session> make_with(SessionParts parts, SessionOptions options, std::shared_ptr<KeptPyramids> pyramids);
+    static Result<Session> make_with(SessionParts parts, SessionOptions options, std::shared_ptr<PyramidCache> pyramids);
 
     SessionParts parts_;
     SessionOptions options_;
-    std::shared_ptr<KeptPyramids> pyramids_; // of this session's renderers alone
+    std::shared_ptr<PyramidCache> pyramids_; // of this session's renderers alone
     std::unique_ptr<Renderer> renderer_;     // refers to parts_' contents, which stay in place when a session moves
 };
 

@@ -57,6 +57,24 @@ print(burnish.load('builtin:sphere', {KEYWORDS}).render({FRAME}, eye=(1, 0.5, 1)
         check(done.stdout.split() == [pot, ball], f"{program}: {done.stdout} {pot} {ball}")
 
 
+@case("python.files_are_those_of_the_program", budget=10)
+def same_files(bench):
+    """8-bit pictures have the program's bytes, each way of a pixel's mean."""
+    done = python(bench, f"""
+scene = burnish.load('builtin:lights', {KEYWORDS}, floor='off')
+for name in ("display", "linear", "weighted"):
+    scene.render({FRAME}, msaa=4, resolve=name).save(f"by_python_{{name}}.png")
+scene.render({FRAME}, msaa=4).save("by_python.png")
+""")
+    check(done.returncode == 0, done.stderr)
+    files = {name: (bench.folder / f"by_python_{name}.png").read_bytes() for name in ("display", "linear", "weighted")}
+    check(len(set(files.values())) == 3, "ways of a pixel's mean look the same")
+    check(files["display"] == (bench.folder / "by_python.png").read_bytes(), "the default is not display")
+    for name, made in files.items():
+        bench.run("render", "builtin:lights", *SMALL, "--msaa", "4", "--resolve", name, "-o", f"{name}.png").expect(0)
+        check((bench.folder / f"{name}.png").read_bytes() == made, f"{name}: other bytes than the program's")
+
+
 @case("python.shadows_and_mirrors_are_the_program_s", budget=20)
 def shadows(bench):
     words = ("builtin:lights", *SMALL[:-1])

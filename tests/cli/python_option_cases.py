@@ -25,7 +25,7 @@ LACKING = {
     "the program prints or writes: a script does so itself": "quiet verbose stats trace count-operations variance frames band-rows",
     "the program draws many pictures: a script loops": "animate steps turntable fps",
     "a script chooses by comparisons": "budget budget-ms plan plan-out verify",
-    "parts of the program beyond the library draw it": "show risks resolve",
+    "parts of the program beyond the library draw it": "show risks",
     "the picture does not change": "tile-size isa",
     "the library draws by the tile renderer and the reference alone": "backend device sampler pipeline validate",
     "maps come with a scene's file": "material normal-map quaternion-map height-map normal-y direction-map rotation-map rotation-encoding strokes "

@@ -276,8 +276,8 @@ int Atlas::run()
     if (any_pieces(options_.pieces)) {
         const std::vector<JobPiece> all = pieces();
         if (!options_.pieces.merge)
-            return run_pieces(options_.pieces, kept_words(), all, report_);
-        const auto files = finished_pieces(options_.pieces, kept_words(), all);
+            return run_pieces(options_.pieces, command_words(), all, report_);
+        const auto files = finished_pieces(options_.pieces, command_words(), all);
         if (!files)
             return fail(files.error());
         if (const Status made = options_.folder.empty() ? Status() : make_output_folder(options_.folder); !made)

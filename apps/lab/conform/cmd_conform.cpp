@@ -232,7 +232,7 @@ int make_truths(const ConformArguments& a, Report& report)
         const ConformFolder folder = conform_folder(scenes);
         Result<ConformDrawer> drawer = ConformDrawer::open(folder, a.limits, std::make_shared<const Jobs>(a.threads));
         BN_TRY(drawer);
-        return run_pieces(a.pieces, kept_words(), truth_pieces(a, folder, &*drawer), report);
+        return run_pieces(a.pieces, command_words(), truth_pieces(a, folder, &*drawer), report);
     }();
     fs::remove_all(scenes, ignored);
     return made ? *made : fail(made.error());
@@ -245,7 +245,7 @@ int write_folder(const ConformArguments& a, Report& report)
     if (any_pieces(a.pieces) && !a.pieces.merge)
         return make_truths(a, report);
     if (a.pieces.merge) // before a file is written
-        if (const auto files = finished_pieces(a.pieces, kept_words(), truth_pieces(a, conform_folder(a.write))); !files)
+        if (const auto files = finished_pieces(a.pieces, command_words(), truth_pieces(a, conform_folder(a.write))); !files)
             return fail(files.error());
     const std::atomic<bool>& stop = watch_stop_signals();
     if (const Status written = write_conform_files(a.write); !written)
@@ -256,7 +256,7 @@ int write_folder(const ConformArguments& a, Report& report)
         return fail(drawer.error());
     if (a.pieces.merge) {
         const std::vector<JobPiece> pieces = truth_pieces(a, folder);
-        const auto files = finished_pieces(a.pieces, kept_words(), pieces);
+        const auto files = finished_pieces(a.pieces, command_words(), pieces);
         if (!files)
             return fail(files.error());
         if (const Status taken = take_truths(folder, *files, pieces); !taken)

@@ -207,7 +207,7 @@ Status take_chains(ltc::BakeOptions& options, const std::vector<std::string>& fi
 int make_pieces(const LtcBake& b, const OptionTable& given, const Jobs& jobs, Report& report)
 {
     const ltc::BakeOptions options = bake_options(b.options, b.brdf, given);
-    return run_pieces(b.pieces, kept_words(), chain_pieces(options, jobs), report);
+    return run_pieces(b.pieces, command_words(), chain_pieces(options, jobs), report);
 }
 
 // Returns the requested table, or nothing after a stop signal.
@@ -222,7 +222,7 @@ Result<std::optional<ltc::Table>> table_of(const LtcBake& b, const OptionTable& 
     ltc::BakeOptions options = bake_options(a, b.brdf, given);
     if (b.pieces.merge) {
         const std::vector<JobPiece> pieces = chain_pieces(options, jobs);
-        const auto files = finished_pieces(b.pieces, kept_words(), pieces);
+        const auto files = finished_pieces(b.pieces, command_words(), pieces);
         BN_TRY(files);
         BN_TRY(take_chains(options, *files, pieces));
     } else {

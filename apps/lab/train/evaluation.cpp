@@ -140,10 +140,10 @@ int run_evaluation(const TrainArguments& a, const OptionTable& given, Report& re
     const std::vector<JobPiece> pieces =
         any_pieces(a.pieces) ? judged_pieces(set, *weights, text_of_given(given), jobs) : std::vector<JobPiece>();
     if (any_pieces(a.pieces) && !a.pieces.merge)
-        return run_pieces(a.pieces, kept_words(), pieces, report);
+        return run_pieces(a.pieces, command_words(), pieces, report);
     std::vector<mipnet::Judged> rows;
     if (a.pieces.merge) {
-        const auto files = finished_pieces(a.pieces, kept_words(), pieces);
+        const auto files = finished_pieces(a.pieces, command_words(), pieces);
         if (!files)
             return fail(files.error());
         Result<std::vector<mipnet::Judged>> merged = merged_rows(*files, pieces);

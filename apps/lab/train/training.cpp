@@ -269,8 +269,8 @@ int run_training(TrainArguments& a, Report& report)
     }
     const std::vector<JobPiece> pieces = seed_pieces(a, jobs, report);
     if (!a.pieces.merge)
-        return run_pieces(a.pieces, kept_words(), pieces, report);
-    const auto files = finished_pieces(a.pieces, kept_words(), pieces);
+        return run_pieces(a.pieces, command_words(), pieces, report);
+    const auto files = finished_pieces(a.pieces, command_words(), pieces);
     if (!files)
         return fail(files.error());
     const Result<std::vector<Candidate>> candidates = candidates_of(*files, pieces);

@@ -170,7 +170,7 @@ Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlaceP
     return library ? (*library)->read(file, probe, place) : Status(library.error());
 }
 
-Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes)
+Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, const HasRoom& room, PictureNotes& notes)
 {
     const bool exr = std::strcmp(probe.format, "openexr") == 0;
     StoredHeader header;
@@ -192,6 +192,8 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         if (bytes > limits.texture_bytes)
             return file.error(fmt::format("header: {} x {} pixels", header.width, header.height),
                               fmt::format("{} bytes of pixels are more than the limit of {}", bytes, limits.texture_bytes));
+        if (room && !room(bytes))
+            return file.error("", fmt::format("no room for {} bytes of pixels", bytes));
         image = make_image(header.width, header.height, end - first, header.type);
         return PixelRequest{first, end, image.bytes.data()};
     };
@@ -218,10 +220,11 @@ Result<ImageProbe> probe_bytes(const ImageBytes& file, const Limits& limits)
     return probe_image(file, limits);
 }
 
-Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes)
+Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes,
+                            const HasRoom& room = {})
 {
     try {
-        Result<Image> image = decode(file, probe, limits, notes);
+        Result<Image> image = decode(file, probe, limits, room, notes);
         if (image && std::strcmp(probe.format, "jpeg") == 0) {
             if (const std::string warning = jpeg_warning(file); !warning.empty())
                 notes.warnings.push_back(warning);
@@ -246,13 +249,14 @@ std::string warning_of_profile(const StoredColour& colour)
 
 } // namespace
 
-Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits, PictureNotes* notes)
+Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits, PictureNotes* notes,
+                           const HasRoom& room)
 {
     const ImageBytes file{data, size, label};
     const Result<ImageProbe> probe = probe_bytes(file, limits);
     BN_TRY(probe);
     PictureNotes unread;
-    return decode_probed(file, *probe, limits, notes ? *notes : unread);
+    return decode_probed(file, *probe, limits, notes ? *notes : unread, room);
 }
 
 Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,

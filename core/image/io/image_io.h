@@ -1,6 +1,7 @@
 // Reads and writes image files.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,13 @@ struct PictureNotes {
 // burnish's own files.
 Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes = nullptr);
 
-// Decodes an image in memory like read_image(). `label` names the image in errors ("scene.glb: /images/3").
+// Returns true if there is room for an image's decoded bytes.
+using HasRoom = std::function<bool(std::uint64_t bytes)>;
+
+// Decodes an image in memory like read_image(). `label` names the image in errors ("scene.glb: /images/3"). Fails without
+// allocating pixels if `room` returns false.
 Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
-                           PictureNotes* notes = nullptr);
+                           PictureNotes* notes = nullptr, const HasRoom& room = {});
 
 // Reads a colour image. Float formats become linear Rec.709 by the file's chromaticities or PRIMARIES, with Bradford
 // white adaptation. Files that name Rec.709 or nothing keep their bits.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/limits.h"
+#include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 
 namespace burnish::gltf {
@@ -30,13 +31,19 @@ struct BufferData {
     bool present = false;
 };
 
+struct DecodedImage {
+    Image image;
+    std::vector<std::string> warnings; // of PictureNotes
+};
+
 struct Document {
     std::string file;   // as the user gave it
     std::string folder; // external files lie below it; empty: external files are refused
     bool has_folder = false;
     Limits limits;
-    Bytes bytes; // the whole file
-    Bytes bin;   // BIN chunk of a GLB
+    const Jobs* jobs = nullptr; // null: the calling thread alone
+    Bytes bytes;                // the whole file
+    Bytes bin;                  // BIN chunk of a GLB
     bool has_bin = false, is_glb = false;
     Json json; // checked against the schema before any read
     std::vector<BufferData> buffers;
@@ -46,6 +53,8 @@ struct Document {
     std::set<int> finite_accessors;                                // already searched for NaN
     std::uint64_t input_bytes = 0;                                 // the file and its external buffers
     std::uint64_t charged_bytes = 0;                               // decoded so far
+    std::map<int, std::vector<std::uint8_t>> image_files;          // by image: encoded bytes that lie in no buffer, until they are decoded
+    std::map<int, DecodedImage> decoded_images;                    // by image: decoded, and not in the scene yet
     std::map<int, int> scene_images,
         scene_textures;                    // scene indices of the glTF images and textures in use
     std::uint64_t texture_bytes = 0;       // decoded images in the scene

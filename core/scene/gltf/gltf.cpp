@@ -90,11 +90,12 @@ template <class F> auto guarded(const std::string& file, F&& read) -> decltype(r
 
 } // namespace
 
-Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment)
+Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment, const Jobs* jobs)
 {
     return guarded(path, [&]() -> Result<Scene> {
         const std::vector<std::uint8_t> bytes = gltf::read_file_bytes(path, limits.file_bytes, "");
         Document doc = document_of(path, limits, bytes);
+        doc.jobs = jobs;
         read_document(doc, moment);
         return std::move(doc.scene);
     });
@@ -134,19 +135,20 @@ bool is_gltf(const std::string& path)
 }
 
 Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
-                              const Moment& moment)
+                              const Moment& moment, const Jobs* jobs)
 {
     return guarded(label, [&]() -> Result<Scene> {
         Document doc;
         doc.file = label;
         doc.limits = limits;
         doc.bytes = {data, size};
+        doc.jobs = jobs;
         read_document(doc, moment);
         return std::move(doc.scene);
     });
 }
 
-Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment)
+Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment, const Jobs* jobs)
 {
     const std::string kBuiltin = "builtin:";
     if (!moment.variant.empty() && (spec.compare(0, kBuiltin.size(), kBuiltin) == 0 || is_obj(spec)))
@@ -157,7 +159,7 @@ Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Mo
         return make_builtin_scene(spec.substr(kBuiltin.size()));
     if (is_obj(spec))
         return guarded(spec, [&]() -> Result<Scene> { return load_obj(spec, limits); });
-    return load_gltf(spec, limits, moment); // checks the content, not the name
+    return load_gltf(spec, limits, moment, jobs); // checks the content, not the name
 }
 
 } // namespace burnish

@@ -6,17 +6,19 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
+#include "core/jobs/jobs.h"
 #include "core/scene/scene.h"
 
 namespace burnish {
 
-Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment = {});
+// jobs: threads that decode images; null: the calling thread alone. The scene is the same.
+Result<Scene> load_gltf(const std::string& path, const Limits& limits, const Moment& moment = {}, const Jobs* jobs = nullptr);
 
 // Reads a scene from memory. Refuses external files, because there is no folder. `label` names the input in errors.
 Result<Scene> load_gltf_bytes(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
-                              const Moment& moment = {});
+                              const Moment& moment = {}, const Jobs* jobs = nullptr);
 
 // Loads "builtin:NAME", an OBJ file, or a .gltf/.glb file.
-Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment = {});
+Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Moment& moment = {}, const Jobs* jobs = nullptr);
 
 } // namespace burnish

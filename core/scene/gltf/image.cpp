@@ -1,8 +1,12 @@
 #include "core/scene/gltf/image.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <fmt/format.h>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/image/io/image_io.h"
 #include "core/jobs/control.h"
@@ -34,8 +38,8 @@ bool is_texture_container(Bytes bytes) // KTX2 or DDS, formats of other extensio
     return starts_with(bytes, 0, "\xabKTX 20\xbb") || starts_with(bytes, 0, "DDS ");
 }
 
-// Returns the encoded bytes. `own` holds bytes that lie in no buffer.
-Bytes encoded_image(Document& doc, int image, std::vector<std::uint8_t>& own)
+// Returns the encoded bytes. They live until an image is removed from doc.image_files.
+Bytes encoded_image(Document& doc, int image)
 {
     const Json& json = doc.json["images"][static_cast<std::size_t>(image)];
     const std::string place = fmt::format("/images/{}", image);
@@ -43,7 +47,24 @@ Bytes encoded_image(Document& doc, int image, std::vector<std::uint8_t>& own)
         return view_bytes(doc, view);
     if (!json.contains("uri"))
         fail(place, "has neither a uri nor a bufferView");
-    return read_uri(doc, json["uri"].get_ref<const std::string&>(), place + "/uri", own);
+    std::vector<std::uint8_t>& own = doc.image_files[image];
+    return own.empty() ? read_uri(doc, json["uri"].get_ref<const std::string&>(), place + "/uri", own) : Bytes(own);
+}
+
+// Returns an image that decode_images() decoded, or decodes it.
+DecodedImage take_decoded(Document& doc, int image, Bytes bytes, const std::string& place)
+{
+    Limits limits = doc.limits;
+    limits.texture_bytes -= std::min(limits.texture_bytes, doc.texture_bytes);
+    if (auto decoded = doc.decoded_images.extract(image); decoded && decoded.mapped().image.bytes.size() <= limits.texture_bytes)
+        return std::move(decoded.mapped());
+    PictureNotes notes;
+    Result<Image> decoded = decode_image(bytes.data(), bytes.size(), place, limits, &notes);
+    if (!decoded && decoded.error().code == ExitCode::stopped)
+        throw Stopped();
+    if (!decoded)
+        fail(place, printable(decoded.error().reason));
+    return {std::move(*decoded), std::move(notes.warnings)};
 }
 
 // Decodes an image. `floats` also allows OpenEXR.
@@ -59,31 +80,80 @@ Image decode(Document& doc, int image, Bytes bytes, bool floats)
                                                          : "image/png";
     if (doc.json["images"][static_cast<std::size_t>(image)].contains("mimeType") && type != actual)
         doc.fault(place + "/mimeType", "says " + printable(type) + ", and it is " + actual);
-    Limits limits = doc.limits;
-    limits.texture_bytes -= std::min(limits.texture_bytes, doc.texture_bytes);
-    PictureNotes notes;
-    Result<Image> decoded = decode_image(bytes.data(), bytes.size(), place, limits, &notes);
-    if (!decoded && decoded.error().code == ExitCode::stopped)
-        throw Stopped();
-    if (!decoded)
-        fail(place, printable(decoded.error().reason));
-    for (const std::string& warning : notes.warnings)
+    DecodedImage decoded = take_decoded(doc, image, bytes, place);
+    for (const std::string& warning : decoded.warnings)
         doc.warn(fmt::format("image {} {}", image, printable(warning)));
-    if (decoded->bytes.size() > limits.texture_bytes)
+    if (decoded.image.bytes.size() > doc.limits.texture_bytes - std::min(doc.limits.texture_bytes, doc.texture_bytes))
         fail(place, fmt::format("the scene's textures need more than {} bytes (Limits::texture_bytes)", doc.limits.texture_bytes));
-    return std::move(*decoded);
+    return std::move(decoded.image);
+}
+
+// Returns the images that textures name, each once.
+std::vector<int> images_of_textures(const Document& doc)
+{
+    std::vector<int> images;
+    for (std::size_t i = 0; i < table_size(doc.json, "textures"); ++i) {
+        const int image = image_of_texture(doc.json["textures"][i]);
+        if (image >= 0 && std::find(images.begin(), images.end(), image) == images.end())
+            images.push_back(image);
+    }
+    return images;
 }
 
 } // namespace
+
+int image_of_texture(const Json& texture)
+{
+    const Json* webp = get_extension(texture, "EXT_texture_webp");
+    return get_index(webp && webp->contains("source") ? *webp : texture, "source");
+}
+
+void decode_images(Document& doc)
+{
+    struct Job {
+        int image;
+        Bytes bytes;
+        std::optional<DecodedImage> decoded = {};
+    };
+    std::vector<Job> jobs;
+    for (const int image : images_of_textures(doc)) {
+        try {
+            const Bytes bytes = encoded_image(doc, image);
+            if (is_readable(bytes))
+                jobs.push_back({image, bytes});
+        } catch (const Failure&) { // scene_image() reports it in its turn
+        }
+    }
+    // Start the largest files first
+    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.bytes.size() > b.bytes.size(); });
+    std::atomic<std::uint64_t> taken = doc.texture_bytes;
+    const HasRoom room = [&](std::uint64_t bytes) { return taken.fetch_add(bytes) + bytes <= doc.limits.texture_bytes; };
+    const auto decode_job = [&](std::size_t i, int) {
+        Job& job = jobs[i];
+        PictureNotes notes;
+        Result<Image> image =
+            decode_image(job.bytes.data(), job.bytes.size(), fmt::format("/images/{}", job.image), doc.limits, &notes, room);
+        if (image)
+            job.decoded = {std::move(*image), std::move(notes.warnings)};
+    };
+    if (doc.jobs)
+        doc.jobs->parallel_for(jobs.size(), decode_job);
+    else
+        for (std::size_t i = 0; i < jobs.size(); ++i)
+            check_stop(), decode_job(i, 0);
+    for (Job& job : jobs)
+        if (job.decoded)
+            doc.decoded_images[job.image] = std::move(*job.decoded);
+}
 
 int scene_image(Document& doc, int image, bool floats)
 {
     const auto [it, is_new] = doc.scene_images.try_emplace(image, static_cast<int>(doc.scene.images.size()));
     if (is_new) {
         check_stop();
-        std::vector<std::uint8_t> own;
-        const Bytes bytes = encoded_image(doc, image, own);
+        const Bytes bytes = encoded_image(doc, image);
         doc.scene.images.push_back(decode(doc, image, bytes, floats));
+        doc.image_files.erase(image);
         doc.texture_bytes += doc.scene.images.back().bytes.size();
     }
     return it->second;
@@ -94,12 +164,12 @@ void check_unused_images(Document& doc)
     for (int i = 0; i < static_cast<int>(table_size(doc.json, "images")); ++i) {
         if (doc.scene_images.count(i))
             continue;
-        std::vector<std::uint8_t> own;
-        const Bytes bytes = encoded_image(doc, i, own);
+        const Bytes bytes = encoded_image(doc, i);
         if (is_texture_container(bytes))
             doc.warn(fmt::format("image {} is a KTX2 or DDS image, which are not supported; nothing uses it", i));
         else
             static_cast<void>(decode(doc, i, bytes, false));
+        doc.image_files.erase(i);
     }
 }
 

@@ -4,6 +4,13 @@
 
 namespace burnish::gltf {
 
+// Returns the image that a texture names, as WebP if the file offers it; -1 if none.
+int image_of_texture(const Json& texture);
+
+// Decodes the images of all textures on all threads, for scene_image(). Leaves out OpenEXR, images with faults, and images beyond the
+// limits.
+void decode_images(Document& doc);
+
 // Returns the image's index in Scene::images; the first call decodes the image. `floats` also allows OpenEXR.
 int scene_image(Document& doc, int image, bool floats);
 

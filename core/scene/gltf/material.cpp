@@ -39,11 +39,8 @@ int scene_texture(Document& doc, int index, bool extras)
     // Reuse a texture already in the scene
     if (const auto known = doc.scene_textures.find(index); known != doc.scene_textures.end())
         return known->second;
-    // Choose the image, WebP where the file offers one
     const Json& source = doc.json["textures"][static_cast<std::size_t>(index)];
-    int image = get_index(source, "source");
-    if (const Json* webp = get_extension(source, "EXT_texture_webp"); webp && webp->contains("source"))
-        image = get_index(*webp, "source");
+    const int image = image_of_texture(source);
     int id = kNone;
     if (image < 0) {
         doc.warn(quoted(get_string(source, "name"), "texture", static_cast<std::size_t>(index)) +
@@ -190,6 +187,7 @@ int clamped_texture(Document& doc, int index)
 
 void load_materials(Document& doc)
 {
+    decode_images(doc);
     Imported known;
     for (std::size_t i = 0; i < table_size(doc.json, "materials"); ++i) {
         Material material = load_material(doc, doc.json["materials"][i], i);

@@ -79,7 +79,7 @@ const char* not_of_frame(const FrameDesc& desc, const GpuScene& scene)
     if (const char* lights = lights_that_lean_lacks(scene); lights)
         return lights;
     if (f.lobe != lobe_with(kDefaultLobe))
-        return "lobes other than the usual one (FrameDesc::brdf, FrameDesc::tilt, FrameDesc::masking)";
+        return "lobes other than the default (FrameDesc::brdf, FrameDesc::tilt, FrameDesc::masking)";
     if (desc.dfg_fit != 0 || desc.fresnel != kFresnelSchlick || desc.energy_compensation || f.horizon != 0 || desc.specular_aa ||
         desc.frame_map != 0)
         return "FrameDesc::dfg_fit fit, FrameDesc::fresnel, FrameDesc::energy_compensation, FrameDesc::horizon on under normal maps, "

@@ -142,7 +142,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     double level_weight[kTrainedLevels] = {};
     std::fill_n(level_weight, options.levels, 1.0 / options.levels);
     std::vector<double> gradient(plan.count);
-    double kept_ms = wall_ms();
+    double saved_ms = wall_ms();
     while (t.step < static_cast<std::uint64_t>(options.steps)) {
         // Compute the shards' gradients
         const std::vector<float> turned = turned_weights(plan, t.numbers);
@@ -174,9 +174,9 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
         if (options.advance)
             options.advance(static_cast<int>(t.step), loss);
         const bool stopped = options.stop && options.stop->load();
-        if (stopped || wall_ms() - kept_ms > 1000.0 * options.checkpoint_seconds) {
+        if (stopped || wall_ms() - saved_ms > 1000.0 * options.checkpoint_seconds) {
             BN_TRY(keep_training(options, key, t));
-            kept_ms = wall_ms();
+            saved_ms = wall_ms();
         }
         if (stopped)
             return std::optional<Weights>();

@@ -229,6 +229,59 @@ TEST(material, textures_above_the_memory_limit_are_an_error)
     EXPECT_EQ(scene.error().place, "/images/1");
 }
 
+// Threads decode images; the scene, its warnings, its files and its first error are those of one thread.
+TEST(material, images_are_the_same_by_any_number_of_threads)
+{
+    const TempFolder folder;
+    std::string textures, images, materials;
+    for (int i = 0; i < 12; ++i) {
+        Image image = make_image(3 + 5 * i % 17, 2 + 7 * i % 11, 3, PixelType::u8);
+        for (std::size_t k = 0; k < image.bytes.size(); ++k)
+            image.bytes[k] = static_cast<std::byte>(k * k + static_cast<std::size_t>(i));
+        const std::string name = std::to_string(i) + ".png", comma = i ? "," : "";
+        ASSERT_TRUE(write_image(folder.path(name), image));
+        textures += comma + "{\"source\":" + std::to_string(11 - i) + "}";
+        images += comma + "{\"uri\":\"" + name + "\",\"mimeType\":\"image/" + (i == 4 ? "jpeg" : "png") + "\"}";
+        materials += comma + "{\"emissiveTexture\":{\"index\":" + std::to_string(7 * i % 12) + "}}";
+    }
+    Asset asset = triangle();
+    asset.more = ",\"materials\":[" + materials + "],\"textures\":[" + textures + "],\"images\":[" + images + "]";
+    folder.write("a.bin", asset.bin);
+    const std::string path = folder.write("a.gltf", asset.json(R"(,"uri":"a.bin")"));
+    const Jobs four(4);
+    Limits limits;
+    const auto alike = [&](const std::string& what) {
+        const Result<Scene> one = load_scene(path, limits), many = load_scene(path, limits, {}, &four);
+        EXPECT_EQ(error_of(one), error_of(many)) << what;
+        if (!one || !many)
+            return;
+        EXPECT_EQ(one->warnings, many->warnings) << what;
+        EXPECT_EQ(one->files, many->files) << what;
+        ASSERT_EQ(one->images.size(), many->images.size());
+        for (std::size_t i = 0; i < one->images.size(); ++i)
+            EXPECT_EQ(one->images[i].bytes, many->images[i].bytes) << what << i;
+    };
+    alike("all");
+    const Result<Scene> whole = load_scene(path, limits);
+    ASSERT_TRUE(whole) << error_of(whole);
+    EXPECT_FALSE(whole->warnings.empty()) << "image 4 lies about its type";
+    std::uint64_t bytes = 0;
+    for (const Image& image : whole->images)
+        bytes += image.bytes.size();
+    for (const std::uint64_t limit : {bytes, bytes - 1, bytes / 2, std::uint64_t{1}}) {
+        limits.texture_bytes = limit;
+        EXPECT_EQ(static_cast<bool>(load_scene(path, limits, {}, &four)), limit == bytes);
+        alike("a limit of " + std::to_string(limit));
+    }
+    limits.texture_bytes = bytes;
+    folder.write("3.png", std::string("no picture"));
+    ByteVector cut = read_bytes(folder.path("8.png"));
+    cut.resize(cut.size() / 2);
+    folder.write("8.png", cut);
+    EXPECT_FALSE(load_scene(path, limits, {}, &four));
+    alike("two images with faults");
+}
+
 TEST(material, bytes_that_are_no_image_are_an_error_even_where_nothing_uses_them)
 {
     EXPECT_EQ(error_of(load_materials("{}", R"(,"images":[{"uri":"data:image/png;base64,AAAA"}])")),

@@ -1,4 +1,4 @@
-#include "raster/session/kept_visibility.h"
+#include "raster/session/visibility_cache.h"
 
 #include <algorithm>
 #include <cinttypes>
@@ -36,7 +36,7 @@ std::string visibility_path(std::uint64_t hash)
     return folder.empty() ? "" : folder + name;
 }
 
-std::optional<std::vector<float>> read_kept_visibility(const std::string& path, std::uint64_t hash, std::size_t count)
+std::optional<std::vector<float>> read_visibility_cache(const std::string& path, std::uint64_t hash, std::size_t count)
 {
     const std::size_t size = sizeof(Header) + count * sizeof(float);
     const Result<std::vector<std::uint8_t>> file = read_file(path, size, Links::refuse);
@@ -56,7 +56,7 @@ std::optional<std::vector<float>> read_kept_visibility(const std::string& path, 
     return found;
 }
 
-Status keep_visibility(const std::string& path, std::uint64_t hash, const std::vector<float>& visibility)
+Status write_visibility_cache(const std::string& path, std::uint64_t hash, const std::vector<float>& visibility)
 {
     const std::size_t bytes = visibility.size() * sizeof(float);
     Header h = {};
