@@ -201,7 +201,7 @@ Status write_picture(const std::string& path, const Image& linear, Tonemap tonem
 {
     if (stores_floats(path))
         return write_image(path, linear);
-    return write_image(path, display_picture(linear, tonemap, exposure_ev, parts, resolve, jobs));
+    return write_image(path, display_picture(linear, tonemap, exposure_ev, parts, resolve, jobs), jobs);
 }
 
 Status write_text(const std::string& path, const std::string& text)

@@ -153,7 +153,7 @@ class Pages::Answers {
             BN_TRY(bands);
             const Result<std::shared_ptr<const Drawn>> drawn = drawings_.join(*picture, std::move(*bands), json->value("ms", 0.0));
             BN_TRY(drawn);
-            return this->picture(response, shown_picture(**drawn), info_of(*picture, **drawn, setting_.limit_words));
+            return this->picture(response, shown_picture(**drawn), info_of(*picture, **drawn, setting_.limit_words), (*drawn)->jobs.get());
         });
     }
 
@@ -239,9 +239,9 @@ class Pages::Answers {
                 {"most_samples", kMaxPictureSamples}};
     }
 
-    Status picture(HttpResponse& response, const Image& image, const Json& info) const
+    Status picture(HttpResponse& response, const Image& image, const Json& info, const Jobs* jobs = nullptr) const
     {
-        Result<std::string> bytes = setting_.encode(image);
+        Result<std::string> bytes = setting_.encode(image, jobs);
         BN_TRY(bytes);
         response.headers.emplace_back(kPictureHeader, json_text(info, -1));
         response.type = setting_.picture_type, response.body = std::move(*bytes);
@@ -254,7 +254,7 @@ class Pages::Answers {
         BN_TRY(request);
         const Result<std::shared_ptr<const Drawn>> drawn = drawings_.draw(*request, {true, asked.gone});
         BN_TRY(drawn);
-        return picture(response, shown_picture(**drawn), info_of(*request, **drawn, setting_.limit_words));
+        return picture(response, shown_picture(**drawn), info_of(*request, **drawn, setting_.limit_words), (*drawn)->jobs.get());
     }
 
     // Draws both pictures. Returns HDR-FLIP of the second.

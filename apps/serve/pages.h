@@ -22,7 +22,7 @@ struct ServeSetting {
     Limits limits;
     std::vector<std::string> limit_words; // options of the limits that were given, for the commands that pages show
     int threads = 0;
-    Result<std::string> (*encode)(const Image&) = encode_png; // of 8-bit pictures for the page
+    Result<std::string> (*encode)(const Image&, const Jobs*) = encode_png; // of 8-bit pictures for the page
     const char* picture_type = "image/png";
 };
 

@@ -11,7 +11,7 @@ namespace burnish {
 namespace {
 
 // Encodes 8-bit colours as a BMP file: no time goes into compression, and browsers show it.
-Result<std::string> encode_bmp(const Image& image)
+Result<std::string> encode_bmp(const Image& image, const Jobs*)
 {
     constexpr std::size_t kHead = 54;
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);

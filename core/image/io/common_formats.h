@@ -1,4 +1,4 @@
-// Decodes PNG by libpng and JPEG by libjpeg: the pictures of most models, without the module of the image library.
+// Decodes PNG by libpng, JPEG by libjpeg and WebP by libwebp: the pictures of most models, without the module of the image library.
 #pragma once
 #include <optional>
 
@@ -11,6 +11,7 @@ namespace burnish {
 // unchanged.
 std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, const PlacePixels& place);
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place); // grey and colour, 8 bits
+std::optional<Status> read_webp(const ImageBytes& file, const PlacePixels& place); // without animation
 // Returns a warning where another decoder than libjpeg reads this JPEG file; "" elsewhere.
 std::string jpeg_warning(const ImageBytes& file);
 #ifdef __EMSCRIPTEN__

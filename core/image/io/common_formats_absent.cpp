@@ -1,4 +1,4 @@
-// Replaces png_read.cpp and jpeg_read.cpp in a program without libraries.
+// Replaces png_read.cpp, jpeg_read.cpp and webp_read.cpp in a program without libraries.
 #include "core/image/io/common_formats.h"
 
 namespace burnish {
@@ -9,6 +9,11 @@ std::optional<Status> read_png(const ImageBytes&, const ImageProbe&, const Place
 }
 
 std::optional<Status> read_jpeg(const ImageBytes&, const PlacePixels&)
+{
+    return std::nullopt;
+}
+
+std::optional<Status> read_webp(const ImageBytes&, const PlacePixels&)
 {
     return std::nullopt;
 }

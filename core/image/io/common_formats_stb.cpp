@@ -72,6 +72,11 @@ std::optional<Status> read_png(const ImageBytes& file, const ImageProbe& probe, 
     return read_by_stb(file, own ? file.data : probe.replacement.data(), own ? file.size : probe.replacement.size(), place);
 }
 
+std::optional<Status> read_webp(const ImageBytes&, const PlacePixels&)
+{
+    return std::nullopt;
+}
+
 std::optional<Status> read_jpeg(const ImageBytes& file, const PlacePixels& place)
 {
     const Result<std::vector<std::uint8_t>> decoded = read_file(decoded_path(file), kMostDecoded);

@@ -160,6 +160,8 @@ Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlaceP
         read = read_png(file, probe, place);
     else if (std::strcmp(probe.format, "jpeg") == 0)
         read = read_jpeg(file, place);
+    else if (std::strcmp(probe.format, "webp") == 0)
+        read = read_webp(file, place);
 #ifdef __EMSCRIPTEN__
     else if (std::strcmp(probe.format, "pnm") == 0)
         read = read_pfm(file, place);

@@ -11,6 +11,8 @@
 
 namespace burnish {
 
+class Jobs;
+
 // Facts about an image beside its pixels.
 struct PictureNotes {
     bool cube_faces = false;           // OpenEXR's envmap = cube: six faces, one below the other
@@ -47,8 +49,8 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
 
 // Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Stores nothing
 // volatile (no date, host, or arguments). The file appears under its name only when complete. On failure leaves no
-// file, and the Error has ExitCode::output_failed.
-Status write_image(const std::string& path, const Image& image);
+// file, and the Error has ExitCode::output_failed. jobs: threads that encode PNG; null: the calling thread alone.
+Status write_image(const std::string& path, const Image& image, const Jobs* jobs = nullptr);
 
 // Writes OpenEXR with any channels, one name for each, like write_image().
 Status write_channels(const std::string& path, const Image& image, const std::vector<std::string>& names);
@@ -57,8 +59,8 @@ Status write_channels(const std::string& path, const Image& image, const std::ve
 // first, down to 1x1; each side is half the previous one, rounded down, at least 1. `path` names the file in errors.
 Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, const std::vector<Image>& levels);
 
-// Encodes an 8-bit image as PNG, for pages with embedded images.
-Result<std::string> encode_png(const Image& image);
+// Encodes an 8-bit image as PNG, for pages with embedded images. jobs: see write_image().
+Result<std::string> encode_png(const Image& image, const Jobs* jobs = nullptr);
 
 // Returns true where the extension of `path` names a float format (exr, hdr, pfm).
 bool stores_floats(const std::string& path);

@@ -101,7 +101,7 @@ Result<Bytes> encode_by_library(const ImageLibrary& library, const std::string& 
     return bytes;
 }
 
-Result<Bytes> encode_image(const std::string& path, const Image& image, const Format& format)
+Result<Bytes> encode_image(const std::string& path, const Image& image, const Format& format, const Jobs* jobs)
 {
     check_stop();
     Image fitted = fit_channels(image, format);
@@ -110,7 +110,7 @@ Result<Bytes> encode_image(const std::string& path, const Image& image, const Fo
     if (std::strcmp(format.name, "tiff") == 0)
         return encode_tiff(fitted);
     if (std::strcmp(format.name, "png") == 0)
-        return png_bytes(path, fitted);
+        return png_bytes(path, fitted, jobs);
     if (std::strcmp(format.name, "hdr") == 0)
         clamp_to_rgbe(fitted);
     const Result<const ImageLibrary*> library = image_library(path);
@@ -138,7 +138,7 @@ bool stores_channels(const std::string& path)
     return format.name && std::strcmp(format.name, "openexr") == 0;
 }
 
-Status write_image(const std::string& path, const Image& image)
+Status write_image(const std::string& path, const Image& image, const Jobs* jobs)
 {
     if (image.channels > 4 || !holds_its_pixels(image))
         return output_error(path, "the picture's bytes are not those of its size and channels");
@@ -148,7 +148,7 @@ Status write_image(const std::string& path, const Image& image)
     if (image.type != (format.floats ? PixelType::f32 : PixelType::u8))
         return output_error(path, format.floats ? "this format needs float pixels" : "this format needs 8-bit pixels");
     try {
-        const Result<Bytes> bytes = encode_image(path, image, format);
+        const Result<Bytes> bytes = encode_image(path, image, format, jobs);
         BN_TRY(bytes);
         check_stop();
         return write_file_atomic(path, bytes->data(), bytes->size());
@@ -186,12 +186,12 @@ Result<std::vector<std::uint8_t>> encode_exr_levels(const std::string& path, con
     }
 }
 
-Result<std::string> encode_png(const Image& image)
+Result<std::string> encode_png(const Image& image, const Jobs* jobs)
 {
     if (image.type != PixelType::u8 || image.channels > 4 || !holds_its_pixels(image))
         return output_error("picture.png", "the picture's bytes are not those of its size and channels");
     try {
-        const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"));
+        const Result<Bytes> bytes = encode_image("picture.png", image, format_of("picture.png"), jobs);
         BN_TRY(bytes);
         return std::string(bytes->begin(), bytes->end());
     } catch (...) {

@@ -3,7 +3,7 @@
 
 namespace burnish {
 
-Result<std::vector<std::uint8_t>> png_bytes(const std::string& path, const Image&)
+Result<std::vector<std::uint8_t>> png_bytes(const std::string& path, const Image&, const Jobs*)
 {
     return Error{ExitCode::unavailable, path, "", "this program was built without libpng"};
 }
@@ -18,7 +18,7 @@ Result<std::vector<std::uint8_t>> PngEncoder::begin(int, int, int)
 {
     return png_bytes(state_->path, {});
 }
-Result<std::vector<std::uint8_t>> PngEncoder::rows(const Image&)
+Result<std::vector<std::uint8_t>> PngEncoder::rows(const Image&, const Jobs*)
 {
     return png_bytes(state_->path, {});
 }

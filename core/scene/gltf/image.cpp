@@ -110,40 +110,40 @@ int image_of_texture(const Json& texture)
 
 void decode_images(Document& doc)
 {
-    struct Job {
+    struct Encoded {
         int image;
         Bytes bytes;
-        std::optional<DecodedImage> decoded = {};
     };
-    std::vector<Job> jobs;
+    std::vector<Encoded> encoded;
     for (const int image : images_of_textures(doc)) {
         try {
             const Bytes bytes = encoded_image(doc, image);
             if (is_readable(bytes))
-                jobs.push_back({image, bytes});
+                encoded.push_back({image, bytes});
         } catch (const Failure&) { // scene_image() reports it in its turn
         }
     }
     // Start the largest files first
-    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.bytes.size() > b.bytes.size(); });
+    std::stable_sort(encoded.begin(), encoded.end(), [](const Encoded& a, const Encoded& b) { return a.bytes.size() > b.bytes.size(); });
+    std::vector<std::optional<DecodedImage>> decoded(encoded.size());
     std::atomic<std::uint64_t> taken = doc.texture_bytes;
     const HasRoom room = [&](std::uint64_t bytes) { return taken.fetch_add(bytes) + bytes <= doc.limits.texture_bytes; };
-    const auto decode_job = [&](std::size_t i, int) {
-        Job& job = jobs[i];
+    const auto decode_at = [&](std::size_t i, int) {
+        const Encoded& from = encoded[i];
         PictureNotes notes;
         Result<Image> image =
-            decode_image(job.bytes.data(), job.bytes.size(), fmt::format("/images/{}", job.image), doc.limits, &notes, room);
+            decode_image(from.bytes.data(), from.bytes.size(), fmt::format("/images/{}", from.image), doc.limits, &notes, room);
         if (image)
-            job.decoded = {std::move(*image), std::move(notes.warnings)};
+            decoded[i] = DecodedImage{std::move(*image), std::move(notes.warnings)};
     };
     if (doc.jobs)
-        doc.jobs->parallel_for(jobs.size(), decode_job);
+        doc.jobs->parallel_for(encoded.size(), decode_at);
     else
-        for (std::size_t i = 0; i < jobs.size(); ++i)
-            check_stop(), decode_job(i, 0);
-    for (Job& job : jobs)
-        if (job.decoded)
-            doc.decoded_images[job.image] = std::move(*job.decoded);
+        for (std::size_t i = 0; i < encoded.size(); ++i)
+            check_stop(), decode_at(i, 0);
+    for (std::size_t i = 0; i < encoded.size(); ++i)
+        if (decoded[i])
+            doc.decoded_images[encoded[i].image] = std::move(*decoded[i]);
 }
 
 int scene_image(Document& doc, int image, bool floats)

@@ -1,11 +1,13 @@
 // PNG and JPEG by their own libraries: the pixels of the image library.
 #include "core/image/io/common_formats.h"
+#include "core/image/io/image_io.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <jpeglib.h>
 #include <png.h>
+#include <webp/encode.h>
 
 #include "tests/unit/image/small_files.h"
 
@@ -35,8 +37,10 @@ testing::AssertionResult alike(const Bytes& bytes)
     if (!probe)
         return testing::AssertionFailure() << probe.error().line();
     Decoded own, other;
-    const bool png = std::string(probe->format) == "png";
-    const std::optional<Status> read = png ? read_png(file, *probe, own.place()) : read_jpeg(file, own.place());
+    const std::string format = probe->format;
+    const std::optional<Status> read = format == "png"    ? read_png(file, *probe, own.place())
+                                       : format == "webp" ? read_webp(file, own.place())
+                                                          : read_jpeg(file, own.place());
     if (!read || !*read)
         return testing::AssertionFailure() << "is left to the image library";
     const Result<const ImageLibrary*> library = image_library("file");
@@ -158,18 +162,57 @@ TEST(common_formats, jpeg_has_the_pixels_of_the_image_library)
     EXPECT_FALSE(read_jpeg({inks.data(), inks.size(), "file"}, own.place())) << "the image library converts inks";
 }
 
+Bytes webp_of(bool alpha, bool lossless)
+{
+    const Bytes pixels = noise(static_cast<std::size_t>(kWidth * kHeight) * (alpha ? 4 : 3));
+    const int row = kWidth * (alpha ? 4 : 3);
+    std::uint8_t* data = nullptr;
+    const std::size_t size = lossless ? (alpha ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB)(pixels.data(), kWidth, kHeight, row, &data)
+                                      : (alpha ? WebPEncodeRGBA : WebPEncodeRGB)(pixels.data(), kWidth, kHeight, row, 70.0f, &data);
+    const Bytes file(data, data + size);
+    WebPFree(data);
+    return file;
+}
+
+TEST(common_formats, webp_has_the_pixels_of_the_image_library)
+{
+    for (const bool lossless : {false, true})
+        EXPECT_TRUE(alike(webp_of(false, lossless))) << (lossless ? "lossless" : "lossy");
+}
+
+// The image library multiplies colours of WebP by alpha.
+TEST(common_formats, webp_with_alpha_has_its_own_colours)
+{
+    const Bytes file = webp_of(true, true), pixels = noise(static_cast<std::size_t>(kWidth * kHeight) * 4);
+    const Result<Image> read = decode_image(file.data(), file.size(), "file", Limits());
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read->channels, 4);
+    ASSERT_EQ(read->bytes.size(), pixels.size());
+    int clear = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        const bool hidden = pixels[i + 3] == 0; // libwebp writes other colours there
+        clear += hidden ? 1 : 0;
+        for (std::size_t c = hidden ? 3 : 0; c < 4; ++c)
+            EXPECT_EQ(static_cast<std::uint8_t>(read->bytes[i + c]), pixels[i + c]) << i << " " << c;
+    }
+    EXPECT_LT(clear, kWidth * kHeight / 10);
+    EXPECT_EQ(decode_image(file.data(), file.size() - 20, "file", Limits()).error().code, ExitCode::bad_input);
+}
+
 TEST(common_formats, faults_are_left_to_the_image_library)
 {
-    for (Bytes file : {png_of(2, 8, false, false), jpeg_of(JCS_RGB, 3, 75, false, true)}) {
-        const bool png = file[0] == 0x89;
+    for (Bytes file : {png_of(2, 8, false, false), jpeg_of(JCS_RGB, 3, 75, false, true), webp_of(true, true), webp_of(false, false)}) {
+        const bool png = file[0] == 0x89, webp = file[0] == 'R';
         file.resize(file.size() * 2 / 3);
         Decoded own;
         const ImageBytes bytes{file.data(), file.size(), "file"};
-        EXPECT_FALSE(png ? read_png(bytes, {"png"}, own.place()) : read_jpeg(bytes, own.place()));
+        EXPECT_FALSE(png ? read_png(bytes, {"png"}, own.place()) : webp ? read_webp(bytes, own.place()) : read_jpeg(bytes, own.place()));
         const PlacePixels refuse = [](const StoredHeader&) -> Result<PixelRequest> {
             return Error{ExitCode::bad_input, "", "", "refused"};
         };
-        const std::optional<Status> refused = png ? read_png(bytes, {"png"}, refuse) : read_jpeg(bytes, refuse);
+        const std::optional<Status> refused = png    ? read_png(bytes, {"png"}, refuse)
+                                              : webp ? read_webp(bytes, refuse)
+                                                     : read_jpeg(bytes, refuse);
         ASSERT_TRUE(refused);
         EXPECT_EQ(refused->error().reason, "refused");
     }
