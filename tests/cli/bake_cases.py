@@ -48,21 +48,8 @@ def shown(bench, name):
     return width, height, rows
 
 
-# Rules for all bakers' previews: 8-bit images in a folder, equal bytes every time, named in the report. A preview never overwrites inputs
-# or outputs, and does not change the map.
-@case("bake.previews_of_every_baker_show_what_was_made", "input", tier="nightly")
-def previews(bench):
-    scratch(bench, "normal.png", png(8, 8, lambda x, y: (128 + 12 * x, 128 - 9 * y, 220)))
-    scratch(bench, "heights.png", png(8, 8, lambda x, y: (30 * x, 30 * x, 30 * x)))
-    exponents = ("--nu", "9", "--nv", "70")
-    bakers = {"quaternion": (("normal.png", "-o", "q.png"), {"normals"}), "direction": (("normal.png", "-o", "d.png"), {"grain"}),
-              "tpr": (("--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x8", "-o", "t.exr"), {"grain"}),
-              "half-vectors": ((*exponents, "--size", "16x16", "-o", "h.exr"), {"half_vectors", "density"}),
-              "brdf-lut": ((*exponents, "--size", "4x4", "-o", "a.exr"), {"albedo"}),
-              "environment": (("builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "e"), {"radiance_00", "radiance_03", "irradiance", "whole"}),
-              "displaced": (("builtin:sphere", "heights.png", "--triangles", "1", "-o", "s.glb"), {"heights", "normals"}),
-              "ltc": (("--resolution", "3", "--steps", "0", "-o", "t.ltc"), {"m00", "m22", "nD", "fD"}),
-              "mip": (("builtin:bumps", "--mip-filter", "leadr", "-o", "b.mip"), {"vinyl_lobe_01"})}
+def check_previews(bench, bakers):
+    """Rules for all bakers' previews: 8-bit images in a folder, equal bytes every time, named in the report. They do not change the map."""
     for what, (words, names) in bakers.items():
         output = bench.folder / words[-1]
         made = output / "environment.bnenv" if what == "environment" else output
@@ -77,6 +64,22 @@ def previews(bench):
         check({path.name: path.read_bytes() for path in (bench.folder / "seen" / what).iterdir()} == first, f"{what}: other pictures the second time")
         scratch(bench, "file", b"")
         bench.run("bake", what, *words, "-q", "--preview", "file").expect(7).expect_one_line("file")
+
+
+# A preview never overwrites inputs or outputs.
+@case("bake.previews_of_every_baker_show_what_was_made", "input", tier="nightly")
+def previews(bench):
+    scratch(bench, "normal.png", png(8, 8, lambda x, y: (128 + 12 * x, 128 - 9 * y, 220)))
+    scratch(bench, "heights.png", png(8, 8, lambda x, y: (30 * x, 30 * x, 30 * x)))
+    exponents = ("--nu", "9", "--nv", "70")
+    bakers = {"quaternion": (("normal.png", "-o", "q.png"), {"normals"}), "direction": (("normal.png", "-o", "d.png"), {"grain"}),
+              "tpr": (("--expr", "cos(pi*v)", "sin(pi*v)", "--size", "8x8", "-o", "t.exr"), {"grain"}),
+              "half-vectors": ((*exponents, "--size", "16x16", "-o", "h.exr"), {"half_vectors", "density"}),
+              "brdf-lut": ((*exponents, "--size", "4x4", "-o", "a.exr"), {"albedo"}),
+              "environment": (("builtin:sky", "--env-size", "16", "--env-samples", "4", "-o", "e"), {"radiance_00", "radiance_03", "irradiance", "whole"}),
+              "displaced": (("builtin:sphere", "heights.png", "--triangles", "1", "-o", "s.glb"), {"heights", "normals"}),
+              "mip": (("builtin:bumps", "--mip-filter", "leadr", "-o", "b.mip"), {"vinyl_lobe_01"})}
+    check_previews(bench, bakers)
     # contents: a rotation by angle pi v gives a hue that goes once around; normals equal the map's; heights rise to the right
     width, height, rows = shown(bench, "seen/tpr/grain.png")
     check((width, height) == (256, 256) and all(max(pixel) == 255 and min(pixel) == 0 for row in rows for pixel in row), "hues are not pure")

@@ -113,7 +113,6 @@ FEW_THREADS = {
     "o.mip": (("bake", "mip", "builtin:roofs=1", "-q"), (0,)),
     "levels": (("bake", "mip", "builtin:roofs=1", "--format", "png-levels", "--threads", "4", "-q"), (0,)),
     "tiles": (("bake", "mip", "builtin:roofs=1", "--format", "exr-mip", "--threads", "2", "-q"), (0, 4)),
-    "w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,)),
     "report": (("chart", "builtin:plate", *CHART[1:]), (0, 4)),
     "lit.png": ((*PLATE, "--env", "sky.exr", "--threads", "4"), (0, 4)),
     "found.json": (("compare", "a.pfm", "b.pfm", "--threads", "4", "-q"), (0, 4)),
@@ -125,7 +124,7 @@ def bytes_of(path):
     return {file.name: file.read_bytes() for file in ([path] if path.is_file() else sorted(path.glob("*"))) if file.is_file()}
 
 
-def with_few_threads(bench, names, counts, user):
+def with_few_threads(bench, jobs, counts, user):
     """Makes equal files by `counts` processes of another user, or one error line, a code, and no file."""
     if os.geteuid() or bench.sanitized:
         raise Skipped("needs root, to become a user with a limit, and no threads of sanitizers")
@@ -138,8 +137,7 @@ def with_few_threads(bench, names, counts, user):
     for picture, more in (("sky.exr", ("--size", "64x32")), ("a.pfm", ()), ("b.pfm", ("--samples", "4"))):  # inputs
         bench.run(*PLATE, *more, "-o", picture).expect(0)
         (bench.folder / picture).chmod(0o644)
-    for name in names:
-        words, codes = FEW_THREADS[name]
+    for name, (words, codes) in jobs.items():
         words += (OUTPUT.get(name, "-o"), name)
         path = bench.folder / name
         done = bench.run(*words, user=user, env=env)
@@ -164,12 +162,12 @@ def with_few_threads(bench, names, counts, user):
 
 @case("confine.few_threads_draw_the_same", tier="nightly")
 def few_threads(bench):
-    with_few_threads(bench, ("o.png", "o.pfm", "r.pfm", "levels"), (1, 2, 3), 50000 + os.getpid() % 5000)
+    with_few_threads(bench, {name: FEW_THREADS[name] for name in ("o.png", "o.pfm", "r.pfm", "levels")}, (1, 2, 3), 50000 + os.getpid() % 5000)
 
 
 @case("confine.few_threads_of_libraries_are_said", tier="nightly")
 def few_threads_of_libraries(bench):
-    with_few_threads(bench, ("o.exr", "v.pfm"), (1, 2, 4, 6), 55000 + os.getpid() % 5000)
+    with_few_threads(bench, {name: FEW_THREADS[name] for name in ("o.exr", "v.pfm")}, (1, 2, 4, 6), 55000 + os.getpid() % 5000)
 
 
 @case("confine.few_threads_all", tier="nightly")

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import time
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 GIB = 1 << 30
 CASES = {}  # name -> (function, labels)
 
@@ -46,6 +47,11 @@ def data_files(roots, folder, suffixes):
             if path.suffix in suffixes:
                 found.setdefault(str(path.relative_to(root / folder)), path)
     return dict(sorted(found.items()))
+
+
+def lab_commands():
+    """Returns the subcommands that the laboratory's program runs."""
+    return set(re.findall(r"^BN_LAB_COMMAND\((\w+)", (ROOT / "apps/cli/commands.def").read_text(), re.M))
 
 
 def words_of(name):

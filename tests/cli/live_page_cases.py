@@ -1,4 +1,4 @@
-"""Pages with the renderer inside: what files hold, requests that fail, and pages of charts, goldens, comparisons and the atlas in Chromium."""
+"""Pages with the renderer inside: what files hold, requests that fail, and pages of charts, goldens and comparisons in Chromium."""
 
 import base64
 import json

@@ -15,7 +15,7 @@ sys.path.insert(0, str(MANUAL))
 
 import pages  # noqa: E402
 
-NEEDS = {"--backend": "a Vulkan device or Embree", "parity": "a Vulkan device", "race": "a Vulkan device"}
+NEEDS = {"--backend": "a Vulkan device or Embree", "parity": "a Vulkan device", "--devices": "a Vulkan device"}
 MOST_BYTES, MOST_PICTURE = 2 << 20, 80 << 10
 
 
@@ -44,14 +44,19 @@ def reference(bench):
     check(not left, f"pages without a subcommand: {left}")
 
 
-@case("manual.reference_names_every_option")
-def options(bench):
-    """Each row of --help is a row of the page, and an unknown subcommand is an error."""
-    for name in ("render", "compare", "bake", "plot", "info"):
+def check_options(bench, *names):
+    """Each row of --help is a row of the subcommand's page."""
+    for name in names:
         page = bench.run("manual", "markdown", name).expect(0).out
         check(page.startswith(f"# burnish {name}\n"), page[:200])
         for option in re.findall(r"^  (?:-\w,)?(--[a-z][a-z0-9-]*)", bench.run(name, "--help").expect(0).out, re.M):
             check(option == "--help" or re.search(rf"^\| (?:`-\w`, )?`{option}` \|", page, re.M), f"{name}: no row of {option}")
+
+
+@case("manual.reference_names_every_option")
+def options(bench):
+    """An unknown subcommand is an error."""
+    check_options(bench, "render", "compare", "bake", "info")
     bench.run("manual", "markdown", "nothing").expect(2).expect_one_line("nothing")
     bench.run("manual", "bash", "render").expect(2).expect_one_line("markdown")
     everything = bench.run("manual", "--markdown").expect(0).out

@@ -186,7 +186,6 @@ def wrong(bench):
                           ((*REFERENCE, "--checkpoint", "c.part", "--pieces"), "--checkpoint"),
                           ((*REFERENCE, "--target-error", "0.1", "--take"), "--target-error"), ((*row, "--budget-ms", "20", "--take"), "--budget-ms"),
                           (("submit", "--for", "mpi", "--", "render", "builtin:plate"), "no pieces"), (("submit", "--for", "mpi", "--", "render", "a.glb", "--size", "8192x8192", "--msaa", "1"), "no pieces"),
-                          (("submit", "--for", "mpi", "--", "chart", "--mip", "-o", "r"), "no pieces"),
                           (("submit", "--for", "mpi", "--at-once", "2", "--", *row), "--at-once"),
                           (("submit", "--for", "github", "--shards", "257", "--", *row), "256"),
                           (("submit", "--for", "github", "--", "chart", "${{ secrets.all }}.glb", "-o", "r"), "{{"),
@@ -195,9 +194,7 @@ def wrong(bench):
                           (("submit", "--for", "k8s", "--", *ROW, "-o", "\udcff_%d.png"), "UTF-8"),
                           (("submit", "--for", "slurm", "--", "compare", "a.png", "b.png"), "no pieces"),
                           (("submit", "--for", "slurm", "--", "golden", "bless", "m.json"), "golden check have"),
-                          (("submit", "--for", "slurm", "--", "bake", "ltc", "--table", "t.ltc", "--preview", "p"), "no pieces"),
                           (("submit", "--for", "slurm", "--", *row, "--take"), "options of pieces"),
-                          (("submit", "--for", "slurm", "--", "train", "mip", "-o", "n", "--checkpoint", "c"), "--checkpoint"),
                           (("submit", "--for", "mpi", "--", "render", "a.glb", "--backend", "reference", "--target-error=.1", "-o", "a.exr"), "--target-error"),
                           (("submit", "--for", "lsf", "--", *row), "slurm")):
         if "reference" in words:
@@ -402,16 +399,20 @@ def folders(bench):
     check(not left, f"left: {left}")
 
 
+def have_scripts(bench, *jobs):
+    for job in jobs:
+        check("--merge" in bench.run("submit", "--for", "slurm", "--", *job).expect(0).out, f"{job} has no script")
+
+
 @case("pieces.scripts_for_engines_are_what_the_engines_read")
 def scripts(bench):
     import yaml
     words = ("chart", "my #1: it's.glb", "--runs", "0", "-o", "r")
     text = {engine: bench.run("submit", "--for", engine, "--shards", "3", "--work", "my, pieces", "--", *words).expect(0).out
             for engine in ("slurm", "mpi", "parallel", "k8s", "openjd", "github")}
-    for job in (("render", "a.glb", "--size", "20000x300", "-o", "a.png"), ("render", "a.glb", "--size=300x20000", "-o", "a.png"), ("render", "a.glb", "--band-rows", "64", "-o", "a.png"), ("render", "a.glb", "--size", "8192x8192", "-o", "a.png"),
-                ("render", "a.glb", "--size", "8192x8192", "--msaa=16", "-o", "a.png"), ("bake", "ltc", "-o", "t.ltc", "--report", "quality"),
-                ("bake", "ltc", "-o", "t.ltc"), ("bake", "mip", "maps", "-o", "m.mip"), ("train", "mip", "--evaluate", "nets", "-o", "r"), ("train", "mip", "--seeds", "8", "-o", "n")):
-        check("--merge" in bench.run("submit", "--for", "slurm", "--", *job).expect(0).out, f"{job} has no script")
+    have_scripts(bench, ("render", "a.glb", "--size", "20000x300", "-o", "a.png"), ("render", "a.glb", "--size=300x20000", "-o", "a.png"),
+                 ("render", "a.glb", "--band-rows", "64", "-o", "a.png"), ("render", "a.glb", "--size", "8192x8192", "-o", "a.png"),
+                 ("render", "a.glb", "--size", "8192x8192", "--msaa=16", "-o", "a.png"), ("bake", "mip", "maps", "-o", "m.mip"))
     for engine in ("slurm", "mpi", "parallel"):
         done = subprocess.run(["sh", "-n"], input=text[engine], capture_output=True, text=True)
         check(done.returncode == 0, done.stderr)

@@ -2,14 +2,11 @@
 
 import json
 import os
-import pathlib
 import re
 import shlex
 
 import gltf_files
-from harness import SMALL, Skipped, case, check, scratch
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from harness import ROOT, SMALL, Skipped, case, check, lab_commands, scratch
 
 
 @case("usage.help_is_everywhere")
@@ -48,8 +45,7 @@ def version(bench):
 
 
 WRITTEN = {"-o", "--json", "--svg", "--stats", "--trace", "--html", "--junit", "--csv", "--variance", "--error-map"}  # options that name a file
-MORE = {"serve": ("-o", "file/pictures"), "render": ("-o", "file/a.png"), "atlas": ("-o", "file/a"), "parity": ("--json", "file/a"), "race": ("--json", "file/a"),
-        "profile": ("--json", "file/a")}
+MORE = {"serve": ("-o", "file/pictures"), "render": ("-o", "file/a.png"), "parity": ("--json", "file/a"), "profile": ("--json", "file/a")}
 
 
 def examples(bench):
@@ -63,22 +59,28 @@ def examples(bench):
     return sorted(set(line for line in lines if not any(word in line for word in ("|", ">", "--help")) and not re.search(r"\[|\.\.\.|\b[A-Z]{3,}", line)))
 
 
-@case("usage.examples_of_the_pages_are_taken_as_they_are_written")
-def every_example(bench):
-    """Runs them up to their missing inputs or their outputs, which are below a file."""
-    lines = examples(bench)
-    check(len(lines) > 80, f"only {len(lines)} examples were found")
+def take_examples(bench, of_lab, more, least):
+    """Runs the examples of the laboratory, or all others, up to their missing inputs or their outputs, which are below a file. more: words
+    by subcommand for examples without an output."""
+    lab = lab_commands()
+    lines = [line for line in examples(bench) if (line.split()[1] in lab) == of_lab]
+    check(len(lines) > least, f"only {len(lines)} examples were found")
     scratch(bench, "file", "")
     wrong = []
     for line in lines:
         words = shlex.split(line)[1:]
         stopped = [f"file/{w}" if before in WRITTEN and w != "-" else w for before, w in zip([""] + words, words)]
         if stopped == words:
-            stopped += [word for word in MORE.get(words[0], ()) if "--list" not in words]
+            stopped += [word for word in more.get(words[0], ()) if "--list" not in words]
         done = bench.run(*stopped)
         if done.code not in ((0, 4) if stopped == words or words[0] == "submit" else (4, 7)): # submit prints a script
             wrong.append(f"{line}: exit code {done.code}, {done.err.strip()}")
     check(not wrong, "\n".join(wrong))
+
+
+@case("usage.examples_of_the_pages_are_taken_as_they_are_written")
+def every_example(bench):
+    take_examples(bench, False, MORE, 80)
 
 
 # Arguments, and text that the one-line message must contain.

@@ -8,9 +8,11 @@ import subprocess
 import time
 import xml.dom.minidom
 
+from bake_cases import check_previews
 from direction_cases import SMALL as VIEW
 from harness import case, check, scratch
 from light_cases import DARK, SHIPPED, sealed
+from output_cases import same_in_locales
 
 SMALL = ("bake", "ltc", "--resolution", "3", "--steps", "2", "--samples", "2")
 
@@ -135,6 +137,26 @@ def wrong(bench):
         bench.run("bake", "ltc", *words).expect(code).expect_one_line(needle)
     bench.run("bake", "lct", "-o", "u.ltc").expect(2).expect_one_line("lct")
     check(bench.left_behind() == sorted([*files, "t.ltc.part"]), f"left {bench.left_behind()}")
+
+
+@case("bake.what_is_wrong_beside_other_bakers_says_one_line", "input")
+def wrong_beside_others(bench):
+    """Tables and maps refuse each other's inputs and options."""
+    for words, needles in ((("direction", "p.png", "--steps", "2", "-o", "d.png"), ("--steps", "ltc")), (("ltc", "p.png", "-o", "t.ltc"), ("PICTURE",)),
+                           (("ltc", "--from", "hue", "-o", "t.ltc"), ("--from", "direction")), (("ltc", "--size", "4x4", "-o", "t.exr"), ("--size",)),
+                           ((), ("WHAT is required: ltc, direction, quaternion, tpr, displaced, half-vectors, brdf-lut, environment or mip",))):
+        done = bench.run("bake", *words).expect(2).expect_one_line(*needles)
+        check(done.out == "" and not bench.left_behind(), f"left {bench.left_behind()}\n{done.describe()}")
+
+
+@case("bake.previews_of_tables_show_what_was_made", "input", tier="nightly")
+def previews(bench):
+    check_previews(bench, {"ltc": (("--resolution", "3", "--steps", "0", "-o", "t.ltc"), {"m00", "m22", "nD", "fD"})})
+
+
+@case("bake.locales_change_no_byte")
+def locales(bench):
+    same_in_locales(bench, (("bake", "ltc", "--resolution", "3", "--steps", "1", "--samples", "2", "-q", "-o", "t.ltc"),), 1)
 
 
 @case("lights.tables_that_are_none_say_one_line", "input")

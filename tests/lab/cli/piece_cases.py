@@ -4,7 +4,7 @@ import pathlib
 
 from fault_cases import needs_embree
 from harness import case, check
-from pieces_cases import files_of, one_and_pieces
+from pieces_cases import files_of, have_scripts, one_and_pieces
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -38,3 +38,17 @@ def table(bench):
 def nets(bench):
     net = str(ROOT / "shading/bake/mipnet/ggx_aniso.mipnet")
     one_and_pieces(bench, ("train", "mip", "--evaluate", net, "--validation", "-q"), ("figures.json",), option="--json", machine=("--threads", "1"))
+
+
+@case("pieces.wrong_words_of_the_laboratory_are_named", "input")
+def wrong(bench):
+    for engine, job, needle in (("mpi", ("chart", "--mip", "-o", "r"), "no pieces"),
+                                ("slurm", ("bake", "ltc", "--table", "t.ltc", "--preview", "p"), "no pieces"),
+                                ("slurm", ("train", "mip", "-o", "n", "--checkpoint", "c"), "--checkpoint")):
+        bench.run("submit", "--for", engine, "--", *job).expect(2).expect_one_line(needle)
+
+
+@case("pieces.scripts_for_jobs_of_the_laboratory_merge")
+def scripts(bench):
+    have_scripts(bench, ("bake", "ltc", "-o", "t.ltc", "--report", "quality"), ("bake", "ltc", "-o", "t.ltc"),
+                 ("train", "mip", "--evaluate", "nets", "-o", "r"), ("train", "mip", "--seeds", "8", "-o", "n"))

@@ -5,6 +5,8 @@ import re
 import xml.etree.ElementTree
 
 from harness import case, check
+from manual_page_cases import check_options
+from progress_cases import check_told
 
 
 def discs(bench, *words):
@@ -264,3 +266,13 @@ def page(bench):
                           (("-o", "e.html", "--tilt", "3,3"), "--tilt")):
         bench.run("plot", "ellipsoid", *words).expect(2).expect_one_line(needle)
     check(bench.left_behind() == [], f"left {bench.left_behind()}")
+
+
+@case("progress.of_plots_is_told", budget=10)
+def progress(bench):
+    check_told(bench, ((r"^plot, drawing side: ", "plot", "side", "-o", "a.svg"),))
+
+
+@case("manual.reference_names_every_option_of_plots")
+def manual(bench):
+    check_options(bench, "plot")

@@ -4,7 +4,7 @@ import json
 import shutil
 
 from harness import Skipped, case, check
-from parity_cases import COARSE, ROOT, compile_listed
+from parity_cases import COARSE, ROOT, compile_listed, never_written_over
 
 # Techniques whose fragments share samples, which no device does. All others stay within 0.005.
 SHARE = {"lobe_line": 0.025, "as_mc": 0.075}
@@ -137,3 +137,17 @@ def lean_refuses(bench):
     """Refuses by row and races the other rows. An image that it would draw wrongly is not drawn."""
     row, = lean_rows(bench, "builtin:spheres", "--env", "builtin:sky", "--size", "32x24", "--techniques", "split_isotropic", "--msaa", "1", code=77)
     check("extracted lights" in row["error"] and "ratio" not in row, f"{row}")
+
+
+@case("race.writes_over_no_model")
+def writes_over_no_model(bench):
+    never_written_over(bench, ("race", "models/a.gltf"))
+
+
+@case("race.wrong_options_say_one_line_and_exit_2")
+def wrong_options(bench):
+    for option, value in (("--devices", "lavapipe,"), ("--msaa", ",1")):
+        done = bench.run("race", option, value)
+        if done.code == 77:
+            raise Skipped(done.err.strip())
+        done.expect(2).expect_one_line(option)

@@ -2,12 +2,14 @@
 
 import hashlib
 import json
+import os
 import pathlib
 import signal
 import subprocess
 import time
 
 from compare_cases import png
+from confine_cases import with_few_threads
 from detail_cases import bumps
 from harness import case, check
 from pieces_cases import one_and_pieces, pieces_of
@@ -153,3 +155,9 @@ def remade(bench):
         words = json.loads(bench.run("info", "--json", "--weights", file).expect(0).out)["command"].split()[1:]
         bench.run(*words, "-o", file.name, "-q", timeout=3600).expect(0)
         check((bench.folder / file.name).read_bytes() == file.read_bytes(), f"{file.name} is another one")
+
+
+@case("confine.few_threads_train_the_same", tier="nightly")
+def few_threads(bench):
+    jobs = {"w.mipnet": (("train", "mip", "--steps", "2", "--threads", "3", "-q"), (0,))}
+    with_few_threads(bench, jobs, range(1, 13), 45000 + os.getpid() % 5000)
