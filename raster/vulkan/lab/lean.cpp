@@ -40,9 +40,9 @@ struct LeanMaterial { // std140: surface.glsl
     glm::vec4 base, dielectric, f0, diffuse, factors, emissive, lobe, grain;
     glm::vec4 place[2 * kTextureSlots];
 };
-static_assert(kTextureSlots == 19 && sizeof(LeanMaterial) == 736);
-constexpr std::uint32_t kTableSamplers = 5;  // of set 0: albedo tables and transformed cosines
-constexpr std::size_t kMaterialStride = 768; // a multiple of every device's uniform buffer alignment, 256 at most
+static_assert(sizeof(LeanMaterial) == sizeof(glm::vec4) * (8 + 2 * kTextureSlots));
+constexpr std::uint32_t kTableSamplers = 5;                                       // of set 0: albedo tables and transformed cosines
+constexpr std::size_t kMaterialStride = (sizeof(LeanMaterial) + 255) / 256 * 256; // the largest alignment of uniform buffers
 
 // Vertex input: positions, then shading data.
 constexpr VkVertexInputBindingDescription kVertexBuffers[] = {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX},

@@ -13,6 +13,10 @@ const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwo
           kUnlit = 64, kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048, kLamps = 4096,
           kAreas = 8192, kRoundLights = 16384;
 const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8;
+const int kTextureSlots = 0
+#define BN_SLOT(slot, at, texture, encoding, power) +1
+#include "core/scene/material.def"
+    ;
 
 bool has(int trait) { return (kTraits & trait) != 0; }
 bool textured(int slot) { return (kTextures >> slot & 1) != 0; }
@@ -27,7 +31,7 @@ layout(std140, set = 0, binding = 1) uniform LeanMaterial
     vec4 emissive;
     vec4 lobe; // slope deviations along and across, roughness, eta or anisotropy strength
     vec4 grain; // the axis along tangent and bitangent, or a texture's rotation; bent normal's stretch and level
-    vec4 place[38]; // by slot: linear part of the coordinate transform; shift, most taps, set
+    vec4 place[2 * kTextureSlots]; // by slot: linear part of the coordinate transform; shift, most taps, set
 }
 material;
 
@@ -36,7 +40,7 @@ layout(set = 0, binding = 4) uniform sampler2D slice_albedo; // for the material
 layout(set = 0, binding = 5) uniform sampler3D width_albedo; // for any two widths: slabs of eta
 layout(set = 0, binding = 6) uniform sampler2D phong_albedo; // for the material's two widths, Ashikhmin-Shirley lobe
 layout(set = 1, binding = 0) uniform samplerCube cubes[4]; // specular, irradiance, box, the whole sky
-layout(set = 1, binding = 1) uniform sampler2D textures[19]; // by slot
+layout(set = 1, binding = 1) uniform sampler2D textures[kTextureSlots]; // by slot
 
 // Interpolated at pixel centres, not at centroids: cheaper, and nearer to the tile renderer's shading positions.
 layout(location = 0) in vec3 position;
