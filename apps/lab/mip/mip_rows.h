@@ -7,7 +7,7 @@
 #include "apps/report/json.h"
 #include "core/jobs/jobs.h"
 #include "shading/bake/mip/mip_error.h"
-#include "shading/bake/mipnet/families.h"
+#include "shading/lab/mipnet/families.h"
 
 namespace burnish {
 

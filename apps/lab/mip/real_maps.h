@@ -5,7 +5,7 @@
 
 #include "core/base/limits.h"
 #include "core/base/result.h"
-#include "shading/bake/mipnet/families.h"
+#include "shading/lab/mipnet/families.h"
 
 namespace burnish {
 

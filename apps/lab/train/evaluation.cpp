@@ -11,7 +11,7 @@
 #include "apps/pieces/given.h"
 #include "apps/report/json.h"
 #include "core/base/clock.h"
-#include "shading/bake/mip/evaluate.h"
+#include "shading/lab/mip/judge_filters.h"
 
 namespace burnish {
 namespace {
@@ -44,7 +44,7 @@ Json rows_json(const std::vector<mipnet::Judged>& rows)
     Json json = Json::array();
     for (const mipnet::Judged& row : rows) {
         Json levels = Json::array();
-        for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
+        for (int k = 1; k <= mipnet::kEvaluatedLevels; ++k)
             levels.push_back(figures_json(row.level[k]));
         json.push_back({{"set", row.set},
                         {"material", row.material},
@@ -69,7 +69,7 @@ std::vector<mipnet::Judged> rows_of(const Json& json)
     for (const Json& from : json) {
         mipnet::Judged row{from.at("set"), from.at("material"), from.at("filter"), {}};
         row.level[0] = figures_of(from.at("mean"));
-        for (int k = 1; k <= mipnet::kJudgedLevels; ++k)
+        for (int k = 1; k <= mipnet::kEvaluatedLevels; ++k)
             row.level[k] = figures_of(from.at("levels").at(static_cast<std::size_t>(k - 1)));
         rows.push_back(row);
     }

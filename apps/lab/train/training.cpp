@@ -14,7 +14,7 @@
 #include "apps/lab/train/arguments.h"
 #include "apps/pieces/given.h"
 #include "core/base/clock.h"
-#include "shading/bake/mip/evaluate.h"
+#include "shading/lab/mip/judge_filters.h"
 
 namespace burnish {
 namespace {

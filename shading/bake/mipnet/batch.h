@@ -1,17 +1,10 @@
-// Input for a training step: material tiles, mirrored at random, and direction pairs (to light, to eye).
+// Tiles of texels in the order of levels, and direction pairs (to light, to eye).
 #pragma once
-#include <cstdint>
-#include <vector>
-
-#include "shading/bake/mipnet/families.h"
+#include <cstddef>
 
 namespace burnish::mipnet {
 
 class Random;
-
-struct Batch { // a shard, in the layout of StepWork
-    std::vector<float> texels, tiles, pairs;
-};
 
 // Returns texel (x, y)'s index in a plane of level 0, for tile `tile`.
 std::size_t place_in_shard(int x, int y, int tile);
@@ -21,8 +14,5 @@ inline constexpr double kDefaultMirrored = 0.6;
 // Draws unit directions to a light and to an eye: six numbers, `apart` floats apart. The share `mirrored` of lights mirrors the eye at
 // normals near +z, drawn from lobes cos^10 and cos^80, half each, where highlights are. Other lights are uniform.
 void put_pair(Random& random, float* pair, std::size_t apart, double mirrored = kDefaultMirrored);
-
-// Makes a batch. The result depends on the arguments alone. pairs: direction pairs per tile.
-Batch make_batch(const TrainingSet& set, std::uint64_t seed, int pairs, double mirrored = kDefaultMirrored);
 
 } // namespace burnish::mipnet

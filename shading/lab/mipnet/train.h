@@ -9,9 +9,9 @@
 
 #include "core/jobs/jobs.h"
 #include "core/simd/dispatch.h"
-#include "shading/bake/mipnet/batch.h"
 #include "shading/bake/mipnet/weights.h"
 #include "shading/lab/mipnet/step_fns.h"
+#include "shading/lab/mipnet/training_batch.h"
 
 namespace burnish::mipnet {
 

@@ -7,9 +7,9 @@
 #include "core/image/image.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/dispatch.h"
-#include "shading/bake/mipnet/batch.h"
 #include "shading/bake/mipnet/net.h"
 #include "shading/lab/mipnet/step_fns.h"
+#include "shading/lab/mipnet/training_batch.h"
 
 namespace burnish::mipnet {
 namespace {

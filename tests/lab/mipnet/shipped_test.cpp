@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "shading/bake/mip/evaluate.h"
 #include "shading/bake/mipnet/classical.h"
 #include "shading/bake/mipnet/pyramid.h"
 #include "shading/bake/mipnet/shipped.h"
+#include "shading/lab/mip/judge_filters.h"
 
 namespace burnish::mipnet {
 namespace {

@@ -1,4 +1,4 @@
-#include "shading/bake/mipnet/families.h"
+#include "shading/lab/mipnet/families.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include "shading/bake/mip/optimised_mip.h"
 #include "shading/bake/mip/standard_textures.h"
 #include "shading/bake/mip/texture.h"
-#include "shading/bake/mipnet/families.h"
+#include "shading/lab/mipnet/families.h"
 #include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
 #include "tests/unit/bake/bake_test.h"

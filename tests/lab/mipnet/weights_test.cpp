@@ -6,8 +6,8 @@
 
 #include "core/base/hash.h"
 #include "core/simd/half.h"
-#include "shading/bake/mipnet/families.h"
 #include "shading/bake/mipnet/pyramid.h"
+#include "shading/lab/mipnet/families.h"
 
 namespace burnish::mipnet {
 namespace {

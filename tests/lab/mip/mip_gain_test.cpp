@@ -11,8 +11,8 @@
 #include "shading/bake/mip/mean_fns.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mipnet/albedo_fns.h"
-#include "shading/bake/mipnet/families.h"
 #include "shading/bake/mipnet/net.h"
+#include "shading/lab/mipnet/families.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
