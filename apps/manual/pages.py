@@ -38,6 +38,11 @@ def commands_of(text):
     return found
 
 
+def examples_of(text):
+    """The examples of a reference page, as lines of a shell."""
+    return [line.strip() for line in text.partition("\n## Examples\n")[2].splitlines() if line.startswith("    ")]
+
+
 def pictures_of(text):
     """Names of the pictures that a page shows out of pictures/."""
     return re.findall(r"!\[[^\]]*\]\([^)]*pictures/([^)]+)\)", text)
