@@ -8,7 +8,7 @@ namespace burnish {
 namespace {
 
 const AtlasEntry kEntry = {
-    "bent_normal_bends_too_far", "environment", "It breaks", "builtin:sphere", false, "anisotropy=0:1", AtlasTruth::reference, "", 0.1,
+    "bent_normal_bends_too_far", "environment", "It breaks", "builtin:sphere", false, "anisotropy=0:1", AtlasReference::reference, "", 0.1,
     "--technique lobe_line"};
 
 MeasuredEntry measured(double from, double to, double cure = 0.05)
