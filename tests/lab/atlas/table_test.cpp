@@ -37,7 +37,7 @@ TEST(atlas_table, what_is_written_is_read)
     BlessedTable table;
     table.walks["quick"][kEntry.id] = row_of(measured(0.0, 0.2));
     table.walks["full"]["mc_fireflies"] = {2.0, 0.09, -0.01, 0.0, std::nullopt, "none"};
-    const auto back = parse_table(table_text(table), "blessed.md");
+    const auto back = parse_table(table_text(table), "blessed.txt");
     ASSERT_TRUE(back) << back.error().line();
     EXPECT_EQ(back->version, kTableVersion);
     const BlessedRow& row = back->walks.at("quick").at(kEntry.id);
@@ -54,7 +54,7 @@ TEST(atlas_table, what_is_written_is_read)
 TEST(atlas_table, one_row_is_found_as_all_are_read)
 {
     const std::string text(kAtlasBlessed.bytes, kAtlasBlessed.size);
-    const auto table = parse_table(text, "blessed.md");
+    const auto table = parse_table(text, "blessed.txt");
     ASSERT_TRUE(table);
     for (const auto& [walk, rows] : table->walks)
         for (const auto& [id, row] : rows) {
@@ -146,7 +146,7 @@ TEST(atlas_table, kept_entries_come_back_as_they_were)
 // No blessed entry fails at its start, and cures hold. No blessed row lacks an entry.
 TEST(atlas_table, blessed_entries_hold_at_their_start)
 {
-    const auto table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "blessed.md");
+    const auto table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "blessed.txt");
     ASSERT_TRUE(table) << table.error().line();
     EXPECT_EQ(table->version, kTableVersion);
     for (const auto& [walk, rows] : table->walks)
