@@ -101,7 +101,7 @@ constexpr std::size_t kBlockLights = 8; // in the uniform block, whatever the ba
 // Returns the lights as GLSL constants, and as a uniform block. An array has at least one element.
 std::string lights_glsl(const std::vector<ExtractedLight>& lights)
 {
-    std::string text = "// Key lights of an environment: evenly bright ellipses on the sky, strongest first. Linear Rec.709.\n"
+    std::string text = "// Extracted lights of an environment: evenly bright ellipses on the sky, strongest first. Linear Rec.709.\n"
                        "struct burnish_key_light {\n"
                        "    vec3 direction;        // to the light, unit\n"
                        "    vec3 irradiance;       // on a surface that faces the light\n"

@@ -3,17 +3,17 @@
 namespace burnish {
 
 namespace {
-std::vector<std::string> kept;
+std::vector<std::string> given_words;
 }
 
 void set_command_words(const std::vector<std::string>& words)
 {
-    kept = words;
+    given_words = words;
 }
 
 const std::vector<std::string>& command_words()
 {
-    return kept;
+    return given_words;
 }
 
 } // namespace burnish

@@ -84,7 +84,7 @@ constexpr ExportLanguage kLanguages[] = {
      2047},
 };
 
-constexpr const char* kUsualCube = "256"; // texels along an edge: a page bakes its environment before its first picture
+constexpr const char* kDefaultCube = "256"; // texels along an edge: a page bakes its environment before its first picture
 
 struct ExportArguments {
     std::string what = "glsl", technique = "major_axis", output;
@@ -157,7 +157,7 @@ OptionTable export_option_table(ExportArguments& to)
             rows.push_back(option);
     for (Option& row : rows)
         if (row.name == "--env-size")
-            row.initial = kUsualCube;
+            row.initial = kDefaultCube;
     table.add_needing("WHAT", "page", rows);
     table.add("Output", {Option("-o,--output", "FILE", "File to write; - for standard output", file(to.output)).must_be_given(),
                          quiet_option(to.quiet), verbose_option(to.verbosity)});
@@ -298,7 +298,7 @@ DrawRequest request_of(const ExportArguments& arguments, const OptionTable& give
     DrawRequest request;
     request.scene = arguments.scene, request.width = arguments.size.width, request.height = arguments.size.height;
     if (!given.given("--env-size"))
-        request.options.emplace_back("--env-size", kUsualCube);
+        request.options.emplace_back("--env-size", kDefaultCube);
     for (const Option& option : given.options())
         if (option.given && option.name == "--env")
             request.environment = option.texts.back();

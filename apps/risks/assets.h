@@ -4,6 +4,6 @@
 
 namespace burnish {
 
-extern const EmbeddedFile kAtlasBlessed; // blessed.md
+extern const EmbeddedFile kAtlasBlessed; // blessed.txt
 
 } // namespace burnish

@@ -55,12 +55,12 @@ Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& t
 // Returns a role's options beyond the entry's own.
 std::vector<std::string> own_words(const AtlasEntry& entry, AtlasRole role, std::uint64_t samples)
 {
-    if (role != AtlasRole::truth)
+    if (role != AtlasRole::reference)
         return words_of(role == AtlasRole::cure ? fmt::format("{} {}", entry.with, entry.cure) : entry.with);
-    std::vector<std::string> words = words_of(entry.truth_words);
-    if (has_reference(entry.truth))
+    std::vector<std::string> words = words_of(entry.reference_words);
+    if (is_path_traced(entry.reference))
         for (const std::string& word : words_of(fmt::format("--backend reference --samples {} --reference-textures {}", samples,
-                                                            entry.truth == AtlasTruth::full ? "full" : "footprint")))
+                                                            entry.reference == AtlasReference::full ? "full" : "footprint")))
             words.push_back(word);
     return words;
 }
@@ -120,8 +120,8 @@ const char* lobe_of_frame(const FrameDesc& frame)
 const std::vector<AtlasEntry>& atlas_entries()
 {
     static const std::vector<AtlasEntry> entries = {
-#define BN_ATLAS(id, group, breaks, words, kind, path, truth, truth_words, threshold, cure)                                                \
-    {#id, #group, breaks, words, kind, path, AtlasTruth::truth, truth_words, threshold, cure},
+#define BN_ATLAS(id, group, breaks, words, kind, path, reference, reference_words, threshold, cure)                                        \
+    {#id, #group, breaks, words, kind, path, AtlasReference::reference, reference_words, threshold, cure},
 #include "apps/risks/atlas.def"
     };
     return entries;
@@ -182,8 +182,8 @@ Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role
     if (!options)
         return wrong(options.error());
     out.options = *options;
-    out.in_double = role == AtlasRole::truth && entry.truth == AtlasTruth::doubles;
-    out.displayed = entry.truth == AtlasTruth::shown;
+    out.in_double = role == AtlasRole::reference && entry.reference == AtlasReference::doubles;
+    out.displayed = entry.reference == AtlasReference::shown;
     set_keys(command_.options, words, out);
     return out;
 }

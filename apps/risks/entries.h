@@ -10,15 +10,15 @@
 
 namespace burnish {
 
-enum class AtlasTruth { reference, full, pattern, render, doubles, shown }; // see apps/risks/atlas.def
+enum class AtlasReference { reference, full, pattern, render, doubles, shown }; // what errors are against: see apps/risks/atlas.def
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
     const char* words; // options of `burnish render`
     bool geometric;
     const char* path; // in the syntax of --animate; "amount" follows a failure scene's name: builtin:NAME=AMOUNT
-    AtlasTruth truth;
-    const char* truth_words; // further options of the ground truth
+    AtlasReference reference;
+    const char* reference_words; // further options of the reference
     double threshold;
     const char* cure;      // options that help; empty: no cure is known
     std::string with = {}; // further options of the tested picture and its cure: a change under trial
@@ -26,10 +26,10 @@ struct AtlasEntry {
 const std::vector<AtlasEntry>& atlas_entries(); // in the order of atlas.def
 const AtlasEntry* find_entry(const std::string& id);
 std::vector<std::string> entry_ids();
-// Returns true where the path tracer makes the ground truth.
-constexpr bool has_reference(AtlasTruth truth)
+// Returns true where the path tracer makes the reference.
+constexpr bool is_path_traced(AtlasReference reference)
 {
-    return truth == AtlasTruth::reference || truth == AtlasTruth::full || truth == AtlasTruth::pattern;
+    return reference == AtlasReference::reference || reference == AtlasReference::full || reference == AtlasReference::pattern;
 }
 
 // A sampling pattern for the atlas's paths. Figures from two walks cannot be compared.
@@ -50,8 +50,8 @@ struct AtlasSetting {
     bool in_double = false; // by the tile renderer in doubles: raster/tile/twins.h
 };
 
-enum class AtlasRole { test, cure, truth };
-// Returns the picture at s in [0,1], `side` pixels wide and high. `samples` a pixel of the ground truth; 0: the entry's usual number.
+enum class AtlasRole { test, cure, reference };
+// Returns the picture at s in [0,1], `side` pixels wide and high. `samples` a pixel of the reference; 0: the entry's usual number.
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
 
 // Reads many settings with one option table: making the table takes longer than reading a setting.

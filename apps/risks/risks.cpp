@@ -94,8 +94,8 @@ Result<std::vector<Active>> active_rules(const FrameDesc& desc)
         const Rule& rule = kRules[r];
         if (!names(rule.readers, technique_of(desc).name))
             continue;
-        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets
-        if (!row)
+        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets; above 1: none
+        if (!row || row->onset > 1.0)
             continue;
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
         BN_TRY(setting);

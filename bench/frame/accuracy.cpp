@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/frame/run.h"
+#include "core/base/result.h"
 #include "core/image/metrics/flip.h"
 #include "raster/reference/reference_renderer.h"
 #include "raster/tile/tile_renderer.h"
@@ -35,16 +36,14 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
     const Scene scene = make_bench_scene(BenchScene::sphere, 0, kWidth, kHeight);
     const DrawTables tables = make_draw_tables(scene);
     const Result<Environment> environment = load_environment("builtin:studio", {}, Limits{}, jobs);
-    if (!environment)
-        return environment.error();
+    BN_TRY(environment);
     const DfgTable dfg = bake_dfg(64, 256, jobs);
     const RenderInput input{scene, tables, *environment, dfg, jobs};
     const std::unique_ptr<Renderer> tile = make_tile_renderer(input, options.subject.isa);
     ReferenceOptions reference_options;
     reference_options.samples = kReferenceSamples, reference_options.isa = options.subject.isa;
     const Result<std::unique_ptr<Renderer>> reference = make_reference_renderer(input, reference_options);
-    if (!reference)
-        return reference.error();
+    BN_TRY(reference);
 
     std::vector<Row> rows;
     // Compare fixed and adaptive sampling with the reference
@@ -54,15 +53,13 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
         desc.view = bench_view(BenchScene::sphere, tables, kWidth, kHeight);
         desc.roughness = kRoughness, desc.override_anisotropy = true, desc.anisotropy = eta;
         const Result<Frame> truth = (*reference)->render(desc);
-        if (!truth)
-            return truth.error();
+        BN_TRY(truth);
         double flip[2] = {};
         const char* const techniques[2] = {"major_axis", "major_axis_adaptive"};
         for (int i = 0; i < 2; ++i) {
             desc.technique = techniques[i], desc.samples = 16;
             const Result<Frame> frame = tile->render(desc);
-            if (!frame)
-                return frame.error();
+            BN_TRY(frame);
             flip[i] = mean_flip(truth->color, frame->color, jobs);
         }
         const double more = flip[1] - flip[0];

@@ -8,6 +8,7 @@
 
 #include "bench/frame/run.h"
 #include "core/base/file.h"
+#include "core/base/result.h"
 #include "raster/tile/tile_renderer.h"
 
 namespace burnish {
@@ -84,8 +85,7 @@ Result<Options> parse(int argc, char** argv)
             o.run.subject.threads = static_cast<int>(number);
         else if (option == "--isa") {
             Result<std::vector<Isa>> isas = parse_isas(value);
-            if (!isas)
-                return isas.error();
+            BN_TRY(isas);
             o.isas = *isas;
         } else
             return wrong(option, "'" + value + "': no such option, or not a value of it");
@@ -186,8 +186,7 @@ template <class Make> Status append(std::vector<Row>& rows, const RunOptions& ru
         return {};
     say(std::string(group) + ": " + how);
     Result<std::vector<Row>> more = make(run);
-    if (!more)
-        return more.error();
+    BN_TRY(more);
     rows.insert(rows.end(), more->begin(), more->end());
     return {};
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "bench/frame/run.h"
+#include "core/base/result.h"
 #include "raster/tile/tile_renderer.h"
 
 namespace burnish {
@@ -83,8 +84,7 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
             continue;
         const Result<std::string> text = output_of({options.self, "--memory-of", std::to_string(triangles), "--threads",
                                                     std::to_string(options.subject.threads), "--isa", isa_name(options.subject.isa)});
-        if (!text)
-            return text.error();
+        BN_TRY(text);
         Memory m{};
         if (std::sscanf(text->c_str(), "%lf %lf %lf", &m.triangles, &m.before, &m.peak) != 3)
             return Error{ExitCode::internal, options.self, "", "says nothing about its memory"};
@@ -138,8 +138,7 @@ Result<std::vector<Row>> first_pixel_rows(const RunOptions& options)
     }
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    if (!failed)
-        return failed.error();
+    BN_TRY(failed);
     return std::vector<Row>{{"first_pixel", "process start to written PNG, teapot 1920x1080 at 8x", "s", 0.4, false, spread_of(seconds),
                              "wall time, environment cached"}};
 }

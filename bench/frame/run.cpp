@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "core/base/result.h"
+
 namespace burnish {
 namespace {
 
@@ -35,8 +37,7 @@ Result<std::vector<Measured>> run_group(const std::vector<const Workload*>& grou
         Result<std::unique_ptr<Subject>> subject = make_subject(*w, options.subject);
         if (!subject && subject.error().code == ExitCode::unavailable)
             continue;
-        if (!subject)
-            return subject.error();
+        BN_TRY(subject);
         Running& r = running.emplace_back();
         r.measured.workload = w, r.measured.load = load_average();
         r.subject = std::move(*subject);
@@ -184,8 +185,7 @@ Result<std::vector<Measured>> run_workloads(const RunOptions& options, void (*sa
     for (const std::string& group : order) {
         say(fmt::format("{}: {} workloads in turn, {} rounds", group, groups[group].size(), options.rounds));
         Result<std::vector<Measured>> measured = run_group(groups[group], options);
-        if (!measured)
-            return measured.error();
+        BN_TRY(measured);
         for (Measured& m : *measured)
             all.push_back(std::move(m));
     }

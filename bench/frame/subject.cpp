@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/result.h"
 #include "core/scene/area_light.h"
 #include "raster/session/session.h"
 
@@ -126,22 +127,19 @@ Result<std::unique_ptr<Subject>> make_subject(const Workload& workload, const Su
     if (workload.engine == Engine::rays)
         return make_ray_subject(workload, options);
     const Result<std::shared_ptr<const Environment>>& environment = studio(options.coarse_environment);
-    if (!environment)
-        return environment.error();
+    BN_TRY(environment);
     const Workload& w = workload;
     Scene made = make_bench_scene(w.scene, w.size, w.width, w.height);
     add_quads(made, w.quads);
     const Result<std::shared_ptr<const SceneData>> scene = make_scene_data(w.name, std::move(made), Limits{});
-    if (!scene)
-        return scene.error();
+    BN_TRY(scene);
     SessionOptions tile;
     tile.isa = options.isa;
     const auto jobs = std::make_shared<const Jobs>(w.threads ? w.threads : options.threads);
     const std::shared_ptr<const Environment> light =
         w.extracted_lights ? with_extracted_lights(**environment, w.extracted_lights) : *environment;
     Result<Session> session = Session::make({*scene, light, jobs, dfg(options.coarse_environment)}, tile);
-    if (!session)
-        return session.error();
+    BN_TRY(session);
     return std::unique_ptr<Subject>(std::make_unique<TileSubject>(w, std::move(*session)));
 }
 

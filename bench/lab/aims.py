@@ -13,7 +13,7 @@ and without extracted lights:
   - major_axis_weighted as it was: of PROGRAM (--before: an older burnish), else with the overlap that it had (--axis-beta), which flatters
     it, since levels narrower across the grain and the lobe's own albedo stay. Without extracted lights, which there were none of then.
   - bent_normal and split_isotropic, and where they do better.
-  - Key lights: places that they make worse, and the mean with them over the mean without where there are some and roughness is at most 0.65.
+  - Extracted lights: places that they make worse, and the mean with them over the mean without where there are some and roughness is at most 0.65.
   - The floor: mean FLIP that the references' own noise alone makes.
 
 References are kept beside the cache of environments: a second run does not make them again. What is stopped goes on where --work names

@@ -18,7 +18,7 @@ import pathlib
 import sys
 
 from mip_ablations import Bench, make_ridges
-from relief import read_png, write_png
+from parallax import read_png, write_png
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from workbench import arguments, in_folder  # noqa: E402

@@ -143,7 +143,7 @@ double wave(double u, double v) // [0,1]
 }
 
 // Makes waves as a height map. `depth` is in lengths of texture coordinates. make_waves() makes them as triangles.
-Scene make_relief(double depth)
+Scene make_parallax_waves(double depth)
 {
     Scene scene = plate_of(brushed_metal(0.35, 0.0, kSilver));
     const double steep = depth * 2.0 * kPi * 3.0 * 0.5; // largest slope of a wave
@@ -165,8 +165,8 @@ Scene make_relief(double depth)
 Scene make_waves(double depth)
 {
     Scene scene;
-    Material material = make_relief(depth).materials[0];
-    const Scene flat = make_relief(depth);
+    Material material = make_parallax_waves(depth).materials[0];
+    const Scene flat = make_parallax_waves(depth);
     material.height_tex = material.normal_tex = TextureRef();
     material.base_color_tex.texture = add_texture(scene, "crests", flat.images[2]);
     const std::uint32_t first = begin(scene, material);
@@ -179,7 +179,7 @@ Scene make_waves(double depth)
 // Makes the same height map with its coordinates `times` as long along one side.
 Scene make_stretched(double times)
 {
-    Scene scene = make_relief(0.08), out;
+    Scene scene = make_parallax_waves(0.08), out;
     out.materials = scene.materials, out.textures = scene.textures, out.images = scene.images;
     const std::uint32_t first = begin_primitive(out, 0);
     add_sheet(out, 16, level, [&](double u, double v) { return glm::dvec2(u * times, v / times); });
@@ -372,7 +372,7 @@ const std::vector<ParametricScene>& failure_scenes()
         {{"leaning", "a normal map whose normals lean by so many degrees"}, 30.0, 0.0, 180.0, make_leaning},
         {{"cores", "an anisotropy direction that turns about four places, so many texels to a side"}, 256.0, 4.0, 1024.0, make_cores},
         {{"roofs", "strips with red and blue sides, of this slope"}, 0.5, 0.0, 10.0, make_roofs},
-        {{"relief", "waves in a height map, so many texture lengths deep"}, 0.1, 0.0, 1.0, make_relief},
+        {{"relief", "waves in a height map, so many texture lengths deep"}, 0.1, 0.0, 1.0, make_parallax_waves},
         {{"waves", "waves made of triangles, so many texture lengths deep"}, 0.1, 0.0, 1.0, make_waves},
         {{"stretched", "a height map, so many times as long one way as the other"}, 2.0, 1.0, 100.0, make_stretched},
         {{"far-texels", "texture coordinates so far from zero"}, 0.0, 0.0, 1e7, make_far_texels},

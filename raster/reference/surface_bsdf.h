@@ -53,7 +53,7 @@ BN_INLINE void add_coating(SurfaceBsdf& r, int at, const coating& c, real& refle
     reflected = all;
 }
 
-// Makes a reflector without coatings. reflected: receives the luminance of the light that it reflects.
+// Makes a material's BSDF without coatings. reflected: receives the luminance of the light that it reflects.
 BN_INLINE SurfaceBsdf make_surface_bsdf(const ShadingFrame& f, const shaded_point& x, real& reflected)
 {
     SurfaceBsdf r;

@@ -121,7 +121,7 @@ Kind area_lights()
             }};
 }
 
-Kind key_light_count()
+Kind extracted_light_count()
 {
     std::vector<std::string> names = {"auto", "off"};
     for (int n = 0; n <= kMaxExtractedLights; ++n)
@@ -295,7 +295,7 @@ std::vector<Row> environment_rows()
         {"env_exposure", "Exposure of the environment in stops", "0", kLights,
          number(-kMostStops, kMostStops, [](CSettings& to) -> float& { return to.open.environment.exposure_ev; })},
         {"key_lights", "Small strong lights to extract from the environment and shade one by one, at most", "auto", kLights,
-         key_light_count()},
+         extracted_light_count()},
         {"cache", "Keeps bakes in the cache", "true", kLights, flag([](CSettings& to) -> bool& { return to.open.environment.use_cache; })},
     };
 }

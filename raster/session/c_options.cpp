@@ -240,9 +240,9 @@ Result<View> changed(View view, const CSettings& settings, const glm::vec3& orig
 
 Result<View> wanted_view(const CSettings& settings, const Session& session)
 {
-    constexpr float kUsualFov = 45.0f;
+    constexpr float kDefaultFov = 45.0f;
     const int width = settings.desc.width, height = settings.desc.height;
-    const float fov_rad = glm::radians(settings.fov_deg.value_or(kUsualFov));
+    const float fov_rad = glm::radians(settings.fov_deg.value_or(kDefaultFov));
     const glm::vec3 origin(session.scene().origin);
     if (settings.eye) {
         const glm::vec3 middle = 0.5f * (session.tables().bounds_min + session.tables().bounds_max);

@@ -190,7 +190,7 @@ def drawn(bench, *words):
 def seen(bench, eye, lamp, words, lamps):
     """Returns the plate's radiance along `eye` from light along `lamp`, divided by the lamp's cosine; lamps: "lamp" or "key"."""
     scratch(bench, "plate.gltf", plate(eye, lamp if lamps == "lamp" else None))
-    env = "dark.exr" if lamps == "lamp" else key_light(bench, lamp)
+    env = "dark.exr" if lamps == "lamp" else extracted_light(bench, lamp)
     if not drawn(bench, "plate.gltf", "--env", env, "--env-size", "16", "--env-samples", "4", "--size", "4x4", "--msaa", "1", *words, "-o", "s.pfm"):
         return None
     cosine = sum(a * b for a, b in zip(normal_of(words), lamp))
@@ -200,7 +200,7 @@ def seen(bench, eye, lamp, words, lamps):
 WIDE = 512 # texels of an environment
 
 
-def key_light(bench, lamp):
+def extracted_light(bench, lamp):
     """Writes an image that is black except for one texel, whose irradiance is equal at every place."""
     x, y = texel(lamp)
     (bench.folder / "key.exr").write_bytes(exr(WIDE, WIDE // 2, with_texels({(x, y): 3e4 / math.sin(math.pi * (y + 0.5) / (WIDE // 2))}, 0.0)))

@@ -1,4 +1,4 @@
-"""Key lights of environments: the option, its messages, and degenerate environments."""
+"""Extracted lights of environments: the option, its messages, and degenerate environments."""
 
 import json
 import pathlib

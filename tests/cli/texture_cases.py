@@ -94,7 +94,7 @@ def textures(bench):
     # The table: all is reflected by a mirror that is seen from straight above
     scale, bias = ktx2(bench.folder / "kf/dfg.ktx2")[1][0][2 * 63:2 * 64]
     check(abs(scale - 1) < 1e-3 and abs(bias) < 1e-3, f"{scale} {bias}")
-    # The brightest texel is the sun, where the key light is
+    # The brightest texel is the sun, where the extracted light is
     whole = ktx2(bench.folder / "kf/whole.ktx2")[1][0]
     at = max(range(len(whole) // 4), key=lambda i: whole[4 * i])
     face, row, column = at // 1024, at // 32 % 32, at % 32
@@ -122,7 +122,7 @@ def textures(bench):
     names = {path.name for path in (bench.folder / "e").glob("*.exr")}
     bench.run(*small, "--textures", "exr", "-o", "fresh").expect(0)
     check(names == {path.name for path in (bench.folder / "fresh").glob("*.exr")}, f"{names}")
-    # A bake without key lights leaves no texture of theirs behind
+    # A bake without extracted lights leaves no texture of theirs behind
     bench.run(*BAKE, "--key-lights", "off", "--textures", "ktx2", "-o", "k").expect(0)
     check(not (bench.folder / "k/whole.ktx2").exists(), "whole.ktx2 of an earlier bake")
 

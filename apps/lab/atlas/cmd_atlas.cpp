@@ -41,7 +41,7 @@ Examples:
   burnish atlas --quick -o atlas
   burnish atlas bent_normal_bends_too_far -o bent
   burnish atlas --quick --with "--axis-beta 1.15"
-  burnish atlas --quick --bless --table apps/risks/blessed.md)";
+  burnish atlas --quick --bless --table apps/risks/blessed.txt)";
 
 int list_entries(const AtlasOptions& options)
 {

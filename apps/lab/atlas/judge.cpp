@@ -13,7 +13,7 @@ constexpr const char* kNothing = "-";
 
 constexpr const char* kHead = R"(# Where methods break
 
-Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.md`. `burnish atlas` holds
+Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.txt`. `burnish atlas` holds
 what it measures to them: the onset within a step, the kind, and the largest error, which may fall.
 
 - onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.

@@ -17,12 +17,12 @@ namespace {
 constexpr int kMoreSamples = 64, kMostSamples = 65536; // for find_kind(): factor and limit for technique and light samples
 constexpr int kVerdictSide = 32;                       // pixels of pictures in find_kind(), unless textures matter
 
-// Returns the pixels that show the scene in either picture. Coverage of references is unknown.
-std::vector<bool> either_covers(const Picture& truth, const Picture& now)
+// Returns the pixels that show the scene in either picture. Coverage of path-traced pictures is unknown.
+std::vector<bool> either_covers(const Picture& reference, const Picture& now)
 {
     std::vector<bool> covered = now.covered;
-    for (std::size_t i = 0; i < truth.covered.size(); ++i)
-        covered[i] = covered[i] || truth.covered[i];
+    for (std::size_t i = 0; i < reference.covered.size(); ++i)
+        covered[i] = covered[i] || reference.covered[i];
     return covered;
 }
 
@@ -58,12 +58,12 @@ class Walker {
     Status step(int i);
     Status find_kind();
     // Returns mean HDR-FLIP (LDR-FLIP for displayed pictures) over covered pixels, and its map.
-    double difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map);
-    // Returns the error of `now`, by the entry's kind of truth. map: HDR- or LDR-FLIP.
-    double error_against(const Truth& truth, const AtlasEntry& truth_of, const Picture& now, Image& map);
-    // more: raises the truth's samples too, if the tile renderer makes it.
-    Result<double> error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more = false);
-    Result<double> error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more = false);
+    double difference(const ReferencePicture& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map);
+    // Returns the error of `now`, by the entry's kind of reference. map: HDR- or LDR-FLIP.
+    double error_against(const ReferencePicture& reference, const AtlasEntry& reference_of, const Picture& now, Image& map);
+    // more: raises the reference's samples too, if the tile renderer makes it.
+    Result<double> error_of(const AtlasSetting& test, const AtlasEntry& reference_of, int step, bool more = false);
+    Result<double> error_of(const Picture& now, const AtlasEntry& reference_of, int step, bool more = false);
     void show(AtlasRow row, int column, const Image& shown);
     double place(int i) const { return static_cast<double>(i) / (walk_.steps - 1); }
 
@@ -72,11 +72,12 @@ class Walker {
     PictureCache& cache_;
     WalkedEntry out_;
     std::optional<Picture> before_; // the tested picture
-    std::shared_ptr<const Truth> truth_before_;
+    std::shared_ptr<const ReferencePicture> reference_before_;
 };
 
-// Uses the exposures of one truth, so that all figures of a step are comparable.
-double Walker::difference(const Truth& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered, Image& map)
+// Uses the exposures of one reference, so that all figures of a step are comparable.
+double Walker::difference(const ReferencePicture& exposed_by, const Picture& a, const Picture& b, const std::vector<bool>& covered,
+                          Image& map)
 {
     FlipOptions flip;
     flip.isa = cache_.isa();
@@ -90,14 +91,14 @@ double Walker::difference(const Truth& exposed_by, const Picture& a, const Pictu
     return mean_of(map, covered);
 }
 
-double Walker::error_against(const Truth& truth, const AtlasEntry& truth_of, const Picture& now, Image& map)
+double Walker::error_against(const ReferencePicture& reference, const AtlasEntry& reference_of, const Picture& now, Image& map)
 {
-    const std::vector<bool> covered = either_covers(truth.picture, now);
-    const double flip = difference(truth, truth.picture, now, covered, map);
-    if (truth_of.truth != AtlasTruth::pattern)
+    const std::vector<bool> covered = either_covers(reference.picture, now);
+    const double flip = difference(reference, reference.picture, now, covered, map);
+    if (reference_of.reference != AtlasReference::pattern)
         return flip;
     const auto with_mask = [&](const Image& rgb) { return with_alpha(rgb, [&](std::size_t i) { return covered[i] ? 1.0f : 0.0f; }); };
-    return pattern_figures(with_mask(truth.picture.color), nullptr, with_mask(now.color), cache_.jobs(), &truth.variance).rms;
+    return pattern_figures(with_mask(reference.picture.color), nullptr, with_mask(now.color), cache_.jobs(), &reference.variance).rms;
 }
 
 void Walker::show(AtlasRow row, int column, const Image& shown)
@@ -115,20 +116,20 @@ Status Walker::step(int i)
 {
     AtlasStep s;
     s.s = place(i);
-    // Render the truth
-    const Result<AtlasSetting> of_truth = setting_of(entry_, AtlasRole::truth, s.s, walk_.side, walk_.samples);
-    BN_TRY(of_truth);
-    const Result<std::shared_ptr<const Truth>> truth = cache_.truth(*of_truth);
-    BN_TRY(truth);
-    out_.stopped = !*truth;
+    // Render the reference
+    const Result<AtlasSetting> of_reference = setting_of(entry_, AtlasRole::reference, s.s, walk_.side, walk_.samples);
+    BN_TRY(of_reference);
+    const Result<std::shared_ptr<const ReferencePicture>> reference = cache_.reference(*of_reference);
+    BN_TRY(reference);
+    out_.stopped = !*reference;
     if (out_.stopped)
         return {};
-    s.noise = entry_.truth == AtlasTruth::pattern ? 0.0 : (*truth)->noise; // patterns are measured without noise
+    s.noise = entry_.reference == AtlasReference::pattern ? 0.0 : (*reference)->noise; // patterns are measured without noise
     const auto shown = [&](const Picture& p, const RenderOptions& o) {
         return p.color.type == PixelType::u8 ? p.color : tonemap_to_srgb8(p.color, o.tonemap, o.exposure_ev);
     };
-    show(AtlasRow::truth, i, shown((*truth)->picture, of_truth->options));
-    // Render the tested picture and its cure, and compare both with the truth
+    show(AtlasRow::reference, i, shown((*reference)->picture, of_reference->options));
+    // Render the tested picture and its cure, and compare both with the reference
     for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure}) {
         if (role == AtlasRole::cure && (!entry_.cure[0] || (walk_.steps - 1 - i) % walk_.cure_every != 0))
             continue;
@@ -138,47 +139,47 @@ Status Walker::step(int i)
         BN_TRY(frame);
         const bool test = role == AtlasRole::test;
         Picture now = picture_of(*setting, std::move(*frame));
-        const std::vector<bool> covered = either_covers((*truth)->picture, now);
+        const std::vector<bool> covered = either_covers((*reference)->picture, now);
         Image map, unused;
-        const double error = error_against(**truth, entry_, now, map);
+        const double error = error_against(**reference, entry_, now, map);
         if (test)
             s.error = error;
         else
             s.cure_error = error;
         show(test ? AtlasRow::test : AtlasRow::cure, i, shown(now, setting->options));
         show(test ? AtlasRow::error : AtlasRow::cure_error, i, magma_map(map));
-        if (test && before_) // change beyond the truth's own change
-            s.change = difference(**truth, *before_, now, covered, unused) -
-                       difference(**truth, truth_before_->picture, (*truth)->picture, covered, unused);
+        if (test && before_) // change beyond the reference's own change
+            s.change = difference(**reference, *before_, now, covered, unused) -
+                       difference(**reference, reference_before_->picture, (*reference)->picture, covered, unused);
         if (test)
             s.values = setting->values, before_ = std::move(now);
     }
-    truth_before_ = *truth;
+    reference_before_ = *reference;
     out_.measured.steps.push_back(std::move(s));
     return {};
 }
 
-// Returns the error of a picture on the path against another entry's truth.
-Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& truth_of, int step, bool more)
+// Returns the error of a picture on the path against another entry's reference.
+Result<double> Walker::error_of(const AtlasSetting& test, const AtlasEntry& reference_of, int step, bool more)
 {
     Result<Frame> frame = cache_.draw(test);
     BN_TRY(frame);
-    return error_of(picture_of(test, std::move(*frame)), truth_of, step, more);
+    return error_of(picture_of(test, std::move(*frame)), reference_of, step, more);
 }
 
-Result<double> Walker::error_of(const Picture& now, const AtlasEntry& truth_of, int step, bool more)
+Result<double> Walker::error_of(const Picture& now, const AtlasEntry& reference_of, int step, bool more)
 {
-    Result<AtlasSetting> setting = setting_of(truth_of, AtlasRole::truth, place(step), now.color.width, walk_.samples);
+    Result<AtlasSetting> setting = setting_of(reference_of, AtlasRole::reference, place(step), now.color.width, walk_.samples);
     BN_TRY(setting);
     if (more && setting->options.backend != "reference")
         take_more(setting->options.frame);
-    const Result<std::shared_ptr<const Truth>> truth = cache_.truth(*setting);
-    BN_TRY(truth);
-    out_.stopped = !*truth;
+    const Result<std::shared_ptr<const ReferencePicture>> reference = cache_.reference(*setting);
+    BN_TRY(reference);
+    out_.stopped = !*reference;
     if (out_.stopped)
         return 0.0;
     Image map;
-    return error_against(**truth, truth_of, now, map);
+    return error_against(**reference, reference_of, now, map);
 }
 
 Status Walker::find_kind()
@@ -212,7 +213,7 @@ Status Walker::find_kind()
         return {};
     }
     // Take more samples
-    const int side = entry_.truth == AtlasTruth::full ? walk_.side : std::min(walk_.side, kVerdictSide);
+    const int side = entry_.reference == AtlasReference::full ? walk_.side : std::min(walk_.side, kVerdictSide);
     const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
     BN_TRY(few);
     const Result<double> usual = error_of(*few, entry_, at);
@@ -222,11 +223,11 @@ Status Walker::find_kind()
     const Result<double> sampled = error_of(more, entry_, at, true);
     BN_TRY(sampled);
     m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
-    if (m.kind == "sampling" || entry_.truth != AtlasTruth::full)
+    if (m.kind == "sampling" || entry_.reference != AtlasReference::full)
         return {};
-    // Compare with a truth that filters textures alike
+    // Compare with a reference that filters textures alike
     AtlasEntry filtered = entry_;
-    filtered.truth = AtlasTruth::reference, filtered.truth_words = "";
+    filtered.reference = AtlasReference::reference, filtered.reference_words = "";
     const Result<double> alike = error_of(*setting, filtered, at);
     BN_TRY(alike);
     if (gone(*alike, m.worst))

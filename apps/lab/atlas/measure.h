@@ -16,8 +16,8 @@ struct AtlasStep {
     std::string values;
     double error = 0.0;               // mean FLIP (HDR; LDR for displayed pictures) or pattern, over pixels that show the scene
     std::optional<double> cure_error; // error of the cure; none if there is no cure or no measurement
-    double noise = 0.0;               // the truth's noise, mean HDR-FLIP
-    double change = 0.0;              // mean FLIP from the previous step, minus the truth's; 0 in the first step
+    double noise = 0.0;               // the reference's noise, mean HDR-FLIP
+    double change = 0.0;              // mean FLIP from the previous step, minus the reference's; 0 in the first step
 };
 
 struct MeasuredEntry {
@@ -30,7 +30,7 @@ struct MeasuredEntry {
     double cure_worst = 0.0;         // the cure's largest error; 0 without a cure
     double noise = 0.0;              // the largest noise
     std::optional<double> in_double; // the error at the worst step, in double precision; none if the program has no such lanes
-    // Share of the worst step's error that remains in double precision, with 64 times the samples, or against a truth with the same
+    // Share of the worst step's error that remains in double precision, with 64 times the samples, or against a reference with the same
     // filter. Holds the tried variant nearest to kGone.
     double remedy = 0.0;
 };
@@ -39,7 +39,7 @@ struct MeasuredEntry {
 void summarise(const AtlasEntry& entry, MeasuredEntry& measured);
 
 // Rows in the entry's picture strip, one column a step; 8-bit sRGB.
-enum class AtlasRow { truth, test, error, cure, cure_error };
+enum class AtlasRow { reference, test, error, cure, cure_error };
 inline constexpr int kAtlasRows = 5;
 
 struct WalkedEntry {

@@ -125,7 +125,7 @@ std::string section(const AtlasResult& r)
             "<p class=\"controls\"><label>Path <input type=\"range\" class=\"path\" min=\"0\" max=\"{0}\" value=\"{0}\" step=\"1\" "
             "aria-label=\"place on the path of {1}\"></label></p>\n<p class=\"says\" aria-live=\"polite\"></p>\n<div class=\"panes\">\n",
             last, e.id);
-        out += pane(r, AtlasRow::truth, "truth") + pane(r, AtlasRow::test, "breaks") + pane(r, AtlasRow::error, "its error");
+        out += pane(r, AtlasRow::reference, "truth") + pane(r, AtlasRow::test, "breaks") + pane(r, AtlasRow::error, "its error");
         if (e.cure[0])
             out += pane(r, AtlasRow::cure, "cure") + pane(r, AtlasRow::cure_error, "the cure's error");
         out += fmt::format("</div>\n<script type=\"application/json\" class=\"steps\">{}</script>\n", script_json(steps_of(r)));

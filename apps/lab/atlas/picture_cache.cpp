@@ -14,8 +14,8 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kMostCached = 8;   // scenes, environments or sessions: a path may need one for each step
-constexpr std::size_t kMostTruths = 256; // pictures
+constexpr std::size_t kMostCached = 8;       // scenes, environments or sessions: a path may need one for each step
+constexpr std::size_t kMostReferences = 256; // pictures
 
 Result<Frame> finite(const AtlasSetting& setting, Result<Frame> frame)
 {
@@ -118,12 +118,12 @@ Result<Session*> PictureCache::session_of(const AtlasSetting& setting)
     return &sessions_.emplace(key, std::move(*session)).first->second;
 }
 
-Result<Session*> PictureCache::reference_of(const AtlasSetting& setting, const ReferenceOptions& options)
+Result<Session*> PictureCache::reference_session(const AtlasSetting& setting, const ReferenceOptions& options)
 {
     const std::string key =
         fmt::format("{}\n{} {} {} {} {} {} {}", parts_key(setting), options.samples, options.full_textures, static_cast<int>(options.mode),
                     static_cast<int>(options.strategy), options.bounces, options.area_lights_only, options.target_error);
-    if (const auto found = references_.find(key); found != references_.end())
+    if (const auto found = reference_sessions_.find(key); found != reference_sessions_.end())
         return &found->second;
     const Result<const SessionParts*> parts = parts_of(setting);
     BN_TRY(parts);
@@ -131,8 +131,8 @@ Result<Session*> PictureCache::reference_of(const AtlasSetting& setting, const R
     of_reference.backend = Backend::reference, of_reference.isa = machine_.isa, of_reference.reference = options;
     Result<Session> session = Session::make(**parts, of_reference);
     BN_TRY(session);
-    make_room(references_);
-    return &references_.emplace(key, std::move(*session)).first->second;
+    make_room(reference_sessions_);
+    return &reference_sessions_.emplace(key, std::move(*session)).first->second;
 }
 
 Result<FrameDesc> PictureCache::desc_of(const AtlasSetting& setting)
@@ -169,14 +169,14 @@ Result<std::optional<Frame>> PictureCache::draw_in_double(const AtlasSetting& se
     return some(finite(setting, renderer->render((*session)->drawn(*desc), {})));
 }
 
-Result<std::shared_ptr<const Truth>> PictureCache::truth(const AtlasSetting& setting)
+Result<std::shared_ptr<const ReferencePicture>> PictureCache::reference(const AtlasSetting& setting)
 {
     if (setting.options.backend != "reference") {
         Result<std::optional<Frame>> frame = setting.in_double ? draw_in_double(setting) : some(draw(setting));
         BN_TRY(frame);
         if (!*frame)
             return Error{ExitCode::unavailable, setting.options.scene, "", "this program draws no frames in double"};
-        return std::make_shared<const Truth>(Truth{picture_of(setting, std::move(**frame)), 0.0, {}});
+        return std::make_shared<const ReferencePicture>(ReferencePicture{picture_of(setting, std::move(**frame)), 0.0, {}});
     }
     Result<FrameDesc> desc = desc_of(setting);
     BN_TRY(desc);
@@ -184,20 +184,21 @@ Result<std::shared_ptr<const Truth>> PictureCache::truth(const AtlasSetting& set
     ReferenceOptions options = setting.options.reference;
     options.stop = machine_.stop;
     options = cached_reference_options(options, machine_.home, report_);
-    const Result<Session*> reference = reference_of(setting, options);
-    BN_TRY(reference);
-    const std::uint64_t key = reference_key((*reference)->parts().input(), (*reference)->drawn(*desc), options) ^ options.samples;
-    if (const auto found = truths_.find(key); found != truths_.end())
+    const Result<Session*> session = reference_session(setting, options);
+    BN_TRY(session);
+    const std::uint64_t key = reference_key((*session)->parts().input(), (*session)->drawn(*desc), options) ^ options.samples;
+    if (const auto found = reference_pictures_.find(key); found != reference_pictures_.end())
         return found->second;
-    Result<Frame> frame = cached_reference(**reference, *desc, options, report_);
+    Result<Frame> frame = cached_reference(**session, *desc, options, report_);
     BN_TRY(frame);
     if (frame->stats.sampling.stopped)
-        return std::shared_ptr<const Truth>();
+        return std::shared_ptr<const ReferencePicture>();
     if (count_not_finite(frame->color))
         return Error{ExitCode::not_finite, setting.options.scene, "reference", "the picture holds NaN or Inf"};
     const double noise = noise_flip(frame->color, frame->variance, machine_.isa, *machine_.jobs);
-    make_room(truths_, kMostTruths);
-    return truths_[key] = std::make_shared<const Truth>(Truth{Picture{std::move(frame->color), {}}, noise, std::move(frame->variance)});
+    make_room(reference_pictures_, kMostReferences);
+    return reference_pictures_[key] = std::make_shared<const ReferencePicture>(
+               ReferencePicture{Picture{std::move(frame->color), {}}, noise, std::move(frame->variance)});
 }
 
 } // namespace burnish

@@ -14,15 +14,15 @@ namespace burnish {
 
 struct Picture {
     Image color;               // linear, or 8-bit as displayed
-    std::vector<bool> covered; // pixels that show the scene; empty for references
+    std::vector<bool> covered; // pixels that show the scene; empty for path-traced pictures
 };
 // Makes the picture in the setting's format. Frames of the tile renderer have triangle ids.
 Picture picture_of(const AtlasSetting& setting, Frame frame);
 
-struct Truth {
+struct ReferencePicture {
     Picture picture;
     double noise = 0.0; // estimated mean HDR-FLIP caused by its own noise; 0 for the tile renderer
-    Image variance;     // of a reference's pixel means
+    Image variance;     // of a path-traced picture's pixel means
 };
 
 class PictureCache {
@@ -39,8 +39,8 @@ class PictureCache {
     Result<Frame> draw(const AtlasSetting& setting);
     // Renders in double precision: raster/tile/twins.h. Returns none if the program has no such lanes.
     Result<std::optional<Frame>> draw_in_double(const AtlasSetting& setting);
-    // Returns the ground truth, by the reference or the tile renderer. Null if the machine's `stop` ended the reference.
-    Result<std::shared_ptr<const Truth>> truth(const AtlasSetting& setting);
+    // Returns the picture to compare with, by the path tracer or the tile renderer. Null if the machine's `stop` ended the path tracer.
+    Result<std::shared_ptr<const ReferencePicture>> reference(const AtlasSetting& setting);
 
     const Jobs& jobs() const { return *machine_.jobs; }
     Isa isa() const { return machine_.isa; }
@@ -48,7 +48,7 @@ class PictureCache {
   private:
     Result<const SessionParts*> parts_of(const AtlasSetting& setting);
     Result<Session*> session_of(const AtlasSetting& setting);
-    Result<Session*> reference_of(const AtlasSetting& setting, const ReferenceOptions& options);
+    Result<Session*> reference_session(const AtlasSetting& setting, const ReferenceOptions& options);
     Result<FrameDesc> desc_of(const AtlasSetting& setting);
 
     Machine machine_;
@@ -57,8 +57,8 @@ class PictureCache {
     std::map<std::string, std::shared_ptr<const SceneData>> scenes_;
     std::map<std::string, std::shared_ptr<const Environment>> environments_;
     std::map<std::string, SessionParts> parts_;
-    std::map<std::string, Session> sessions_, references_;
-    std::map<std::uint64_t, std::shared_ptr<const Truth>> truths_;
+    std::map<std::string, Session> sessions_, reference_sessions_;
+    std::map<std::uint64_t, std::shared_ptr<const ReferencePicture>> reference_pictures_;
 };
 
 } // namespace burnish

@@ -47,9 +47,9 @@ double number_or_zero(const nlohmann::json& json)
 
 std::string entry_key(const AtlasEntry& e, const AtlasWalk& walk)
 {
-    const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", program_hash(), e.id, e.words, e.with, e.geometric, e.path,
-                    static_cast<int>(e.truth), e.truth_words, e.threshold, e.cure, walk.steps, walk.side, walk.samples, walk.cure_every);
+    const std::string text = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", program_hash(), e.id, e.words, e.with, e.geometric,
+                                         e.path, static_cast<int>(e.reference), e.reference_words, e.threshold, e.cure, walk.steps,
+                                         walk.side, walk.samples, walk.cure_every);
     return hash_text(hash_bytes(text.data(), text.size()));
 }
 
@@ -90,19 +90,19 @@ std::string path_text(const AtlasEntry& entry)
     return fmt::format("{}{}", entry.path, entry.geometric ? ", by equal factors" : "");
 }
 
-std::string truth_text(const AtlasEntry& entry)
+std::string reference_text(const AtlasEntry& entry)
 {
-    const std::string with = entry.truth_words[0] ? fmt::format(" with {}", entry.truth_words) : "";
-    switch (entry.truth) {
-    case AtlasTruth::reference:
-    case AtlasTruth::pattern:
+    const std::string with = entry.reference_words[0] ? fmt::format(" with {}", entry.reference_words) : "";
+    switch (entry.reference) {
+    case AtlasReference::reference:
+    case AtlasReference::pattern:
         return "the reference" + with;
-    case AtlasTruth::full:
+    case AtlasReference::full:
         return "the reference with textures in full detail" + with;
-    case AtlasTruth::doubles:
+    case AtlasReference::doubles:
         return "the same in double" + with;
-    case AtlasTruth::render:
-    case AtlasTruth::shown:
+    case AtlasReference::render:
+    case AtlasReference::shown:
         break;
     }
     return "the same" + with;
@@ -111,11 +111,11 @@ std::string truth_text(const AtlasEntry& entry)
 std::string measure_text(const AtlasEntry& entry)
 {
     const char* measure = "mean HDR-FLIP";
-    if (entry.truth == AtlasTruth::shown)
+    if (entry.reference == AtlasReference::shown)
         measure = "mean LDR-FLIP, as displayed,";
-    if (entry.truth == AtlasTruth::pattern)
+    if (entry.reference == AtlasReference::pattern)
         measure = "pattern, a share of luminance,";
-    return fmt::format("{} against {}", measure, truth_text(entry));
+    return fmt::format("{} against {}", measure, reference_text(entry));
 }
 
 Json atlas_json(const std::vector<AtlasResult>& results, const AtlasWalk& walk)

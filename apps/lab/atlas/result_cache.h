@@ -23,8 +23,8 @@ std::optional<MeasuredEntry> parse_cached_entry(const std::string& text, const s
 
 Json atlas_json(const std::vector<AtlasResult>& results, const AtlasWalk& walk);
 
-std::string path_text(const AtlasEntry& entry);    // "anisotropy=0:0.9", with a note for geometric paths
-std::string truth_text(const AtlasEntry& entry);   // describes the ground truth
-std::string measure_text(const AtlasEntry& entry); // describes the metric
+std::string path_text(const AtlasEntry& entry);      // "anisotropy=0:0.9", with a note for geometric paths
+std::string reference_text(const AtlasEntry& entry); // describes the reference
+std::string measure_text(const AtlasEntry& entry);   // describes the metric
 
 } // namespace burnish

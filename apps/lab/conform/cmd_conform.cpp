@@ -151,7 +151,7 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
             return usage_error(option, "does not go with --draw");
     std::vector<std::string> inputs = {a.folder + "/conform.json", a.folder + "/environment.exr", a.folder + "/environment.hdr"};
     for (const FolderScene& scene : conform_folder(a.folder).scenes)
-        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).truth_of(scene.name),
+        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).reference_of(scene.name),
                                      conform_folder(a.folder).variance_of(scene.name)});
     for (const char* name : {"/README.md", "/pages/three.html", "/pages/babylon.html", "/pages/pictures.js"})
         inputs.push_back(a.folder + name);
@@ -161,16 +161,17 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     return check_outputs({}, {{"--html", a.html}, {"--json", a.json}, {"--junit", a.junit}}, inputs);
 }
 
-// Draws a scene's truth into a piece: its picture and its variance.
-Status write_truth_piece(ConformDrawer& drawer, std::size_t scene, std::uint64_t samples, const std::string& file, const std::string& key)
+// Draws a scene's reference into a piece: its picture and its variance.
+Status write_reference_piece(ConformDrawer& drawer, std::size_t scene, std::uint64_t samples, const std::string& file,
+                             const std::string& key)
 {
     const std::atomic<bool>& stop = watch_stop_signals();
-    const Result<ConformDrawer::Truth> truth = drawer.truth(scene, samples, &stop);
-    BN_TRY(truth);
+    const Result<ConformDrawer::ReferencePicture> reference = drawer.reference(scene, samples, &stop);
+    BN_TRY(reference);
     if (stop.load())
         return {};
     Packed packed;
-    for (const auto& [name, image] : {std::pair{"color", &truth->color}, {"variance", &truth->variance}}) {
+    for (const auto& [name, image] : {std::pair{"color", &reference->color}, {"variance", &reference->variance}}) {
         const std::string own = own_name_beside(file, ".exr");
         BN_TRY(write_image(own, *image));
         Result<std::vector<std::uint8_t>> bytes = take_file(own);
@@ -180,8 +181,8 @@ Status write_truth_piece(ConformDrawer& drawer, std::size_t scene, std::uint64_t
     return write_piece(file, key, pack(packed));
 }
 
-// Returns the truths of a folder as pieces. drawer: makes them; null for a merge.
-std::vector<JobPiece> truth_pieces(const ConformArguments& a, const ConformFolder& folder, ConformDrawer* drawer = nullptr)
+// Returns the references of a folder as pieces. drawer: makes them; null for a merge.
+std::vector<JobPiece> conform_pieces(const ConformArguments& a, const ConformFolder& folder, ConformDrawer* drawer = nullptr)
 {
     const auto samples = static_cast<std::uint64_t>(a.samples);
     const auto rate = std::make_shared<std::optional<double>>();
@@ -192,20 +193,20 @@ std::vector<JobPiece> truth_pieces(const ConformArguments& a, const ConformFolde
             constexpr std::uint64_t kProbe = 64;
             const double begin = wall_ms();
             if (!*rate) {
-                BN_TRY(drawer->truth(0, kProbe, nullptr));
+                BN_TRY(drawer->reference(0, kProbe, nullptr));
                 *rate = (wall_ms() - begin) * 1e-3 / static_cast<double>(kProbe);
             }
             return **rate * static_cast<double>(samples);
         };
         pieces.push_back({key, seconds, [drawer, i, samples, key](const std::string& file) {
-                              return write_truth_piece(*drawer, i, samples, file, key);
+                              return write_reference_piece(*drawer, i, samples, file, key);
                           }});
     }
     return pieces;
 }
 
-// Writes the truths of a folder from their pieces.
-Status take_truths(const ConformFolder& folder, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
+// Writes the references of a folder from their pieces.
+Status take_references(const ConformFolder& folder, const std::vector<std::string>& files, const std::vector<JobPiece>& pieces)
 {
     for (std::size_t i = 0; i < files.size(); ++i) {
         const Result<std::vector<std::uint8_t>> content = read_piece(files[i], pieces[i].key);
@@ -214,15 +215,15 @@ Status take_truths(const ConformFolder& folder, const std::vector<std::string>& 
         BN_TRY(packed);
         if (packed->files.size() != 2)
             return Error{ExitCode::bad_input, files[i], "", "is a damaged piece"};
-        const std::string paths[] = {folder.truth_of(folder.scenes[i].name), folder.variance_of(folder.scenes[i].name)};
+        const std::string paths[] = {folder.reference_of(folder.scenes[i].name), folder.variance_of(folder.scenes[i].name)};
         for (std::size_t k = 0; k < 2; ++k)
             BN_TRY(write_file_atomic(paths[k], packed->files[k].bytes.data(), packed->files[k].bytes.size()));
     }
     return {};
 }
 
-// Lists or makes truths as pieces, by scenes in a folder of its own.
-int make_truths(const ConformArguments& a, Report& report)
+// Lists or makes references as pieces, by scenes in a folder of its own.
+int make_references(const ConformArguments& a, Report& report)
 {
     namespace fs = std::filesystem;
     std::error_code ignored;
@@ -232,7 +233,7 @@ int make_truths(const ConformArguments& a, Report& report)
         const ConformFolder folder = conform_folder(scenes);
         Result<ConformDrawer> drawer = ConformDrawer::open(folder, a.limits, std::make_shared<const Jobs>(a.threads));
         BN_TRY(drawer);
-        return run_pieces(a.pieces, command_words(), truth_pieces(a, folder, &*drawer), report);
+        return run_pieces(a.pieces, command_words(), conform_pieces(a, folder, &*drawer), report);
     }();
     fs::remove_all(scenes, ignored);
     return made ? *made : fail(made.error());
@@ -243,9 +244,9 @@ int write_folder(const ConformArguments& a, Report& report)
     if (!reference_available())
         return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which makes the truths"});
     if (any_pieces(a.pieces) && !a.pieces.merge)
-        return make_truths(a, report);
+        return make_references(a, report);
     if (a.pieces.merge) // before a file is written
-        if (const auto files = finished_pieces(a.pieces, command_words(), truth_pieces(a, conform_folder(a.write))); !files)
+        if (const auto files = finished_pieces(a.pieces, command_words(), conform_pieces(a, conform_folder(a.write))); !files)
             return fail(files.error());
     const std::atomic<bool>& stop = watch_stop_signals();
     if (const Status written = write_conform_files(a.write); !written)
@@ -255,21 +256,21 @@ int write_folder(const ConformArguments& a, Report& report)
     if (!drawer)
         return fail(drawer.error());
     if (a.pieces.merge) {
-        const std::vector<JobPiece> pieces = truth_pieces(a, folder);
+        const std::vector<JobPiece> pieces = conform_pieces(a, folder);
         const auto files = finished_pieces(a.pieces, command_words(), pieces);
         if (!files)
             return fail(files.error());
-        if (const Status taken = take_truths(folder, *files, pieces); !taken)
+        if (const Status taken = take_references(folder, *files, pieces); !taken)
             return fail(taken.error());
     }
     report.release();
     for (std::size_t i = 0; i < folder.scenes.size() && !a.pieces.merge; ++i) {
         const FolderScene& scene = folder.scenes[i];
-        const Result<ConformDrawer::Truth> truth = drawer->truth(i, static_cast<std::uint64_t>(a.samples), &stop);
-        if (!truth)
-            return fail(truth.error());
+        const Result<ConformDrawer::ReferencePicture> reference = drawer->reference(i, static_cast<std::uint64_t>(a.samples), &stop);
+        if (!reference)
+            return fail(reference.error());
         for (const auto& [path, image] :
-             {std::pair{folder.truth_of(scene.name), &truth->color}, {folder.variance_of(scene.name), &truth->variance}})
+             {std::pair{folder.reference_of(scene.name), &reference->color}, {folder.variance_of(scene.name), &reference->variance}})
             if (const Status written = write_image(path, *image); !written)
                 return fail(written.error());
         report.detail("scene", scene.name + ": " + scene.about);
@@ -288,7 +289,7 @@ void tell(const Judgement& judgement, Report& report)
             continue;
         }
         std::string line = fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right ({:.3f} from the truth)",
-                                       outcome_name(s.outcome), s.to_truth, s.to_right, s.usual);
+                                       outcome_name(s.outcome), s.to_reference, s.to_right, s.usual);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
             line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
         report.figure(s.name, line);
@@ -370,7 +371,7 @@ int judge_folder(const ConformArguments& a, Report& report)
     if (!drawer)
         return fail(drawer.error());
     report.release();
-    const Result<Judgement> judgement = judge_pictures(*drawer, *folder, pictures->truths, pictures->engine, *jobs);
+    const Result<Judgement> judgement = judge_pictures(*drawer, *folder, pictures->references, pictures->engine, *jobs);
     if (!judgement)
         return fail(judgement.error());
     tell(*judgement, report);

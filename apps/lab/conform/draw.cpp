@@ -181,7 +181,7 @@ Result<Image> ConformDrawer::by_technique(std::size_t scene, const TechniqueInfo
     return std::move(frame->color);
 }
 
-Result<ConformDrawer::Truth> ConformDrawer::truth(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop)
+Result<ConformDrawer::ReferencePicture> ConformDrawer::reference(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop)
 {
     Result<SessionParts> parts = parts_of(scene);
     BN_TRY(parts);
@@ -195,7 +195,7 @@ Result<ConformDrawer::Truth> ConformDrawer::truth(std::size_t scene, std::uint64
     BN_TRY(frame);
     if (frame->stats.sampling.stopped)
         return Error{ExitCode::stopped, "", "", "stopped"};
-    return Truth{std::move(frame->color), std::move(frame->variance)};
+    return ReferencePicture{std::move(frame->color), std::move(frame->variance)};
 }
 
 } // namespace burnish

@@ -41,11 +41,11 @@ class ConformDrawer {
     // Draws a scene without a mistake by any technique of burnish, f32 RGB.
     Result<Image> by_technique(std::size_t scene, const TechniqueInfo& technique);
 
-    struct Truth {
+    struct ReferencePicture {
         Image color, variance;
     };
     // Draws a scene by the reference. samples: per pixel.
-    Result<Truth> truth(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop);
+    Result<ReferencePicture> reference(std::size_t scene, std::uint64_t samples, const std::atomic<bool>* stop);
 
   private:
     struct Opened {

@@ -33,7 +33,7 @@ Json area_light_json()
     return {{"corners", corners}, {"radiance", numbers(light.radiance)}};
 }
 
-// Returns a hash of the files that truths belong to: scenes and environments.
+// Returns a hash of the files that references belong to: scenes and environments.
 Result<std::string> content_of(const std::string& path)
 {
     std::vector<std::string> names = {"environment.exr", "environment.hdr"};

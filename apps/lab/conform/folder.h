@@ -1,4 +1,4 @@
-// A conformance folder: scenes, environment, truths, and pages that draw the scenes in engines.
+// A conformance folder: scenes, environment, references, and pages that draw the scenes in engines.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@ struct FolderScene {
 struct ConformFolder {
     std::string path;
     std::vector<FolderScene> scenes;
-    std::string truth_of(const std::string& scene) const { return path + "/truth/" + scene + ".exr"; }
+    std::string reference_of(const std::string& scene) const { return path + "/truth/" + scene + ".exr"; }
     std::string variance_of(const std::string& scene) const { return path + "/truth/" + scene + ".variance.exr"; }
 };
 

@@ -20,8 +20,8 @@ constexpr double kSeen = 0.01;         // mean FLIP from which a mistake shows i
 constexpr double kExplains = 0.7;      // of the distance before that a mistake may leave
 constexpr double kExplainsWhole = 0.5; // the same for a mistake of whole pictures, which may hide in an engine's noise
 constexpr double kLeastGain = 0.012;   // mean FLIP a scene that a mistake must take away
-// A picture is right up to this mean FLIP to the truth or to the engine's way, a factor on the engine's noise, within bounds. The noise is
-// the median of that FLIP over all scenes.
+// A picture is right up to this mean FLIP to the reference or to the engine's way, a factor on the engine's noise, within bounds. The noise
+// is the median of that FLIP over all scenes.
 constexpr double kRightOfNoise = 2.0, kLeastRight = 0.06, kMostRight = 0.12, kLeastNoise = 0.03;
 constexpr double kSuspect = 1.4;          // of the noise, from which a scene may hold a mistake
 constexpr double kNear = 1.3;             // of the noise, up to which pictures are like those with a mistake
@@ -98,7 +98,7 @@ class Judge {
         : drawer_(drawer), pictures_(pictures), jobs_(jobs)
     {
     }
-    Result<Judgement> run(const ConformFolder& folder, const std::vector<Image>& truths);
+    Result<Judgement> run(const ConformFolder& folder, const std::vector<Image>& references);
 
   private:
     bool usable(std::size_t scene) const { return !pictures_[scene].file.empty() && pictures_[scene].fault.empty(); }
@@ -111,7 +111,7 @@ class Judge {
     Result<Candidate> best_candidate(const std::vector<int>& known, bool pairs, const std::vector<Image>& without,
                                      const std::vector<double>& left, Judgement& to);
     Result<DrawnWay> draw_way(const RightWay& way);
-    void judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to);
+    void judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& references, Judgement& to);
     double exposure_against(const std::vector<Image>& without) const;
     Status find_mistakes(bool pairs, Judgement& to);
 
@@ -333,7 +333,7 @@ Result<DrawnWay> Judge::draw_way(const RightWay& way)
 }
 
 // Fills a judgement for an engine that draws in that way. Fills usual_.
-void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& truths, Judgement& to)
+void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& references, Judgement& to)
 {
     const RightWay& way = *ways[at].way;
     drawer_.set_way(way);
@@ -345,8 +345,8 @@ void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const st
             continue;
         SceneJudgement& scene = to.scenes[i];
         scene.to_usual = scene.explained = ways[at].distance[i];
-        scene.usual = mean_flip(shown_picture(truths[i]), usual_[i], jobs_);
-        scene.to_right = std::min(scene.to_truth, scene.to_usual);
+        scene.usual = mean_flip(shown_picture(references[i]), usual_[i], jobs_);
+        scene.to_right = std::min(scene.to_reference, scene.to_usual);
         for (const DrawnWay& other : ways) // lost light may be given back or not
             if (other.way->kernels == way.kernels && std::string_view(other.way->technique) == way.technique)
                 scene.to_right = std::min(scene.to_right, other.distance[i]);
@@ -394,7 +394,7 @@ void forget_chance(Judgement& judgement)
         s.explained = s.to_usual;
 }
 
-Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& truths)
+Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& references)
 {
     Judgement none;
     for (std::size_t i = 0; i < folder.scenes.size(); ++i) {
@@ -403,7 +403,7 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
         const EnginePicture& picture = pictures_[i];
         scene.from_eight_bits = picture.from_eight_bits;
         if (usable(i))
-            scene.to_truth = scene.to_right = mean_flip(shown_picture(truths[i]), picture.shown, jobs_);
+            scene.to_reference = scene.to_right = mean_flip(shown_picture(references[i]), picture.shown, jobs_);
         else {
             scene.outcome = picture.file.empty() ? SceneJudgement::Outcome::missing : SceneJudgement::Outcome::unusable;
             scene.reason = picture.file.empty() ? "there is no picture" : picture.fault;
@@ -428,7 +428,7 @@ Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Imag
     std::optional<Judgement> best;
     const auto look = [&](std::size_t at, bool pairs) -> Result<double> {
         Judgement judgement = none;
-        judge_by(ways, at, truths, judgement);
+        judge_by(ways, at, references, judgement);
         const double before = unexplained_distance(judgement);
         BN_TRY(find_mistakes(pairs, judgement));
         const double left = unexplained_distance(judgement);
@@ -508,10 +508,10 @@ double mean_flip(const Image& reference, const Image& test, const Jobs& jobs)
     return sum / static_cast<double>(count);
 }
 
-Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
+Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& references,
                                  const std::vector<EnginePicture>& pictures, const Jobs& jobs)
 {
-    return Judge(drawer, pictures, jobs).run(folder, truths);
+    return Judge(drawer, pictures, jobs).run(folder, references);
 }
 
 } // namespace burnish

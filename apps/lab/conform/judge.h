@@ -1,4 +1,4 @@
-// Compares an engine's pictures with truths, and finds the mistakes that explain them.
+// Compares an engine's pictures with references, and finds the mistakes that explain them.
 #pragma once
 #include <optional>
 #include <string>
@@ -29,14 +29,14 @@ struct SceneJudgement {
     std::string reason;      // for unusable and missing ones
     bool not_finite = false; // the picture holds NaN or infinities
     bool from_eight_bits = false;
-    double to_truth = 0.0;    // the picture's mean LDR-FLIP to the truth
-    double usual = 0.0;       // of Judgement::way to the truth
-    double to_right = 0.0;    // from the picture to the truth or to Judgement::way, the least
-    double to_usual = 0.0;    // from the picture to Judgement::way
-    int nearest = kNoMistake; // none is nearer than Judgement::way
-    double to_nearest = 2.0;  // from the picture to that one
-    double nearest_ev = 0.0;  // its exposure, if it is kExposure
-    double explained = 0.0;   // from the picture to the one with the mistakes found; to_usual without any
+    double to_reference = 0.0; // the picture's mean LDR-FLIP to the reference
+    double usual = 0.0;        // of Judgement::way to the reference
+    double to_right = 0.0;     // from the picture to the reference or to Judgement::way, the least
+    double to_usual = 0.0;     // from the picture to Judgement::way
+    int nearest = kNoMistake;  // none is nearer than Judgement::way
+    double to_nearest = 2.0;   // from the picture to that one
+    double nearest_ev = 0.0;   // its exposure, if it is kExposure
+    double explained = 0.0;    // from the picture to the one with the mistakes found; to_usual without any
 };
 
 struct FoundMistake {
@@ -49,7 +49,7 @@ struct Judgement {
     const RightWay* way = &right_ways().front(); // without a mistake, nearest to the pictures
     std::vector<SceneJudgement> scenes;
     double noise = 0.0;                 // mean FLIP from the engine's right pictures to its way: the engine filters light in its own way
-    double right_up_to = 0.0;           // mean FLIP to the truth or to the engine's way
+    double right_up_to = 0.0;           // mean FLIP to the reference or to the engine's way
     std::vector<FoundMistake> mistakes; // the one that explains most comes first
     double exposure_ev = 0.0;           // the pictures' exposure against the right one, where a mistake; else 0
     bool all_right() const;
@@ -58,7 +58,7 @@ struct Judgement {
 };
 
 // Judges the pictures, one for each scene in the folder.
-Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& truths,
+Result<Judgement> judge_pictures(ConformDrawer& drawer, const ConformFolder& folder, const std::vector<Image>& references,
                                  const std::vector<EnginePicture>& pictures, const Jobs& jobs);
 
 // Returns the picture as displays show it at kConformEv, u8 RGB.

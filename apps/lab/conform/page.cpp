@@ -31,7 +31,7 @@ std::string fault_of(const SceneJudgement& s)
     if (!is_compared(s))
         return s.reason;
     std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right; that way itself is {:.3f} from the truth",
-                                   s.to_truth, s.to_right, s.usual);
+                                   s.to_reference, s.to_right, s.usual);
     if (s.nearest != kNoMistake)
         text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
     return text;
@@ -46,11 +46,11 @@ Result<std::string> figure(const std::string& title, const std::string& caption,
                        base64(*png), image.width, image.height, escaped(title), escaped(title), escaped(caption));
 }
 
-// Returns a scene's pictures: the engine's, the truth, the usual way, the mistakes found or the nearest, the error.
+// Returns a scene's pictures: the engine's, the reference, the usual way, the mistakes found or the nearest, the error.
 Result<std::string> pictures_of(const SceneJudgement& s, std::size_t scene, const Judgement& judgement, const ConformPictures& pictures,
                                 ConformDrawer& drawer, const Jobs& jobs)
 {
-    const Image truth = shown_picture(pictures.truths[scene]);
+    const Image reference = shown_picture(pictures.references[scene]);
     std::string out;
     const auto add = [&](const std::string& title, const std::string& caption, const Image& image) -> Status {
         const Result<std::string> html = figure(title, caption, image);
@@ -59,11 +59,12 @@ Result<std::string> pictures_of(const SceneJudgement& s, std::size_t scene, cons
         return {};
     };
     if (is_compared(s))
-        BN_TRY(add("Engine", fmt::format("FLIP {:.3f} to the truth", s.to_truth), pictures.engine[scene].shown));
-    BN_TRY(add("Truth", "by the reference", truth));
+        BN_TRY(add("Engine", fmt::format("FLIP {:.3f} to the truth", s.to_reference), pictures.engine[scene].shown));
+    BN_TRY(add("Truth", "by the reference", reference));
     if (!is_compared(s))
         return out;
-    BN_TRY(add("Error", "black 0, light yellow 1", magma_map(flip_ldr(truth, pictures.engine[scene].shown, FlipOptions{}, jobs).error)));
+    BN_TRY(
+        add("Error", "black 0, light yellow 1", magma_map(flip_ldr(reference, pictures.engine[scene].shown, FlipOptions{}, jobs).error)));
     Result<std::optional<Image>> usual = drawer.draw(scene, {});
     BN_TRY(usual);
     BN_TRY(add("Without mistakes", fmt::format("FLIP {:.3f} to the truth", s.usual), shown_picture(**usual)));
@@ -110,7 +111,7 @@ std::string conform_json(const Judgement& judgement)
         if (!is_compared(s))
             row["reason"] = s.reason;
         else
-            row.update({{"flip_to_truth", s.to_truth},
+            row.update({{"flip_to_truth", s.to_reference},
                         {"flip_to_right", s.to_right},
                         {"flip_of_usual_way_to_truth", s.usual},
                         {"flip_to_usual_way", s.to_usual},
@@ -164,7 +165,7 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
         rows += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td><strong "
                             "class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td><td>{5}</td></tr>\n",
                             escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
-                            is_compared(s) ? fmt::format("{:.3f}", s.to_truth) : "",
+                            is_compared(s) ? fmt::format("{:.3f}", s.to_reference) : "",
                             is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "", is_compared(s) ? fmt::format("{:.3f}", s.usual) : "");
         const Result<std::string> shown = pictures_of(s, i, judgement, pictures, drawer, jobs);
         BN_TRY(shown);

@@ -89,15 +89,16 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
     bool one = false;
     std::size_t eight_bits = 0;
     for (const FolderScene& scene : folder.scenes) {
-        Result<Image> truth = read_image(folder.truth_of(scene.name), limits);
-        BN_TRY(truth);
-        if (truth->width != kConformWidth || truth->height != kConformHeight || truth->type != PixelType::f32 || truth->channels != 3)
-            return Error{ExitCode::bad_input, folder.truth_of(scene.name), "",
+        Result<Image> reference = read_image(folder.reference_of(scene.name), limits);
+        BN_TRY(reference);
+        if (reference->width != kConformWidth || reference->height != kConformHeight || reference->type != PixelType::f32 ||
+            reference->channels != 3)
+            return Error{ExitCode::bad_input, folder.reference_of(scene.name), "",
                          "is no truth of a conformance folder: write the folder anew"};
-        const std::size_t values = truth->bytes.size() / sizeof(float);
-        if (!std::all_of(truth->f32(), truth->f32() + values, [](float v) { return std::isfinite(v); }))
-            return Error{ExitCode::not_finite, folder.truth_of(scene.name), "", "holds NaN or infinities: write the folder anew"};
-        out.truths.push_back(std::move(*truth));
+        const std::size_t values = reference->bytes.size() / sizeof(float);
+        if (!std::all_of(reference->f32(), reference->f32() + values, [](float v) { return std::isfinite(v); }))
+            return Error{ExitCode::not_finite, folder.reference_of(scene.name), "", "holds NaN or infinities: write the folder anew"};
+        out.references.push_back(std::move(*reference));
         out.engine.push_back(read_engine_picture(pictures, scene.name, limits));
         one = one || !out.engine.back().file.empty();
         eight_bits += out.engine.back().from_eight_bits;

@@ -136,11 +136,11 @@ std::string family_of(const mipnet::TestMaterial& m)
     return m.set == "real" || m.set == "crossed" || space == std::string::npos ? m.material.name : m.material.name.substr(0, space);
 }
 
-// Returns the closed share of the L1 gap between baseline and teacher. None if the gap is negligible.
-std::optional<double> gap_closed(double l1, double baseline, double teacher)
+// Returns the closed share of the L1 gap between baseline and optimised levels. None if the gap is negligible.
+std::optional<double> gap_closed(double l1, double baseline, double optimised)
 {
     constexpr double kLeastGap = 0.02; // relative to baseline's L1
-    return baseline - teacher > kLeastGap * baseline ? std::optional((baseline - l1) / (baseline - teacher)) : std::nullopt;
+    return baseline - optimised > kLeastGap * baseline ? std::optional((baseline - l1) / (baseline - optimised)) : std::nullopt;
 }
 
 // Ranks materials by baseline's mean L1, within each set and model.

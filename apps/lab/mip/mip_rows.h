@@ -17,7 +17,7 @@ struct MipRow {
     bool hardest = false;        // in the quarter of its set and model with baseline's largest errors (L1, mean over levels)
     MipError error;              // flip is 0 for levels with fewer than 16 texels a side
     double ms = 0.0;             // wall-clock time for all levels of the material
-    std::optional<double> gap{}; // closed share of the L1 gap from baseline (0) to teacher (1); none without a gap
+    std::optional<double> gap{}; // closed share of the L1 gap from baseline (0) to optimised levels (1); none without a gap
 };
 
 inline constexpr int kMipRowLevels = 5;

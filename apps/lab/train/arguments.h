@@ -11,7 +11,7 @@
 namespace burnish {
 
 struct TrainArguments {
-    std::string what = "mip", output, evaluate, maps, only_maps, from, taught_by, json, checkpoint;
+    std::string what = "mip", output, evaluate, maps, only_maps, from, distilled_from, json, checkpoint;
     std::string size = "2x32/2x64";
     mipnet::TrainOptions train;
     PieceOptions pieces;

@@ -40,13 +40,13 @@ Status read_given(TrainArguments& a)
         for (mipnet::TestMaterial& m : *maps)
             t.maps.push_back(std::move(m.material));
     }
-    if (!a.taught_by.empty()) {
-        Result<mipnet::Weights> read = mipnet::read_weights(a.taught_by);
+    if (!a.distilled_from.empty()) {
+        Result<mipnet::Weights> read = mipnet::read_weights(a.distilled_from);
         BN_TRY(read);
         if (read->shape.lobe != t.shape.lobe)
-            return Error{ExitCode::bad_input, a.taught_by, "",
+            return Error{ExitCode::bad_input, a.distilled_from, "",
                          fmt::format("is of lobes of {}, not of {}", mipnet::lobe_name(read->shape.lobe), mipnet::lobe_name(t.shape.lobe))};
-        t.taught_by = std::make_shared<const mipnet::Weights>(std::move(*read));
+        t.distilled_from = std::make_shared<const mipnet::Weights>(std::move(*read));
     }
     if (a.from.empty())
         return {};
@@ -83,8 +83,8 @@ std::string command_of(const TrainArguments& a, std::uint64_t seed)
         words += fmt::format(" {} {}", t.only_maps ? "--only-maps" : "--maps", told_name(t.only_maps ? a.only_maps : a.maps));
     if (t.from)
         words += fmt::format(" --from {}", told_name(a.from));
-    if (t.taught_by)
-        words += fmt::format(" --taught-by {}", told_name(a.taught_by));
+    if (t.distilled_from)
+        words += fmt::format(" --taught-by {}", told_name(a.distilled_from));
     return words;
 }
 
@@ -172,8 +172,8 @@ Result<double> seconds_of_seed(const TrainArguments& a, const Jobs& jobs)
 // A piece holds the weights of one seed behind their L1. A stopped piece continues from a checkpoint beside it.
 std::vector<JobPiece> seed_pieces(const TrainArguments& a, const Jobs& jobs, Report& report)
 {
-    const auto estimate = std::make_shared<std::optional<double>>();                             // s, for any seed
-    const std::string text = text_of_scene("train", {a.maps, a.only_maps, a.from, a.taught_by}); // by content
+    const auto estimate = std::make_shared<std::optional<double>>();                                  // s, for any seed
+    const std::string text = text_of_scene("train", {a.maps, a.only_maps, a.from, a.distilled_from}); // by content
     std::vector<JobPiece> pieces;
     for (int i = 0; i < a.seeds; ++i) {
         const std::uint64_t seed = a.train.seed + static_cast<std::uint64_t>(i);

@@ -160,7 +160,7 @@ void warn_missing_coordinates(Document& doc, const Material& m, const Primitive&
             doc.fault(mesh, fmt::format("no TEXCOORD_{} for a texture of its material", ref.uv_set));
 }
 
-// Loads a primitive. `by` bends the mesh; an empty Bend leaves the mesh as the file has it.
+// Loads a primitive. An empty `by` leaves the mesh as the file has it.
 void load_primitive(Document& doc, const Json& json, const SkinMorph& by, const std::string& place, const std::string& mesh)
 {
     // Skip points and lines
@@ -181,16 +181,16 @@ void load_primitive(Document& doc, const Json& json, const SkinMorph& by, const 
         doc.warn(mesh + ": a primitive without POSITION is left out");
         return;
     }
-    // Bend the vertices by joints and morph targets
+    // Deform the vertices by joints and morph targets
     std::vector<std::uint32_t> indices = read_indices(source, corners.attributes.position.count());
-    DeformedVertices bent; // storage for the attributes
+    DeformedVertices deformed; // storage for the attributes
     if (by.any()) {
         if (corners.attributes.position.all_zero())
             fail(place + "/attributes/POSITION", "has no buffer view, and is bent by joints or morph targets");
         const AttributeOf attribute = [&](const Json& attributes, const std::string& name, int components) {
             return attribute_view(source, attributes, name, components, components);
         };
-        bent = deform(doc, json, by, corners.attributes, attribute, place);
+        deformed = deform(doc, json, by, corners.attributes, attribute, place);
     }
     // Convert strips and fans to triangles
     if (mode == kTriangles && indices.size() % 3 != 0)
@@ -227,20 +227,20 @@ Mesh load_mesh(Document& doc, std::size_t m, const SkinMorph& by)
     return mesh;
 }
 
-// Makes a separate mesh for each node that bends one. A skinned mesh lies in world space, whatever its node.
-void load_deformed_meshes(Document& doc, const std::vector<SkinMorph>& bends)
+// Makes a separate mesh for each node that skins or morphs one. A skinned mesh lies in world space, whatever its node.
+void load_deformed_meshes(Document& doc, const std::vector<SkinMorph>& skin_morphs)
 {
-    for (std::size_t i = 0; i < bends.size(); ++i) {
-        if (!bends[i].any())
+    for (std::size_t i = 0; i < skin_morphs.size(); ++i) {
+        if (!skin_morphs[i].any())
             continue;
         const int mesh = static_cast<int>(doc.scene.meshes.size());
-        doc.scene.meshes.push_back(load_mesh(doc, static_cast<std::size_t>(doc.scene.nodes[i].mesh), bends[i]));
-        doc.scene.nodes[i].mesh = bends[i].joints.empty() ? mesh : kNone;
-        if (bends[i].joints.empty())
+        doc.scene.meshes.push_back(load_mesh(doc, static_cast<std::size_t>(doc.scene.nodes[i].mesh), skin_morphs[i]));
+        doc.scene.nodes[i].mesh = skin_morphs[i].joints.empty() ? mesh : kNone;
+        if (skin_morphs[i].joints.empty())
             continue;
         Node node;
         node.name = doc.scene.nodes[i].name, node.mesh = mesh;
-        node.local[3] = glm::vec4(glm::vec3(bends[i].away), 1.0f);
+        node.local[3] = glm::vec4(glm::vec3(skin_morphs[i].away), 1.0f);
         doc.scene.nodes.push_back(std::move(node));
     }
 }
@@ -249,22 +249,22 @@ void load_deformed_meshes(Document& doc, const std::vector<SkinMorph>& bends)
 
 void load_meshes(Document& doc)
 {
-    std::vector<SkinMorph> bends(doc.scene.nodes.size());
+    std::vector<SkinMorph> skin_morphs(doc.scene.nodes.size());
     std::vector<bool> plain(table_size(doc.json, "meshes"), true); // drawn as in the file, or not at all
-    for (std::size_t i = 0; i < bends.size(); ++i)
+    for (std::size_t i = 0; i < skin_morphs.size(); ++i)
         if (doc.scene.nodes[i].mesh != kNone) {
-            bends[i] = skin_morph_of(doc, i);
-            if (bends[i].any())
+            skin_morphs[i] = skin_morph_of(doc, i);
+            if (skin_morphs[i].any())
                 plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = false;
         }
-    for (std::size_t i = 0; i < bends.size(); ++i)
-        if (doc.scene.nodes[i].mesh != kNone && !bends[i].any())
+    for (std::size_t i = 0; i < skin_morphs.size(); ++i)
+        if (doc.scene.nodes[i].mesh != kNone && !skin_morphs[i].any())
             plain[static_cast<std::size_t>(doc.scene.nodes[i].mesh)] = true;
     for (std::size_t m = 0; m < plain.size(); ++m) {
         check_stop();
         doc.scene.meshes.push_back(plain[m] ? load_mesh(doc, m, {}) : Mesh{});
     }
-    load_deformed_meshes(doc, bends);
+    load_deformed_meshes(doc, skin_morphs);
     update_world(doc.scene);
     if (doc.scene.materials.empty())
         doc.scene.materials.emplace_back();

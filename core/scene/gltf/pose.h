@@ -1,4 +1,4 @@
-// Moving parts: animations at a moment, meshes bent by joints and morph targets, instances.
+// Moving parts: animations at a moment, meshes deformed by joints and morph targets, instances.
 #pragma once
 #include <functional>
 #include <glm/glm.hpp>
@@ -20,16 +20,16 @@ struct SkinMorph {
     glm::dvec3 away{0.0};           // for a skin far from the origin; floats hold it exactly
     bool any() const { return !weights.empty() || !joints.empty(); }
 };
-// Returns the bend at a scene node. Expects the joints' world transforms. Empty where all weights are 0 and there is no
+// Returns the deformation at a scene node. Expects the joints' world transforms. Empty where all weights are 0 and there is no
 // skin.
 SkinMorph skin_morph_of(Document& doc, std::size_t scene_node);
 
-// Bent positions, normals and tangents. Owns the data that the attributes then view.
+// Deformed positions, normals and tangents. Owns the data that the attributes then view.
 struct DeformedVertices {
     std::vector<float> position, normal, tangent;
 };
 using AttributeOf = std::function<AccessorView(const Json& attributes, const std::string& name, int components)>;
-// Bends a primitive. `primitive` is its JSON; `attribute` reads an attribute of an object in it.
+// Deforms a primitive. `primitive` is its JSON; `attribute` reads an attribute of an object in it.
 DeformedVertices deform(Document& doc, const Json& primitive, const SkinMorph& by, Attributes& attributes, const AttributeOf& attribute,
                         const std::string& place);
 

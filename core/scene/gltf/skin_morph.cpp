@@ -41,20 +41,20 @@ template <class WorldOf> std::vector<glm::dmat4> joints_of(Document& doc, const 
 
 // Sets a skin's joints. Vertices 32 km away would lie on steps of 4 mm. Beyond, the skin is relative to a place near
 // the first joint, which keeps all digits.
-void settle_joints(Document& doc, const Json& skin, SkinMorph& bend)
+void settle_joints(Document& doc, const Json& skin, SkinMorph& skin_morph)
 {
     constexpr double kFar = 32768.0; // metres
-    bend.joints = joints_of(doc, skin, [&](std::size_t node) { return glm::dmat4(doc.scene.nodes[node].world); });
-    if (bend.joints.empty())
+    skin_morph.joints = joints_of(doc, skin, [&](std::size_t node) { return glm::dmat4(doc.scene.nodes[node].world); });
+    if (skin_morph.joints.empty())
         return;
-    const glm::dvec3 first(bend.joints[0][3]);
+    const glm::dvec3 first(skin_morph.joints[0][3]);
     if (!(std::fmax(std::fabs(first.x), std::fmax(std::fabs(first.y), std::fabs(first.z))) > kFar))
         return;
     const std::vector<glm::dmat4> world = exact_world(doc.scene);
-    bend.joints = joints_of(doc, skin, [&](std::size_t node) { return world[node]; });
-    bend.away = glm::dvec3(glm::vec3(glm::round(first)));
-    for (glm::dmat4& joint : bend.joints)
-        joint[3] -= glm::dvec4(bend.away, 0.0);
+    skin_morph.joints = joints_of(doc, skin, [&](std::size_t node) { return world[node]; });
+    skin_morph.away = glm::dvec3(glm::vec3(glm::round(first)));
+    for (glm::dmat4& joint : skin_morph.joints)
+        joint[3] -= glm::dvec4(skin_morph.away, 0.0);
 }
 
 std::vector<float> floats_of(const AccessorView& view)
@@ -125,26 +125,27 @@ glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-void skin_by_joints(DeformedVertices& bent, const Influences& influences, const std::vector<glm::dmat4>& joints, const std::string& place)
+void skin_by_joints(DeformedVertices& deformed, const Influences& influences, const std::vector<glm::dmat4>& joints,
+                    const std::string& place)
 {
-    for (std::size_t v = 0; 3 * v < bent.position.size(); ++v) {
+    for (std::size_t v = 0; 3 * v < deformed.position.size(); ++v) {
         const glm::dmat4 m = matrix_of(influences, v, joints);
         const glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
-        const glm::dvec3 p = vector_at(bent.position, 3 * v), moved = x * p.x + y * p.y + z * p.z + glm::dvec3(m[3]);
+        const glm::dvec3 p = vector_at(deformed.position, 3 * v), moved = x * p.x + y * p.y + z * p.z + glm::dvec3(m[3]);
         if (!(std::fabs(moved.x) <= 1e30 && std::fabs(moved.y) <= 1e30 && std::fabs(moved.z) <= 1e30))
             fail(place, fmt::format("vertex {} is moved out of bounds by its joints", v));
-        put(bent.position, 3 * v, moved);
+        put(deformed.position, 3 * v, moved);
         // Transform normals by cofactors, which need no inverse. A mirroring matrix flips them.
         const glm::dvec3 cx = cross(y, z), cy = cross(z, x), cz = cross(x, y);
         const double side = x.x * cx.x + x.y * cx.y + x.z * cx.z < 0.0 ? -1.0 : 1.0;
-        if (!bent.normal.empty()) {
-            const glm::dvec3 n = vector_at(bent.normal, 3 * v);
-            put(bent.normal, 3 * v, side * (cx * n.x + cy * n.y + cz * n.z));
+        if (!deformed.normal.empty()) {
+            const glm::dvec3 n = vector_at(deformed.normal, 3 * v);
+            put(deformed.normal, 3 * v, side * (cx * n.x + cy * n.y + cz * n.z));
         }
-        if (!bent.tangent.empty()) {
-            const glm::dvec3 t = vector_at(bent.tangent, 4 * v);
-            put(bent.tangent, 4 * v, x * t.x + y * t.y + z * t.z);
-            bent.tangent[4 * v + 3] *= static_cast<float>(side);
+        if (!deformed.tangent.empty()) {
+            const glm::dvec3 t = vector_at(deformed.tangent, 4 * v);
+            put(deformed.tangent, 4 * v, x * t.x + y * t.y + z * t.z);
+            deformed.tangent[4 * v + 3] *= static_cast<float>(side);
         }
     }
 }
@@ -154,20 +155,20 @@ void skin_by_joints(DeformedVertices& bent, const Influences& influences, const 
 SkinMorph skin_morph_of(Document& doc, std::size_t scene_node)
 {
     const Json& node = doc.json["nodes"][doc.node_sources[scene_node]];
-    SkinMorph bend;
+    SkinMorph skin_morph;
     const int mesh = get_index(node, "mesh");
     if (mesh < 0)
-        return bend;
+        return skin_morph;
     const Json* weights = get_member(node, "weights");
     if (!weights)
         weights = get_member(doc.json["meshes"][static_cast<std::size_t>(mesh)], "weights");
     if (weights)
-        bend.weights = weights->get<std::vector<double>>();
-    if (std::all_of(bend.weights.begin(), bend.weights.end(), [](double w) { return w == 0.0; }))
-        bend.weights.clear();
+        skin_morph.weights = weights->get<std::vector<double>>();
+    if (std::all_of(skin_morph.weights.begin(), skin_morph.weights.end(), [](double w) { return w == 0.0; }))
+        skin_morph.weights.clear();
     if (const int skin = get_index(node, "skin"); skin >= 0)
-        settle_joints(doc, doc.json["skins"][static_cast<std::size_t>(skin)], bend);
-    return bend;
+        settle_joints(doc, doc.json["skins"][static_cast<std::size_t>(skin)], skin_morph);
+    return skin_morph;
 }
 
 DeformedVertices deform(Document& doc, const Json& primitive, const SkinMorph& by, Attributes& attributes, const AttributeOf& attribute,
@@ -175,16 +176,16 @@ DeformedVertices deform(Document& doc, const Json& primitive, const SkinMorph& b
 {
     // Copy the attributes as floats
     doc.charge(attributes.position.count() * 10 * sizeof(float), place);
-    DeformedVertices bent{floats_of(attributes.position), floats_of(attributes.normal), floats_of(attributes.tangent)};
+    DeformedVertices deformed{floats_of(attributes.position), floats_of(attributes.normal), floats_of(attributes.tangent)};
     // Add the weighted morph targets
     const Json* targets = get_member(primitive, "targets");
     for (std::size_t t = 0; targets && t < std::min(targets->size(), by.weights.size()); ++t) {
         const Json& target = (*targets)[t];
-        add_target(bent.position, 3, attribute(target, "POSITION", 3), by.weights[t]);
-        add_target(bent.normal, 3, attribute(target, "NORMAL", 3), by.weights[t]);
-        add_target(bent.tangent, 4, attribute(target, "TANGENT", 3), by.weights[t]);
+        add_target(deformed.position, 3, attribute(target, "POSITION", 3), by.weights[t]);
+        add_target(deformed.normal, 3, attribute(target, "NORMAL", 3), by.weights[t]);
+        add_target(deformed.tangent, 4, attribute(target, "TANGENT", 3), by.weights[t]);
     }
-    // Bend by all sets of joints and weights
+    // Deform by all sets of joints and weights
     if (!by.joints.empty()) {
         Influences influences;
         for (int set = 0;; ++set) {
@@ -195,13 +196,13 @@ DeformedVertices deform(Document& doc, const Json& primitive, const SkinMorph& b
             influences.joints.push_back(joints), influences.weights.push_back(weights);
         }
         if (!influences.joints.empty())
-            skin_by_joints(bent, influences, by.joints, place);
+            skin_by_joints(deformed, influences, by.joints, place);
     }
-    // View the bent attributes
-    attributes.position = view_of(bent.position, 3);
-    attributes.normal = view_of(bent.normal, 3);
-    attributes.tangent = view_of(bent.tangent, 4);
-    return bent;
+    // View the deformed attributes
+    attributes.position = view_of(deformed.position, 3);
+    attributes.normal = view_of(deformed.normal, 3);
+    attributes.tangent = view_of(deformed.tangent, 4);
+    return deformed;
 }
 
 } // namespace burnish::gltf

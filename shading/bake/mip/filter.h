@@ -26,13 +26,13 @@ std::vector<MipLevel> make_mean_levels(const MipRows& level0, MipFilter filter, 
 
 struct MipHelp {                          // for filters that are not means
     const mipnet::Weights* net = nullptr; // null: the built-in net for GGX lobes
-    bool metal = false;                   // for teacher: the material reflects as a metal
+    bool metal = false;                   // for optimised levels: the material reflects as a metal
     OptimisedTexels advance{};
     mipnet::Lobe lobe = mipnet::Lobe::ggx_aniso; // for gains, if no net names the lobe
     Gains gains = Gains::none;
 };
 
-// Returns MipLevels::net for a filter that takes_net(). For teacher, the last bit tells whether the material reflects as a metal.
+// Returns MipLevels::net for a filter that takes_net(). For optimised levels, the last bit tells whether the material reflects as a metal.
 std::uint64_t levels_hash(const mipnet::Weights& net, MipFilter filter, bool metal);
 
 // Makes all levels. filter: one that makes_lobes(). The bytes do not depend on the number of threads.

@@ -54,9 +54,9 @@ struct MipLevel {
 
 struct MipLevels {
     MipFilter filter = MipFilter{};
-    float kappa = 0.0f;           // for filter kappa, and for mipnet's and teacher's taps; else 0
+    float kappa = 0.0f;           // for filter kappa, and for taps on a net's and on optimised levels; else 0
     std::uint64_t source = 0;     // level 0's hash
-    std::uint64_t net = 0;        // the net's levels_hash() for mipnet and teacher; else 0
+    std::uint64_t net = 0;        // the net's levels_hash() for a net's and for optimised levels; else 0
     std::uint32_t gained = 0;     // 0: gains are 1; else gained_of()
     int width = 0, height = 0;    // of level 0
     std::vector<MipLevel> levels; // from 1 on; empty for a single texel

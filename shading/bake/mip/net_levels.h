@@ -12,7 +12,7 @@ namespace burnish {
 // footprint.
 void put_net_levels(const MipRows& level0, const mipnet::Weights& net, const Jobs& jobs, MipLevels& to);
 
-// Fills levels of filter teacher. The search starts from the net's levels and from means.
+// Fills levels by optimisation, for filter teacher. The search starts from the net's levels and from means.
 void put_optimised_levels(const MipRows& level0, const mipnet::Weights& net, const MipHelp& help, const Jobs& jobs, MipLevels& to);
 
 // Compares the net with closed forms on a material. metal: the material reflects as a metal. kappa: of filter kappa.

@@ -78,8 +78,9 @@ std::vector<Texels> optimised_levels(const Texels& level0, const std::vector<std
                         from[(s * kChannels + c) * kSlots + slot] = starts[s][l].channel[c][at];
             }
             // Optimise a group of texels
-            pick<mipnet::TeacherFns>().fit({surface.lobe, kTrainingPairs, light.rows.data(), radiance.data(), from.data(),
-                                            static_cast<int>(starts.size()), kTrainingSteps, kTrainingBatch, shown.data(), out.data()});
+            pick<mipnet::MipOptimiserFns>().fit({surface.lobe, kTrainingPairs, light.rows.data(), radiance.data(), from.data(),
+                                                 static_cast<int>(starts.size()), kTrainingSteps, kTrainingBatch, shown.data(),
+                                                 out.data()});
             const std::size_t first = group * kSlots, texels = std::min<std::size_t>(kSlots, count - first);
             for (std::size_t c = 0; c < kChannels; ++c)
                 std::copy_n(out.data() + c * kSlots, texels, to.channel[c].data() + first);

@@ -16,7 +16,7 @@ TrainingLight training_light(const MipErrorSurface& surface)
         mipnet::put_pair(random, l.directions.data() + p, pairs);
         l.intensity[p] = static_cast<float>(random.between(1.0, 10.0));
     }
-    pick<mipnet::TeacherFns>().light(
+    pick<mipnet::MipOptimiserFns>().light(
         {surface.lobe, kTrainingPairs, surface.f0, surface.diffuse, l.directions.data(), l.intensity.data(), l.rows.data()});
     return l;
 }
@@ -44,7 +44,7 @@ void gather_light(const mipnet::Texels& texels, const MipErrorSurface& surface, 
                                to};
     for (std::size_t c = 0; c < mipnet::kChannels; ++c)
         work.planes[c] = texels.channel[c].data();
-    pick<mipnet::TeacherFns>().gather(work);
+    pick<mipnet::MipOptimiserFns>().gather(work);
 }
 
 } // namespace burnish

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "shading/bake/mip/mip_error.h"
-#include "shading/bake/mipnet/teacher_fns.h"
+#include "shading/bake/mipnet/mip_optimiser_fns.h"
 
 namespace burnish {
 

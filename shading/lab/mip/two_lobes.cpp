@@ -61,8 +61,8 @@ class PairSearch {
                 rest[p * kSlots + slot] = 0.5f * one[p];
         }
         // Fit the moving lobe to the remainder
-        pick<mipnet::TeacherFns>().fit({surface_.lobe, kTrainingPairs, light_.rows.data(), group.wanted.data(), from.data(), 1, kPairSteps,
-                                        kTrainingBatch, shown.data(), out.data(), rest.data(), 0.5f, loss});
+        pick<mipnet::MipOptimiserFns>().fit({surface_.lobe, kTrainingPairs, light_.rows.data(), group.wanted.data(), from.data(), 1,
+                                             kPairSteps, kTrainingBatch, shown.data(), out.data(), rest.data(), 0.5f, loss});
         for (std::size_t slot = 0; slot < kSlots && group.first + slot < moved.count(); ++slot)
             for (std::size_t c = 0; c < kChannels; ++c)
                 moved.channel[c][group.first + slot] = out[c * kSlots + slot];

@@ -11,8 +11,8 @@
 namespace burnish::mipnet {
 namespace {
 
-// An unfinished relief: heights on a torus of side x side texels, in texels.
-struct Relief {
+// Heights on a torus of side x side texels, in texels.
+struct HeightField {
     int side;
     Random& random;
     std::vector<double> height;
@@ -100,156 +100,158 @@ int count_of(Random& random, int side, double least, double most) // number of f
     return std::max(1, static_cast<int>(side / random.between(least, most) + 0.5));
 }
 
-void hammered(Relief& r)
+void hammered(HeightField& heights)
 {
-    const double cell = r.random.between(6.0, 24.0);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
-        const double d = nearest_point(salt, r.side, x, y, cell).first;
+    const double cell = heights.random.between(6.0, 24.0);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
+        const double d = nearest_point(salt, heights.side, x, y, cell).first;
         return std::min(d * d, 0.5);
     });
 }
-void brushed(Relief& r)
+void brushed(HeightField& heights)
 {
-    const double length = r.random.between(24.0, 64.0), width = r.random.between(1.0, 4.0);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
-        return noise_of_cells(salt, r.side, x, y, length, width) + 0.5 * noise_of_cells(salt + 7, r.side, x, y, 0.5 * length, 2.0 * width);
+    const double length = heights.random.between(24.0, 64.0), width = heights.random.between(1.0, 4.0);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
+        return noise_of_cells(salt, heights.side, x, y, length, width) +
+               0.5 * noise_of_cells(salt + 7, heights.side, x, y, 0.5 * length, 2.0 * width);
     });
 }
-void woven(Relief& r)
+void woven(HeightField& heights)
 {
-    const int n = 2 * count_of(r.random, r.side, 8.0, 32.0);
-    r.each([&](int x, int y) {
-        const double u = static_cast<double>(x) * n / r.side, v = static_cast<double>(y) * n / r.side;
+    const int n = 2 * count_of(heights.random, heights.side, 8.0, 32.0);
+    heights.each([&](int x, int y) {
+        const double u = static_cast<double>(x) * n / heights.side, v = static_cast<double>(y) * n / heights.side;
         const bool over = ((static_cast<int>(u) + static_cast<int>(v)) & 1) != 0;
         const double a = std::fabs(wave(0.5 * u)), b = std::fabs(wave(0.5 * v));
         return over ? a * (0.5 + 0.5 * b) : b * (0.5 + 0.5 * a);
     });
 }
-void fbm(Relief& r)
+void fbm(HeightField& heights)
 {
-    const double cell = r.random.between(8.0, 48.0), decay = r.random.between(0.35, 0.65);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
+    const double cell = heights.random.between(8.0, 48.0), decay = heights.random.between(0.35, 0.65);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
         double h = 0.0, weight = 1.0, size = cell;
         for (int octave = 0; octave < 5 && size >= 1.5; ++octave, weight *= decay, size *= 0.5)
-            h += weight * noise_of_cells(salt + 11u * static_cast<unsigned>(octave), r.side, x, y, size, size);
+            h += weight * noise_of_cells(salt + 11u * static_cast<unsigned>(octave), heights.side, x, y, size, size);
         return h;
     });
 }
-void tiles(Relief& r)
+void tiles(HeightField& heights)
 {
-    const int n = count_of(r.random, r.side, 12.0, 40.0);
-    const double edge = r.random.between(0.05, 0.2), lean = r.random.between(0.0, 0.6);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
-        const double u = static_cast<double>(x) * n / r.side, v = static_cast<double>(y) * n / r.side;
+    const int n = count_of(heights.random, heights.side, 12.0, 40.0);
+    const double edge = heights.random.between(0.05, 0.2), lean = heights.random.between(0.0, 0.6);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
+        const double u = static_cast<double>(x) * n / heights.side, v = static_cast<double>(y) * n / heights.side;
         const int i = static_cast<int>(u), j = static_cast<int>(v);
         const double fu = u - i, fv = v - j, inside = std::min(std::min(fu, 1.0 - fu), std::min(fv, 1.0 - fv));
         return std::min(inside / edge, 1.0) * 0.3 + lean * ((lattice(salt, i, j) - 0.5) * fu + (lattice(salt + 1, i, j) - 0.5) * fv);
     });
 }
-void studs(Relief& r)
+void studs(HeightField& heights)
 {
-    const int n = count_of(r.random, r.side, 8.0, 28.0);
-    const double radius = r.random.between(0.25, 0.48);
-    r.each([&](int x, int y) {
-        const double u = static_cast<double>(x) * n / r.side, v = static_cast<double>(y) * n / r.side;
+    const int n = count_of(heights.random, heights.side, 8.0, 28.0);
+    const double radius = heights.random.between(0.25, 0.48);
+    heights.each([&](int x, int y) {
+        const double u = static_cast<double>(x) * n / heights.side, v = static_cast<double>(y) * n / heights.side;
         const double du = u - std::floor(u) - 0.5, dv = v - std::floor(v) - 0.5, d2 = (du * du + dv * dv) / (radius * radius);
         return std::sqrt(std::max(1.0 - d2, 0.0));
     });
 }
-void waves(Relief& r)
+void waves(HeightField& heights)
 {
     struct Wave {
         int kx, ky;
         double phase, height;
     } all[5];
     for (Wave& w : all) {
-        const double angle = r.random.between(0.0, 2.0 * kPi), n = r.side / r.random.between(5.0, 40.0);
+        const double angle = heights.random.between(0.0, 2.0 * kPi), n = heights.side / heights.random.between(5.0, 40.0);
         w = {static_cast<int>(std::floor(n * det_cos(angle) + 0.5)), static_cast<int>(std::floor(n * det_sin(angle) + 0.5)),
-             r.random.unit(), 1.0 / n};
+             heights.random.unit(), 1.0 / n};
     }
-    const int count = 1 + r.random.below(5);
-    r.each([&](int x, int y) {
+    const int count = 1 + heights.random.below(5);
+    heights.each([&](int x, int y) {
         double h = 0.0;
         for (int k = 0; k < count; ++k)
-            h += all[k].height * wave(static_cast<double>(all[k].kx * x + all[k].ky * y) / r.side + all[k].phase);
+            h += all[k].height * wave(static_cast<double>(all[k].kx * x + all[k].ky * y) / heights.side + all[k].phase);
         return h;
     });
 }
-void leather(Relief& r)
+void leather(HeightField& heights)
 {
-    const double cell = r.random.between(5.0, 16.0), crack = r.random.between(0.15, 0.5);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
-        const Nearest near = nearest_point(salt, r.side, x, y, cell);
-        return std::min((near.second - near.first) / crack, 1.0) + 0.3 * noise_of_cells(salt + 5, r.side, x, y, 4.0, 4.0);
+    const double cell = heights.random.between(5.0, 16.0), crack = heights.random.between(0.15, 0.5);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
+        const Nearest near = nearest_point(salt, heights.side, x, y, cell);
+        return std::min((near.second - near.first) / crack, 1.0) + 0.3 * noise_of_cells(salt + 5, heights.side, x, y, 4.0, 4.0);
     });
 }
 
-void scratches(Relief& r)
+void scratches(HeightField& heights)
 {
-    const int count = r.side * r.side / (400 + r.random.below(1200));
-    const double main_angle = r.random.between(0.0, kPi), spread = r.random.between(0.1, 1.6);
+    const int count = heights.side * heights.side / (400 + heights.random.below(1200));
+    const double main_angle = heights.random.between(0.0, kPi), spread = heights.random.between(0.1, 1.6);
     for (int k = 0; k < count; ++k) {
-        const double angle = main_angle + spread * (r.random.unit() - 0.5), length = r.random.between(10.0, 80.0),
-                     depth = r.random.between(0.2, 1.0), half = r.random.between(0.6, 1.6);
-        const double c = det_cos(angle), s = det_sin(angle), x0 = r.random.between(0.0, r.side), y0 = r.random.between(0.0, r.side);
+        const double angle = main_angle + spread * (heights.random.unit() - 0.5), length = heights.random.between(10.0, 80.0),
+                     depth = heights.random.between(0.2, 1.0), half = heights.random.between(0.6, 1.6);
+        const double c = det_cos(angle), s = det_sin(angle), x0 = heights.random.between(0.0, heights.side),
+                     y0 = heights.random.between(0.0, heights.side);
         for (double t = 0.0; t < length; t += 0.5) {
             const int px = static_cast<int>(std::floor(x0 + t * c)), py = static_cast<int>(std::floor(y0 + t * s));
             for (int j = -2; j <= 2; ++j)
                 for (int i = -2; i <= 2; ++i) {
                     const double across = std::fabs((px + i - x0) * s - (py + j - y0) * c);
-                    double& h = r.at(px + i, py + j);
+                    double& h = heights.at(px + i, py + j);
                     h = std::min(h, -depth * std::max(1.0 - across / half, 0.0));
                 }
         }
     }
 }
-void knurl(Relief& r)
+void knurl(HeightField& heights)
 {
-    const int n = count_of(r.random, r.side, 6.0, 24.0), m = r.random.below(2) ? n : std::max(1, n / 2);
-    const double sharp = r.random.between(0.5, 1.0);
-    r.each([&](int x, int y) {
-        const double u = static_cast<double>(n * x + m * y) / r.side, v = static_cast<double>(n * x - m * y) / r.side;
+    const int n = count_of(heights.random, heights.side, 6.0, 24.0), m = heights.random.below(2) ? n : std::max(1, n / 2);
+    const double sharp = heights.random.between(0.5, 1.0);
+    heights.each([&](int x, int y) {
+        const double u = static_cast<double>(n * x + m * y) / heights.side, v = static_cast<double>(n * x - m * y) / heights.side;
         return std::min(triangle(u), sharp) + std::min(triangle(v), sharp);
     });
 }
-void facets(Relief& r)
+void facets(HeightField& heights)
 {
-    const double cell = r.random.between(6.0, 28.0);
-    const std::uint64_t salt = r.random.bits();
-    r.each([&](int x, int y) {
-        const Nearest near = nearest_point(salt, r.side, x, y, cell);
+    const double cell = heights.random.between(6.0, 28.0);
+    const std::uint64_t salt = heights.random.bits();
+    heights.each([&](int x, int y) {
+        const Nearest near = nearest_point(salt, heights.side, x, y, cell);
         const int which = static_cast<int>(near.which);
         return (lattice(salt + 2, which, 0) - 0.5) * near.dx + (lattice(salt + 3, which, 0) - 0.5) * near.dy;
     });
 }
-void twill(Relief& r)
+void twill(HeightField& heights)
 {
-    const int n = 4 * count_of(r.random, r.side, 16.0, 48.0);
-    const double thread = r.random.between(0.3, 1.0);
-    r.each([&](int x, int y) {
-        const double u = static_cast<double>(x) * n / r.side, v = static_cast<double>(y) * n / r.side;
+    const int n = 4 * count_of(heights.random, heights.side, 16.0, 48.0);
+    const double thread = heights.random.between(0.3, 1.0);
+    heights.each([&](int x, int y) {
+        const double u = static_cast<double>(x) * n / heights.side, v = static_cast<double>(y) * n / heights.side;
         const double step = (u + std::floor(v)) * 0.25, phase = step - std::floor(step);
         return std::fabs(wave(0.5 * phase)) + thread * 0.25 * std::fabs(wave(0.5 * v));
     });
 }
-void zigzag(Relief& r)
+void zigzag(HeightField& heights)
 {
-    const int n = count_of(r.random, r.side, 5.0, 20.0), m = count_of(r.random, r.side, 16.0, 64.0);
-    const double bend = r.random.between(0.5, 2.0);
-    r.each([&](int x, int y) {
-        const double v = static_cast<double>(y) * n / r.side + bend * triangle(static_cast<double>(x) * m / r.side);
+    const int n = count_of(heights.random, heights.side, 5.0, 20.0), m = count_of(heights.random, heights.side, 16.0, 64.0);
+    const double bend = heights.random.between(0.5, 2.0);
+    heights.each([&](int x, int y) {
+        const double v = static_cast<double>(y) * n / heights.side + bend * triangle(static_cast<double>(x) * m / heights.side);
         return triangle(v);
     });
 }
 
 struct FamilyRow {
     Family family;
-    void (*make)(Relief&);
+    void (*make)(HeightField&);
 };
 constexpr FamilyRow kFamilyRows[] = {
     {{"hammered", false}, hammered},  {{"brushed", false}, brushed}, {{"woven", false}, woven},  {{"fbm", false}, fbm},
@@ -258,15 +260,15 @@ constexpr FamilyRow kFamilyRows[] = {
     {{"zigzag", true}, zigzag},
 };
 
-// Writes normals of a relief, scaled to slopes with root mean square `rms`.
-void put_normals(Relief& r, double rms, Texels& to)
+// Writes normals of heights, scaled to slopes with root mean square `rms`.
+void put_normals(HeightField& heights, double rms, Texels& to)
 {
     std::vector<double> sx(to.count()), sy(to.count());
     double sum = 0.0;
-    for (int y = 0; y < r.side; ++y)
-        for (int x = 0; x < r.side; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(r.side) + static_cast<std::size_t>(x);
-            sx[i] = 0.5 * (r.at(x + 1, y) - r.at(x - 1, y)), sy[i] = 0.5 * (r.at(x, y + 1) - r.at(x, y - 1));
+    for (int y = 0; y < heights.side; ++y)
+        for (int x = 0; x < heights.side; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(heights.side) + static_cast<std::size_t>(x);
+            sx[i] = 0.5 * (heights.at(x + 1, y) - heights.at(x - 1, y)), sy[i] = 0.5 * (heights.at(x, y + 1) - heights.at(x, y - 1));
             sum += 0.5 * (sx[i] * sx[i] + sy[i] * sy[i]);
         }
     const double scale = rms / std::sqrt(std::max(sum / static_cast<double>(to.count()), 1e-12));
@@ -358,9 +360,9 @@ Material make_material(const Family& family, std::uint64_t seed, int side)
     BN_CHECK(row != std::end(kFamilyRows));
     Material m = {name + " " + std::to_string(seed), make_texels(side, side), false};
     const double rms = 0.06 * det_pow(0.7 / 0.06, random.unit());
-    Relief relief = {side, random, std::vector<double>(m.texels.count(), 0.0)};
-    row->make(relief);
-    put_normals(relief, rms, m.texels);
+    HeightField heights = {side, random, std::vector<double>(m.texels.count(), 0.0)};
+    row->make(heights);
+    put_normals(heights, rms, m.texels);
     put_widths(side, random, m.texels);
     m.metal = random.below(2) == 1;
     make_valid(m.texels);

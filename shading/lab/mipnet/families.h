@@ -1,4 +1,4 @@
-// Procedural materials to train and judge nets: reliefs of several families, all tiling, with widths that may vary and turn.
+// Procedural materials to train and judge nets: height fields of several families, all tiling, with widths that may vary and turn.
 #pragma once
 #include <string>
 #include <vector>

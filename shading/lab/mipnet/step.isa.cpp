@@ -19,9 +19,9 @@ struct Level {
 };
 struct StepMemory {
     Level level[net::kTrainedLevels + 1];
-    number* truth[net::kTrainedLevels + 1]; // radiance by pair and texel; level 0 holds one pair
-    number *ping, *pong;                    // adjoints of activations
-    light* lights;                          // by pair and vector of slots
+    number* target[net::kTrainedLevels + 1]; // radiance by pair and texel; level 0 holds one pair
+    number *ping, *pong;                     // adjoints of activations
+    light* lights;                           // by pair and vector of slots
     tape on;
 };
 StepMemory step_memory(Pool& pool, const Plan& plan, int pair_count)
@@ -32,7 +32,7 @@ StepMemory step_memory(Pool& pool, const Plan& plan, int pair_count)
     for (int k = 0; k <= net::kTrainedLevels; ++k, n /= 4) {
         Level& level = m.level[k];
         level.n = n;
-        m.truth[k] = pool.take<number>(k == 0 ? n : pairs * n);
+        m.target[k] = pool.take<number>(k == 0 ? n : pairs * n);
         if (k == 0)
             continue;
         level.x = pool.take<number>(kPlanes * n), level.adjoint = pool.take<number>(kPlanes * n);
@@ -72,7 +72,7 @@ template <int lobe> void make_lights(const net::StepWork& work, StepMemory& m)
 }
 
 // Averages the light that level 0 reflects over the texels of each level: linear, as a distant camera gathers it.
-template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWork& work, StepMemory& m)
+template <int lobe> __attribute__((noinline)) void make_target(const net::StepWork& work, StepMemory& m)
 {
     for (std::size_t p = 0; p < static_cast<std::size_t>(work.pair_count); ++p) {
         const auto lit_level = [&](const void* planes, std::size_t n, number* to) {
@@ -82,17 +82,17 @@ template <int lobe> __attribute__((noinline)) void make_truth(const net::StepWor
                 put(to + i, radiance<lobe>(lobe_place_of(t), m.lights[p * kVectorsOfSlots + i / kLane % kVectorsOfSlots]));
             }
         };
-        // With a teacher, light its levels
-        for (int k = 1; work.taught && k <= net::kTrainedLevels; ++k)
-            lit_level(work.taught[k - 1], m.level[k].n, m.truth[k] + p * m.level[k].n);
-        if (work.taught)
+        // Light the target levels, where they are given
+        for (int k = 1; work.target_levels && k <= net::kTrainedLevels; ++k)
+            lit_level(work.target_levels[k - 1], m.level[k].n, m.target[k] + p * m.level[k].n);
+        if (work.target_levels)
             continue;
         // Otherwise light level 0, and average down
-        lit_level(work.texels, m.level[0].n, m.truth[0]);
-        const number* below = m.truth[0];
+        lit_level(work.texels, m.level[0].n, m.target[0]);
+        const number* below = m.target[0];
         for (int k = 1; k <= net::kTrainedLevels; ++k) {
             const std::size_t n = m.level[k].n;
-            number* const to = m.truth[k] + p * n;
+            number* const to = m.target[k] + p * n;
             for (std::size_t i = 0; i < n; i += kLane)
                 put(to + i, (get(below + i) + get(below + n + i) + get(below + 2 * n + i) + get(below + 3 * n + i)) * lit(0.25));
             below = to;
@@ -141,15 +141,15 @@ template <int lobe> __attribute__((noinline)) void make_loss(const net::StepWork
         real sum = zero, adjoint[kPlanes] = {zero, zero, zero, zero, zero}, lighter[kPlanes] = {zero, zero, zero, zero, zero};
         for (std::size_t p = 0; p < pairs; ++p) {
             const dual r = radiance<lobe>(place, m.lights[p * kVectorsOfSlots + slot]);
-            const real truth = get(m.truth[k] + p * n + i);
+            const real target = get(m.target[k] + p * n + i);
             const tone_pair shown = shown_as(work.tone, r.v);
-            const penalty off = penalty_of(work.kind, shown.shown - shown_as(work.tone, truth).shown);
+            const penalty off = penalty_of(work.kind, shown.shown - shown_as(work.tone, target).shown);
             sum += off.value;
             const real by = off.slope * shown.slope;
             adjoint[0] += by * r.d0, adjoint[1] += by * r.d1, adjoint[2] += by * r.d2, adjoint[3] += by * r.d3, adjoint[4] += by * r.d4;
             if (work.light == 0.0f)
                 continue;
-            found[slot] += r.v, wanted[slot] += truth;
+            found[slot] += r.v, wanted[slot] += target;
             lighter[0] += r.d0, lighter[1] += r.d1, lighter[2] += r.d2, lighter[3] += r.d3, lighter[4] += r.d4;
         }
         // Store the gradient
@@ -299,7 +299,7 @@ template <int lobe> void step_of(const net::StepWork& work)
     const auto* weights = static_cast<const number*>(work.weights);
     // Light the tiles
     make_lights<lobe>(work, m);
-    make_truth<lobe>(work, m);
+    make_target<lobe>(work, m);
     const auto sources = [&](int k, bool all) {
         const auto* const texels = static_cast<const number*>(work.texels);
         const auto planes = [&](int level) { return level == 0 ? texels : m.level[level].x; };

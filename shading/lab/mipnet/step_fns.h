@@ -22,8 +22,8 @@ struct StepWork { // one shard of a training step: loss and its gradient
     Loss kind = Loss::l1;
     Tone tone = Tone::display;
     // Planes of levels 1 to kTrainedLevels whose light is the target; null: level 0's light.
-    const void* const* taught = nullptr;
-    float light = 0.0f; // weight of |mean radiance of a tile's level over the truth's - 1|
+    const void* const* target_levels = nullptr;
+    float light = 0.0f; // weight of |mean radiance of a tile's level over the target's - 1|
 };
 
 struct StepFns {

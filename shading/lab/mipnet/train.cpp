@@ -28,8 +28,8 @@ std::uint64_t training_key(const TrainOptions& o, const TrainingSet& set)
                                     static_cast<int>(o.tone), o.mirrored, o.light, o.levels, o.shards, o.pairs, o.seeds, o.side, set.hash);
     if (o.from)
         words += fmt::format(" {:x}", net_hash(*o.from));
-    if (o.taught_by)
-        words += fmt::format(" {:x}", net_hash(*o.taught_by));
+    if (o.distilled_from)
+        words += fmt::format(" {:x}", net_hash(*o.distilled_from));
     return hash_bytes(words.data(), words.size());
 }
 
@@ -64,21 +64,21 @@ double slots_sum(const float* slots)
 }
 
 struct Shard {
-    std::vector<float> gradient, loss, taught[kTrainedLevels];
-    Memory memory, teaching;
+    std::vector<float> gradient, loss, target_levels[kTrainedLevels];
+    Memory memory, target_memory;
 };
 
-// Makes the teacher's levels for a shard's tiles: planes by level.
-void teach(const Fns& fns, const Weights& by, const Plan& plan, const Batch& batch, Shard& shard, const void** levels)
+// Makes target levels for a shard's tiles by another net: planes by level.
+void make_targets(const Fns& fns, const Weights& by, const Plan& plan, const Batch& batch, Shard& shard, const void** levels)
 {
-    const auto planes = [&](int level) { return level == 0 ? batch.texels.data() : shard.taught[level - 1].data(); };
+    const auto planes = [&](int level) { return level == 0 ? batch.texels.data() : shard.target_levels[level - 1].data(); };
     std::size_t n = static_cast<std::size_t>(kSlots) * kTileSide * kTileSide / 4;
-    shard.teaching.resize(fns.forward_bytes(plan, n));
+    shard.target_memory.resize(fns.forward_bytes(plan, n));
     for (int k = 1; k <= kTrainedLevels; ++k, n /= 4) {
-        std::vector<float>& to = shard.taught[k - 1];
+        std::vector<float>& to = shard.target_levels[k - 1];
         to.resize(kChannels * n);
         fns.forward({&plan, by.numbers.data(), n, planes(k - 1), k >= 2 ? planes(k - 2) : nullptr, k >= 3 ? planes(k - 3) : nullptr,
-                     to.data(), shard.teaching.data()});
+                     to.data(), shard.target_memory.data()});
         levels[k - 1] = to.data();
     }
 }
@@ -129,7 +129,7 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
     const std::uint64_t key = training_key(options, set);
     Trained t;
     t.numbers = options.from ? options.from->numbers : start_weights(plan, options.seed);
-    const Plan teacher = options.taught_by ? plan_of(options.taught_by->shape) : Plan{};
+    const Plan target_plan = options.distilled_from ? plan_of(options.distilled_from->shape) : Plan{};
     BN_CHECK(t.numbers.size() == plan.count && options.levels >= 1 && options.levels <= kTrainedLevels);
     t.mean = t.numbers;
     t.first.assign(plan.count, 0.0f), t.second.assign(plan.count, 0.0f);
@@ -151,12 +151,12 @@ Result<std::optional<Weights>> train(const TrainOptions& options, const Jobs& jo
             const std::uint64_t words[] = {options.seed, t.step, s};
             const Batch batch = make_batch(set, hash_bytes(words, sizeof words), options.pairs, options.mirrored);
             shard.gradient.assign(plan.count * kSlots, 0.0f);
-            const void* taught[kTrainedLevels] = {};
-            if (options.taught_by)
-                teach(fns, *options.taught_by, teacher, batch, shard, taught);
+            const void* target_levels[kTrainedLevels] = {};
+            if (options.distilled_from)
+                make_targets(fns, *options.distilled_from, target_plan, batch, shard, target_levels);
             steps.step({&plan, t.numbers.data(), turned.data(), batch.texels.data(), batch.tiles.data(), batch.pairs.data(), options.pairs,
                         level_weight, shard.gradient.data(), shard.loss.data(), shard.memory.data(), options.loss, options.tone,
-                        options.taught_by ? taught : nullptr, static_cast<float>(options.light)});
+                        options.distilled_from ? target_levels : nullptr, static_cast<float>(options.light)});
         });
         // Average over shards
         double loss = 0.0;

@@ -25,17 +25,17 @@ struct TrainOptions {
     double rate = 2e-3;
     Loss loss = Loss::l1;
     Tone tone = Tone::display;
-    double mirrored = kDefaultMirrored;       // share of direction pairs near highlights
-    double light = 0.0;                       // weight of |mean radiance of a tile's level over the truth's - 1|, beside the loss
-    int levels = kTrainedLevels;              // the loss looks at the first ones: 2 see H_B once, 5 four times
-    std::vector<Material> maps;               // trained on, too; squares
-    bool only_maps = false;                   // and on nothing else
-    std::shared_ptr<const Weights> from;      // what training begins at, of the same shape; null: anything
-    std::shared_ptr<const Weights> taught_by; // whose levels' light is wanted in place of level 0's, of the same lobe
-    std::string command;                      // that makes the same weights: kept in their file
-    std::string checkpoint;                   // a file to go on from and to keep up to date; empty: none
-    double checkpoint_seconds = 15;           // between two of them
-    const std::atomic<bool>* stop = nullptr;  // set by another thread or a signal: end soon, with everything in the checkpoint
+    double mirrored = kDefaultMirrored;            // share of direction pairs near highlights
+    double light = 0.0;                            // weight of |mean radiance of a tile's level over the target's - 1|, beside the loss
+    int levels = kTrainedLevels;                   // the loss looks at the first ones: 2 see H_B once, 5 four times
+    std::vector<Material> maps;                    // trained on, too; squares
+    bool only_maps = false;                        // and on nothing else
+    std::shared_ptr<const Weights> from;           // what training begins at, of the same shape; null: anything
+    std::shared_ptr<const Weights> distilled_from; // whose levels' light is wanted in place of level 0's, of the same lobe
+    std::string command;                           // that makes the same weights: kept in their file
+    std::string checkpoint;                        // a file to go on from and to keep up to date; empty: none
+    double checkpoint_seconds = 15;                // between two of them
+    const std::atomic<bool>* stop = nullptr;       // set by another thread or a signal: end soon, with everything in the checkpoint
     std::function<void(int step, double loss)> advance{}; // after each step; mean over shards and levels
     Isa isa = best_isa();
 };

@@ -40,14 +40,14 @@ TEST(atlas_entries, ids_are_words_and_none_is_twice)
 TEST(atlas_entries, every_step_of_every_role_is_a_setting)
 {
     for (const AtlasEntry& entry : atlas_entries())
-        for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure, AtlasRole::truth})
+        for (const AtlasRole role : {AtlasRole::test, AtlasRole::cure, AtlasRole::reference})
             for (const double s : {0.0, 0.3, 1.0}) {
                 const auto setting = setting_of(entry, role, s, 64, 512);
                 ASSERT_TRUE(setting) << setting.error().line();
                 EXPECT_EQ(setting->options.frame.width, 64);
                 EXPECT_FALSE(setting->options.frame.background);
-                EXPECT_EQ(setting->options.backend == "reference", role == AtlasRole::truth && has_reference(entry.truth));
-                EXPECT_EQ(setting->in_double, role == AtlasRole::truth && entry.truth == AtlasTruth::doubles);
+                EXPECT_EQ(setting->options.backend == "reference", role == AtlasRole::reference && is_path_traced(entry.reference));
+                EXPECT_EQ(setting->in_double, role == AtlasRole::reference && entry.reference == AtlasReference::doubles);
             }
 }
 
@@ -64,12 +64,12 @@ TEST(atlas_entries, paths_go_straight_or_by_factors)
 // The path sets the options, except where a role has separate words for them.
 TEST(atlas_entries, a_role_s_own_words_stay)
 {
-    const AtlasEntry entry = {"few", "none",         "", "builtin:sphere --technique mc", true, "samples=64:4", AtlasTruth::reference, "",
-                              0.1,   "--samples 256"};
+    const AtlasEntry entry = {
+        "few", "none", "", "builtin:sphere --technique mc", true, "samples=64:4", AtlasReference::reference, "", 0.1, "--samples 256"};
     EXPECT_EQ(setting_of(entry, AtlasRole::test, 0.0, 64, 512)->options.frame.samples, 64);
     EXPECT_EQ(setting_of(entry, AtlasRole::test, 1.0, 64, 512)->options.frame.samples, 4);
     EXPECT_EQ(setting_of(entry, AtlasRole::cure, 1.0, 64, 512)->options.frame.samples, 256);
-    EXPECT_EQ(setting_of(entry, AtlasRole::truth, 1.0, 64, 512)->options.reference.samples, 512u);
+    EXPECT_EQ(setting_of(entry, AtlasRole::reference, 1.0, 64, 512)->options.reference.samples, 512u);
 }
 
 TEST(atlas_entries, settings_of_one_scene_have_one_key)
@@ -80,19 +80,19 @@ TEST(atlas_entries, settings_of_one_scene_have_one_key)
                               "builtin:sphere --light sphere:points=0,1,0:radius=0.1:radiance=9,9,9",
                               false,
                               "env-rotation=0:90",
-                              AtlasTruth::reference,
+                              AtlasReference::reference,
                               "",
                               0.1,
                               ""};
     AtlasEntry other = entry;
     other.words = "builtin:sphere --light sphere:points=0,1,0:radius=0.2:radiance=9,9,9";
     const auto a = setting_of(entry, AtlasRole::test, 0.0, 64, 512), b = setting_of(entry, AtlasRole::test, 1.0, 64, 512),
-               c = setting_of(other, AtlasRole::test, 0.0, 64, 512), truth = setting_of(entry, AtlasRole::truth, 0.0, 64, 512);
+               c = setting_of(other, AtlasRole::test, 0.0, 64, 512), reference = setting_of(entry, AtlasRole::reference, 0.0, 64, 512);
     EXPECT_EQ(a->scene_key, b->scene_key);
     EXPECT_NE(a->environment_key, b->environment_key);
     EXPECT_NE(a->scene_key, c->scene_key);
-    EXPECT_EQ(a->scene_key, truth->scene_key);
-    EXPECT_EQ(a->environment_key, truth->environment_key);
+    EXPECT_EQ(a->scene_key, reference->scene_key);
+    EXPECT_EQ(a->environment_key, reference->environment_key);
 }
 
 } // namespace

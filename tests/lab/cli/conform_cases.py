@@ -22,7 +22,7 @@ FEW = ("mirror", "round", "rotation_30", "direction_map", "left_handed", "mirror
 
 
 def written(bench, name="folder"):
-    """Writes a conformance folder with coarse truths."""
+    """Writes a conformance folder with coarse references."""
     needs_embree(bench)
     bench.run("conform", "--write", name, "--samples", "64", "-q", timeout=300).expect(0)
     return name
@@ -285,7 +285,7 @@ def missing_or_unusable(bench):
     bench.run("render", "folder/scenes/rotation_0.gltf", *PRODUCT, "--tonemap", "none", "--exposure", "-1", "-o", "pictures/rotation_0.png", "-q").expect(0)
     done = bench.run("conform", "folder", "pictures", *kept).expect(0)
     check("1 pictures of 8 or 16 bits" in done.err and "-1 stops" in done.err, done.err)
-    # Truths of another kind
+    # References of another kind
     shutil.copy(pictures / "rotation_0.png", bench.folder / "folder/truth/lamp.exr")
     bench.run("conform", "folder", "pictures", *kept, "-q").expect(4).expect_one_line("truth/lamp.exr")
     (bench.folder / "empty").mkdir()

@@ -113,8 +113,8 @@ def no_dots(bench):
              "--env-size", "64", "--env-samples", "64", "--no-background", "-q")
     bench.run("render", *words, "--samples", "16", "-o", "16.pfm").expect(0)
     bench.run("render", *words, "--backend", "reference", "--samples", "256", "-o", "r.pfm").expect(0)
-    width, height, truth = read_pfm(bench.folder / "r.pfm")
-    found = pattern(truth, read_pfm(bench.folder / "16.pfm")[2], width, height)
+    width, height, reference = read_pfm(bench.folder / "r.pfm")
+    found = pattern(reference, read_pfm(bench.folder / "16.pfm")[2], width, height)
     print(found)
     check(found["two"] < found["one"], f"dots: {found}")
 

@@ -224,8 +224,8 @@ TEST(light, on_the_horizon_and_below_there_is_none)
                 const std::vector<Vec> panel = {{x - 1.0, -1.0, z(0)}, {x + 1.0, -1.0, z(1)}, {x + 1.0, 1.0, z(2)}, {x - 1.0, 1.0, z(3)}};
                 if (x < 1.0 && signs > 0 && signs < 15)
                     continue; // through the shading point: rounding decides between all and nothing
-                const double truth = x < 1.0 && signs == 15 ? 1.0 : 0.0; // full coverage if just above the point
-                EXPECT_NEAR(part(isa, "ltc_quad", kCosine, panel), truth, 2e-6) << isa.name << x << " " << signs;
+                const double expected = x < 1.0 && signs == 15 ? 1.0 : 0.0; // full coverage if just above the point
+                EXPECT_NEAR(part(isa, "ltc_quad", kCosine, panel), expected, 2e-6) << isa.name << x << " " << signs;
             }
         }
         EXPECT_EQ(part(isa, "ltc_quad", kCosine, {{1.0, 0.0, -0.2}, {0.0, 1.0, -0.3}, {-1.0, 0.0, -0.1}, {0.0, -1.0, -0.1}}), 0.0);

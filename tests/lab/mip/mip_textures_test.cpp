@@ -237,7 +237,7 @@ TEST(mip_error, errors_do_not_depend_on_threads)
 }
 
 // Two alternating slopes: from starts far off, the search finds their mean and a wider lobe, and keeps a start that is right.
-TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
+TEST(mip_optimiser, ends_nearer_to_level_0_than_it_began)
 {
     const Jobs jobs(2);
     for (const mipnet::Lobe lobe : {mipnet::Lobe::ggx_aniso, mipnet::Lobe::beckmann, mipnet::Lobe::ashikhmin_shirley}) {
@@ -247,12 +247,12 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
             relief.channel[0][i] = (i & 1) != 0 ? 0.12f : -0.06f;
         const std::vector<std::vector<mipnet::Texels>> starts = {{flat_texels(32, 0.15f), flat_texels(16, 0.15f)},
                                                                  {flat_texels(32, 0.8f), flat_texels(16, 0.8f)}};
-        const std::vector<mipnet::Texels> taught = optimised_levels(relief, starts, surface, jobs);
-        const auto errors = mip_errors(relief, {starts[0], taught}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0});
+        const std::vector<mipnet::Texels> optimised = optimised_levels(relief, starts, surface, jobs);
+        const auto errors = mip_errors(relief, {starts[0], optimised}, surface, jobs, {.first = 1000, .times = 24, .lamps = 0});
         for (std::size_t l = 0; l < 2; ++l) {
             EXPECT_LT(errors[1][l].l1, 0.7 * errors[0][l].l1) << static_cast<int>(lobe);
-            EXPECT_NEAR(taught[l].channel[0][0], 0.03, 0.015);                   // the mean slope
-            EXPECT_GT(taught[l].channel[3][0], taught[l].channel[2][0] + 0.01f); // wider along x, as b is
+            EXPECT_NEAR(optimised[l].channel[0][0], 0.03, 0.015);                      // the mean slope
+            EXPECT_GT(optimised[l].channel[3][0], optimised[l].channel[2][0] + 0.01f); // wider along x, as b is
         }
         const std::vector<mipnet::Texels> kept =
             optimised_levels(flat_texels(8, 0.3f), {{flat_texels(4, 0.9f)}, {flat_texels(4, 0.3f)}}, surface, jobs);
@@ -261,7 +261,7 @@ TEST(mip_teacher, ends_nearer_to_the_truth_than_it_began)
 }
 
 // Odd sides: texels below are shared out by area. Levels have equal bits for every thread count and instruction set.
-TEST(mip_teacher, takes_odd_sides_and_any_number_of_threads)
+TEST(mip_optimiser, takes_odd_sides_and_any_number_of_threads)
 {
     const TexturedMaterial material = some_material(37, 21, 0.3);
     const MipSource source(material.maps());

@@ -18,7 +18,7 @@ mipnet::Texels flat_texels(int side, float alpha)
 }
 
 // With crossed grain, two lobes a texel err at least a quarter less than the best one, under other directions than the search used.
-TEST(mip_teacher, crossed_grain_wants_two_lobes)
+TEST(mip_optimiser, crossed_grain_wants_two_lobes)
 {
     const Jobs jobs(2);
     const MipErrorSurface surface = mip_error_surface(mipnet::Lobe::ggx_aniso, true);

@@ -24,14 +24,14 @@ Result<std::shared_ptr<VulkanDevice>> lean_device()
     return open_vulkan_device(options);
 }
 
-// Returns the mean absolute difference over the mean of `truth`.
-double difference(const Image& truth, const Image& picture)
+// Returns the mean absolute difference over the mean of `reference`.
+double difference(const Image& reference, const Image& picture)
 {
-    const std::size_t values = static_cast<std::size_t>(truth.width * truth.height * truth.channels);
+    const std::size_t values = static_cast<std::size_t>(reference.width * reference.height * reference.channels);
     double off = 0.0, all = 0.0;
     for (std::size_t i = 0; i < values; ++i) {
-        off += static_cast<double>(std::abs(truth.f32()[i] - picture.f32()[i]));
-        all += static_cast<double>(truth.f32()[i]);
+        off += static_cast<double>(std::abs(reference.f32()[i] - picture.f32()[i]));
+        all += static_cast<double>(reference.f32()[i]);
     }
     return off / all;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "core/base/result.h"
 #include "core/image/metrics/metrics.h"
 #include "core/scene/builtin/builtin.h"
 #include "tests/unit/small_scene.h"
@@ -26,8 +27,7 @@ FrameDesc small_desc()
 Result<Session> open_with(Scene scene, const MipSettings& mips = {}, const SessionOptions& options = {})
 {
     Result<std::shared_ptr<const SceneData>> data = make_scene_data("mine", std::move(scene), {}, mips);
-    if (!data)
-        return data.error();
+    BN_TRY(data);
     return Session::make({*data, small_environment(), std::make_shared<const Jobs>(1), *standard_dfg(Jobs(1))}, options);
 }
 

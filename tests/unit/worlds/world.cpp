@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "core/base/result.h"
 #include "core/scene/gltf/gltf.h"
 
 namespace burnish::test {
@@ -148,26 +149,24 @@ Result<Frame> draw_world(World world, const FrameDesc& desc, float radiance, con
         EnvironmentOptions options;
         options.cube_size = 16, options.samples = 64, options.use_cache = false;
         Result<Environment> baked = bake_environment(image, "constant", options, *jobs);
-        if (!baked)
-            return baked.error();
+        BN_TRY(baked);
         environment = std::make_shared<const Environment>(std::move(*baked));
     }
     update_world(world.scene);
     if (road.by_file) {
         const std::string text = gltf_of(world, dice);
         Result<Scene> read = load_gltf_bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), "world.gltf", {});
-        if (!read)
-            return read.error();
+        BN_TRY(read);
         world.scene = std::move(*read);
     }
     Result<std::shared_ptr<const SceneData>> data = make_scene_data("world", std::move(world.scene), {});
-    if (!data)
-        return data.error();
+    BN_TRY(data);
     SessionOptions options;
     options.backend = road.backend;
     options.reference.samples = 64;
     Result<Session> session = Session::make({*data, environment, jobs, {}}, options);
-    return session ? session->render(desc) : Result<Frame>(session.error());
+    BN_TRY(session);
+    return session->render(desc);
 }
 
 } // namespace burnish::test

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Parallax against the same heights as triangles: FLIP by depth, angle and metric.
 
-Usage: relief.py --program build/release/burnish [--work FOLDER] [--size WxH] [--stretch F] [--triangles N] [--quick] [--json FILE]
-       relief.py --program build/release/burnish --sheet FILE.png
+Usage: parallax.py --program build/release/burnish [--work FOLDER] [--size WxH] [--stretch F] [--triangles N] [--quick] [--json FILE]
+       parallax.py --program build/release/burnish --sheet FILE.png
 
 A cobbled wall, 1 m wide and --stretch times as high, is drawn as a flat square with heights and normals in maps, by --pom-metric uv and
 surface and without parallax, and as `burnish bake displaced` makes it, of 1 M triangles. A line a depth (lengths of texture coordinates)

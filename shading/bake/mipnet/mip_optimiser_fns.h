@@ -45,7 +45,7 @@ struct FitWork { // kSlots texels in a level
     float* loss = nullptr;       // [kSlots]: mean tonemapped difference, under these pairs; null: not needed
 };
 
-struct TeacherFns {
+struct MipOptimiserFns {
     void (*light)(const PairLights& lights);
     void (*gather)(const GatherWork& work);
     void (*fit)(const FitWork& work);
@@ -54,5 +54,5 @@ struct TeacherFns {
 } // namespace burnish::mipnet
 
 namespace burnish {
-BN_DECLARE_FNS(mipnet::TeacherFns);
+BN_DECLARE_FNS(mipnet::MipOptimiserFns);
 } // namespace burnish

@@ -1,4 +1,4 @@
-#include "shading/bake/mipnet/teacher_fns.h"
+#include "shading/bake/mipnet/mip_optimiser_fns.h"
 
 #include "shading/bake/mipnet/tensor.h"
 
@@ -205,12 +205,13 @@ template <int lobe> struct Fit {
     static void run(const net::FitWork& work) { fit_of<lobe>(work); }
 };
 
-constexpr net::TeacherFns kTeacherFns = {by_lobe<Light, net::PairLights>, by_lobe<Gather, net::GatherWork>, by_lobe<Fit, net::FitWork>};
+constexpr net::MipOptimiserFns kMipOptimiserFns = {by_lobe<Light, net::PairLights>, by_lobe<Gather, net::GatherWork>,
+                                                   by_lobe<Fit, net::FitWork>};
 
 } // namespace
 } // namespace mipnet_lanes
 
-BN_DEFINE_FNS(mipnet::TeacherFns, mipnet_lanes::kTeacherFns)
+BN_DEFINE_FNS(mipnet::MipOptimiserFns, mipnet_lanes::kMipOptimiserFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish
