@@ -17,6 +17,7 @@
 #include "shading/lab/mipnet/families.h"
 #include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
+#include "tests/lab/mip/flat_texels.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -174,13 +175,6 @@ TEST(mip_textures, in_halves_look_as_in_floats)
         }
     }
     EXPECT_GT(most_of_one_half, 1e-3) << "a second half is not needed";
-}
-
-mipnet::Texels flat_texels(int side, float alpha)
-{
-    mipnet::Texels t = mipnet::make_texels(side, side);
-    t.channel[2].assign(t.count(), alpha), t.channel[3].assign(t.count(), alpha);
-    return t;
 }
 
 TEST(mip_error, errors_are_those_of_what_differs)

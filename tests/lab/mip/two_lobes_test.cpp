@@ -6,16 +6,10 @@
 #include "shading/bake/mip/mip_error.h"
 #include "shading/bake/mip/optimised_mip.h"
 #include "shading/lab/mip/two_lobes.h"
+#include "tests/lab/mip/flat_texels.h"
 
 namespace burnish {
 namespace {
-
-mipnet::Texels flat_texels(int side, float alpha)
-{
-    mipnet::Texels t = mipnet::make_texels(side, side);
-    t.channel[2].assign(t.count(), alpha), t.channel[3].assign(t.count(), alpha);
-    return t;
-}
 
 // With crossed grain, two lobes a texel err at least a quarter less than the best one, under other directions than the search used.
 TEST(mip_optimiser, crossed_grain_wants_two_lobes)
