@@ -31,6 +31,7 @@ OPTIONS = {
     "fov": ("float | None", "None", EVERY), "zoom": ("float", "1.0", EVERY), "camera": ("int | str | None", "None", EVERY),
     "shadows": ('Literal["off", "ratio", "on"]', '"off"', DRAWS), "shadow_samples": ("int", "16", DRAWS),
     "layers": ("Sequence[Layer]", "()", DRAWS), "aov": ("Sequence[Layer]", "()", DRAWS),
+    "resolve": ('Literal["linear", "display", "weighted"]', '"display"', DRAWS),
     "reference_mode": ('Literal["direct", "shadowed", "path"]', '"direct"', TRACES), "bounces": ("int", "8", TRACES),
     "reference_textures": ('Literal["footprint", "full"]', '"footprint"', TRACES), "target_error": ("float | None", "None", TRACES),
     "threads": ("int", "0", SCENES), "floor": ('Literal["off", "shadow", "stage", "mirror"]', '"off"', LOADS), "light": ("str | Sequence[str]", "()", SCENES), "time": ("float | None", "None", LOADS),

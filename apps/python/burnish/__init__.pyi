@@ -124,6 +124,7 @@ class Scene:
         shadow_samples: int = 16,
         layers: Sequence[Layer] = (),
         aov: Sequence[Layer] = (),
+        resolve: Literal["linear", "display", "weighted"] = "display",
         axis_k: float = 1.0,
         axis_beta: float = 2.3,
         brdf: Literal[
@@ -169,6 +170,8 @@ class Scene:
         shadow_samples: Samples a pixel for shadows, rounded up to steps of 16.
         layers: Layers of the picture, with commas between: depth, normal, albedo.
         aov: Another name of layers.
+        resolve: Mean of a pixel's samples in 8-bit pictures: linear (before tonemapping), display (after tonemapping) or weighted (by 1 /
+            (1 + luminance)).
         axis_k: Deviations of slope that the major axis covers, 0.01 to 10.
         axis_beta: Overlap of samples on the major axis, 0 to 100.
         brdf: Reflection model for lights, mc and the reference: ggx_aniso, ggx, ellipsoid, ggx_aniso_separable, beckmann,

@@ -104,6 +104,8 @@ def lean_with(bench, replaced, name):
         raise Skipped("no glslc here")
     source, shaders = bench.folder / name / "source", bench.folder / name / "shaders"
     shutil.copytree(ROOT / "shading/lab/lean", source / "shading/lab/lean")
+    (source / "core/scene").mkdir(parents=True)
+    shutil.copy(ROOT / "core/scene/material.def", source / "core/scene")  # counts texture slots
     shaders.mkdir()
     for file, old, new in replaced:
         path = source / "shading/lab/lean" / file
