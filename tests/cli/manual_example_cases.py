@@ -37,7 +37,7 @@ BEFORE = {
     "burnish compare expected/": ("mkdir expected actual", f"{DRAW} -o expected/plate.png", "cp expected/plate.png actual"),
     "burnish compare --sequence": tuple(f"{DRAW} --animate roughness=0.3:0.4 --steps 3 -o {name}_%04d.exr" for name in ("truth", "test")),
     "burnish compare reference.exr test.exr --second-reference": (f"{DRAW} --roughness 0.4 --technique mc --samples 64 --seed 7 -o other_seed.exr",),
-    "burnish compare mean.exr": (f"{DRAW} --roughness 0.4 --backend reference --samples 64 -o mean.exr --variance variance.exr",),
+    "burnish compare mean.exr": (f"{DRAW} --roughness 0.4 --backend reference --samples 128 -o mean.exr --variance variance.exr",),
     "burnish golden check goldens.json": ("burnish golden check goldens.json -q || test $? = 5", "burnish golden bless goldens.json -q",
                                           "burnish golden check goldens.json -q --shard 1/3 -o shard-1",
                                           "burnish golden check goldens.json -q --shard 3/3 -o shard-3"),

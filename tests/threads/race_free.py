@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+DATA = pathlib.Path(__file__).resolve().parents[1] / "data"
 SMALL = ("--size", "96x64", "--env-size", "16", "--threads", "4")
 RUNS = {
     "tile": ("render", "builtin:spheres", *SMALL, "--msaa", "4", "--tile-size", "32", "-o", "tile.exr"),
@@ -26,6 +27,7 @@ RUNS = {
     "chart": ("chart", "builtin:plate", "--size", "48x32", "--env-size", "16", "--techniques", "bent_normal", "--sweep", "samples=1", "--reference-samples", "4", "-o",
               "report"),
     "animation": ("render", "builtin:plate", *SMALL, "--animate", "roughness=0.1:0.6", "--steps", "3", "-o", "step%d.png"),
+    "images of a model": ("render", DATA / "models/AnisotropyBarnLampSmall.glb", *SMALL, "--msaa", "4", "-o", "lamp.png"),
     "maps and mip filters": ("render", "builtin:bumps", *SMALL, "--mip-filter", "mipnet", "-o", "bumps.png"),
     "bake of levels": ("bake", "mip", "builtin:bumps", "--mip-filter", "kappa", "-o", "bumps.mip"),
     "bake of a table": ("bake", "ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "--threads", "4", "-o", "table.ltc"),
