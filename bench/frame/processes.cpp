@@ -92,7 +92,7 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
     }
     // Report peak memory, and bytes for each further triangle
     std::vector<Row> rows;
-    double least = 1e300, growth = 0.0;
+    double least = 1e300, growth = 0.0, bytes = 0.0;
     std::string input, frame;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Memory& m = found[i];
@@ -102,7 +102,8 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
             continue;
         // Bytes for each further triangle: input, and frame (its bins).
         const Memory& p = found[i - 1];
-        const double more = m.triangles - p.triangles, bytes = (m.peak - p.peak) / more;
+        const double more = m.triangles - p.triangles;
+        bytes = (m.peak - p.peak) / more;
         const double bins = ((m.peak - m.before) - (p.peak - p.before)) / more;
         growth = std::max(growth, bytes / least); // relative to the smallest figure for fewer triangles
         least = std::min(least, bytes);
@@ -116,6 +117,13 @@ Result<std::vector<Row>> memory_rows(const RunOptions& options)
                     false,
                     {growth, growth, growth},
                     fmt::format("{} bytes, of them in the frame {}", input, frame)});
+    rows.push_back({"memory",
+                    fmt::format("bytes of a further triangle, up to {:.3g}", found.back().triangles),
+                    "B",
+                    120.0,
+                    false,
+                    {bytes, bytes, bytes},
+                    ""});
     return rows;
 }
 

@@ -39,12 +39,12 @@ template <class T> class Column {
     void resize(std::size_t n)
     {
         reserve(n);
-        if (n > size_)
-            std::memset(static_cast<void*>(data_ + size_), 0, (n - size_) * sizeof(T));
-        else if (data_)
-            std::memset(static_cast<void*>(data_ + n), 0, (size_ - n) * sizeof(T));
+        const std::size_t from = n < size_ ? n : size_;
+        if (data_)
+            std::memset(static_cast<void*>(data_ + from), 0, (n + kColumnPad - from) * sizeof(T));
         size_ = n;
     }
+    // Leaves memory past the pad untouched: large columns own no pages there.
     void reserve(std::size_t n)
     {
         if (n <= capacity_ && data_)
@@ -57,7 +57,7 @@ template <class T> class Column {
             throw std::bad_alloc();
         if (size_)
             std::memcpy(static_cast<void*>(grown), data_, size_ * sizeof(T));
-        std::memset(static_cast<void*>(grown + size_), 0, bytes - size_ * sizeof(T));
+        std::memset(static_cast<void*>(grown + size_), 0, kColumnPad * sizeof(T));
         std::free(data_);
         data_ = grown;
         capacity_ = want;
@@ -67,6 +67,7 @@ template <class T> class Column {
         const T copy = value;
         if (size_ == capacity_ || !data_)
             reserve(size_ + 1);
+        std::memset(static_cast<void*>(data_ + size_ + kColumnPad), 0, sizeof(T));
         data_[size_++] = copy;
     }
     void clear() { resize(0); }
