@@ -43,6 +43,7 @@ layout(constant_id = 1) const int kLobes = -1;
 bool lobe_used(int at) { return (kLobes >> at & 1) != 0; }
 bool transmission_used() { return (kLobes >> kGpuTransmits & 1) != 0; }
 bool area_way_used(int at) { return (kLobes >> (kGpuFirstAreaWay + at) & 1) != 0; }
+bool quads_apart() { return false; }
 bool film_used() { return (kLobes >> kGpuFilms & 1) != 0; }
 bool coating_used(int at) { return (kLobes >> (kGpuFirstCoating + at) & 1) != 0; }
 

@@ -19,6 +19,7 @@
 //   full_env(f)                        the environment with its extracted lights; level 0 alone
 //   lobe_used(at)                        true where the frame may use lobe number `at` from shading/models.def
 //   area_way_used(at)                    true where the frame may use line `at` of BN_AREA_LIGHTS
+//   quads_apart()                        true in lanes, which keep the corners of a quad in registers; GLSL has one loop for all polygons
 //   transmission_used()                  true where some material may transmit light
 //   film_used()                          true where some material may lie under a thin film
 //   coating_used(at)                     true where some material may have coating `at` of shading/coatings.def

@@ -148,6 +148,11 @@ BN_INLINE constexpr bool area_way_used(int)
     return true;
 }
 
+BN_INLINE constexpr bool quads_apart()
+{
+    return true;
+}
+
 BN_INLINE constexpr bool film_used()
 {
     return true;

@@ -168,14 +168,12 @@ BN_FN real k_cos(real x)
     return pair.cosine;
 }
 
-// Returns the angle of (x, y) in [-pi, pi] rad, error at most 3e-7, for max(|x|, |y|) >= 1e-30; 0 at the origin. Ignores
-// the sign of zero: y = -0 counts as 0.
-BN_FN real k_atan2(real y, real x)
+// Returns the angle of (x, y) in [0, pi] rad for y >= 0, like k_atan2().
+BN_FN real k_atan2_above(real y, real x)
 {
     real ax = abs(x);
-    real ay = abs(y);
-    real larger = max(max(ax, ay), lit(1e-30));
-    real smaller = min(ax, ay);
+    real larger = max(max(ax, y), lit(1e-30));
+    real smaller = min(ax, y);
     // Above 22.5 degrees turn by 45: atan(q) = pi/4 + atan((q - 1) / (q + 1)).
     real turned_limit = lit(0.41421356237309505) * larger;
     mask turned = smaller > turned_limit;
@@ -187,8 +185,15 @@ BN_FN real k_atan2(real y, real x)
     p = p * z + lit(-0.33332756671804893);
     real angle = t + t * z * p;
     angle = select(turned, lit(0.78539816339744831) + angle, angle);
-    angle = select(ay > ax, lit(1.5707963267948966) - angle, angle);
-    angle = select(x < lit(0.0), lit(3.1415926535897932) - angle, angle);
+    angle = select(y > ax, lit(1.5707963267948966) - angle, angle);
+    return select(x < lit(0.0), lit(3.1415926535897932) - angle, angle);
+}
+
+// Returns the angle of (x, y) in [-pi, pi] rad, error at most 3e-7, for max(|x|, |y|) >= 1e-30; 0 at the origin. Ignores
+// the sign of zero: y = -0 counts as 0.
+BN_FN real k_atan2(real y, real x)
+{
+    real angle = k_atan2_above(abs(y), x);
     return select(y < lit(0.0), -angle, angle);
 }
 

@@ -93,6 +93,12 @@ BN_FN area_view area_seen_by(frame_ref f, int light, aniso_lobe lobe, real3 n, r
     v.corners = the_area_light(f, light).corners;
     v.radius = splat(the_area_light(f, light).radius);
     // Transform its points; half axes are vectors, so they are not moved
+    if (quads_apart() && v.shape <= kArea_polygon && v.corners == 4) {
+        for (int k = 0; k < 4; ++k) {
+            v.at.corner[k] = to_lobe(lobe, n, area_point(f, light, k) - position);
+        }
+        return v;
+    }
     for (int k = 0; k < v.corners; ++k) {
         real3 p = area_point(f, light, k);
         if (v.shape == kArea_disk && k > 0)
@@ -114,6 +120,8 @@ BN_FN ltc_light area_through(BN_IN(area_view) v, BN_IN(ltc_lobe) lobe, bool clip
         return ltc_line_light(lobe, v.at.corner[0], v.at.corner[1], v.radius);
     if (area_way_used(kAreaWay_ltc_clipless) && clipless)
         return ltc_polygon_clipless(lobe, v.at, v.corners);
+    if (quads_apart() && v.corners == 4)
+        return ltc_polygon_light(lobe, v.at, 4);
     return ltc_polygon_light(lobe, v.at, v.corners);
 }
 

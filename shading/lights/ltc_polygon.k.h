@@ -31,7 +31,7 @@ BN_FN real3 ltc_arc(real3 a, real3 b)
 {
     real3 c = k_cross(a, b);
     real sine = sqrt(max(k_dot3(c, c), lit(1e-30)));
-    real angle = k_atan2(sine, k_dot3(a, b));
+    real angle = k_atan2_above(sine, k_dot3(a, b));
     return c * (angle / sine);
 }
 
@@ -91,13 +91,14 @@ BN_FN ltc_light ltc_polygon_light(BN_IN(ltc_lobe) lobe, BN_IN(ltc_polygon) polyg
     real2 rise = vec2_all(lit(0.0)); // where the boundary came up
     real2 cut[BN_LTC_CORNERS];
     // Return early where no edge crosses the horizon
-    mask crosses = lit(1.0) < lit(0.0);
-    for (int i = 0; i < corners; ++i) {
-        mask a_up = u.corner[i].z > lit(0.0);
-        mask b_up = u.corner[i + 1 < corners ? i + 1 : 0].z > lit(0.0);
-        crosses = either(crosses, either(both(a_up, not_(b_up)), both(b_up, not_(a_up))));
+    mask any_up = u.corner[0].z > lit(0.0);
+    mask all_up = any_up;
+    for (int i = 1; i < corners; ++i) {
+        mask is_up = u.corner[i].z > lit(0.0);
+        any_up = either(any_up, is_up);
+        all_up = both(all_up, is_up);
     }
-    if (no_lane(crosses)) {
+    if (no_lane(both(any_up, not_(all_up)))) {
         return ltc_uncut_light(u, corners);
     }
     // Cut the edges at the horizon

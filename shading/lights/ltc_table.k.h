@@ -70,8 +70,8 @@ BN_FN ltc_place ltc_place_of(real3 eye, real alpha_x, real alpha_y)
     real z = select(above, min(eye.z, lit(1.0)), lit(0.02));
     real radius = select(above, min(flat_length, lit(1.0)), lit(0.99979998));
     p.eye = vec3_of(radius * cosine, radius * sine, z);
-    p.theta = k_atan2(radius, z);
-    p.phi = k_atan2(sine, cosine);
+    p.theta = k_atan2_above(radius, z);
+    p.phi = k_atan2_above(sine, cosine);
     return p;
 }
 
