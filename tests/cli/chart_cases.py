@@ -339,9 +339,9 @@ def cpu_seconds(pid):
 
 
 def reference_samples(done):
-    """Returns (all samples, samples kept from before) for a chart's single reference."""
+    """Returns (all samples, samples cached before) for a chart's single reference."""
     line = next(line for line in done.err.splitlines() if line.startswith("reference"))
-    found = re.search(r": (\d+) samples?(?: \((\d+) kept\))?", line)
+    found = re.search(r": (\d+) samples?(?: \((\d+) cached\))?", line)
     return int(found[1]), int(found[2] or 0)
 
 
