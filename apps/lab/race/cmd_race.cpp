@@ -31,8 +31,8 @@ write it. The ratio compares the process' CPU times, device over tile: above 1, 
 above 0.01 over pixels without silhouettes) is marked and does not count. A row that fails, or that the lean shader cannot draw, is reported,
 and the program ends with its exit code.
 
-An engine's shader has no horizon under normal maps, and draws opaque surfaces in a pass of their own. So with the lean shader no renderer
-draws that horizon, or materials that let light through or blend. A note counts these materials.
+An engine's shader has no horizon under normal maps and no facets of distant ones, and draws opaque surfaces in a pass of their own. So with
+the lean shader no renderer draws these, or materials that let light through or blend. A note counts these materials.
 
 Examples:
   burnish race
@@ -118,7 +118,7 @@ struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
     std::vector<std::string> devices, shaders;
     int runs = 5;
-    bool lean = false; // the lean shader is among them: frames have no horizon under normal maps, and scenes are opaque
+    bool lean = false; // the lean shader is among them: normal maps have no horizon and no facets, and scenes are opaque
 };
 
 Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
@@ -127,7 +127,7 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
     plan.lean = std::find(in.shaders.begin(), in.shaders.end(), "lean") != in.shaders.end();
     RenderArguments arguments = in.render;
     if (plan.lean)
-        arguments.plain.frame.horizon = 0;
+        arguments.plain.frame.horizon = 0, arguments.plain.mips.facets = false;
     for (const std::string& scene : in.scenes)
         for (const std::string& technique : in.techniques)
             for (const int msaa : in.msaa) {
@@ -288,7 +288,7 @@ OptionTable option_table(RaceArguments& to)
                    {"--devices", "NAMES", "Devices, separated by commas; absent ones are named and left out", choices(to.devices, {})},
                    {"--shaders", "NAMES",
                     "Shaders, separated by commas: own (the kernels' text) and lean (as an engine would write it). With lean, neither "
-                    "renderer draws the horizon under normal maps, nor materials that let light through or blend",
+                    "renderer draws the horizon and facets of normal maps, nor materials that let light through or blend",
                     choices(to.shaders, {std::begin(kRaceShaders), std::end(kRaceShaders)})},
                    {"--msaa", "N,N", "Samples a pixel, separated by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
                    {"--runs", "N", "Timed frames for every row and renderer, in turn", integer(to.runs, 1, 10000)},

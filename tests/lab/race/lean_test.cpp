@@ -101,6 +101,31 @@ TEST(lean, lights_as_the_tile_renderer_does)
     }
 }
 
+// Strong normal maps by their levels alone, which the settings of mip filters ask for.
+TEST(lean, draws_strong_normal_maps_without_facets)
+{
+    const Result<std::shared_ptr<VulkanDevice>> device = lean_device();
+    if (!device)
+        GTEST_SKIP() << device.error().line();
+    Result<Scene> scene = make_builtin_scene("bumps");
+    ASSERT_TRUE(scene);
+    add_lamp(*scene, glm::vec3(0.4f, 1.3f, 0.8f), 3.0f);
+    const Stage stage(std::move(*scene), 1.0f, 2);
+    MipSettings settings;
+    settings.facets = false;
+    stage.mips = asked_mips(settings, stage.scene.materials.size());
+    Result<std::unique_ptr<Renderer>> renderer = make_vulkan_renderer(stage.input(), *device);
+    ASSERT_TRUE(renderer) << renderer.error().line();
+    FrameDesc desc;
+    desc.width = 64, desc.height = 48, desc.msaa = 1, desc.technique = "split_isotropic", desc.horizon = 0;
+    desc.view = auto_frame(stage.tables, desc.width, desc.height);
+    const Result<Frame> frame = (*renderer)->render(desc);
+    ASSERT_TRUE(frame) << frame.error().line();
+    RaceRow row;
+    compare_pictures(stage.render(desc, best_isa()).color, frame->color, {}, stage.jobs, row);
+    EXPECT_LT(row.flip_mean, kMaxWholeFlip);
+}
+
 // Returns a normal map whose normals lean to two sides in turn.
 Image waves()
 {
