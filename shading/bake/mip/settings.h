@@ -24,6 +24,7 @@ struct MipSettings {             // of all materials
     bool gains = false;          // levels' reflectances are multiplied by their gains
     bool couple_albedo = false;  // levels' base colours and metalness weigh as their texels face light and eye
     bool kaiser_colours = false; // and are averaged by ColourKernel::kaiser
+    bool facets = true;          // false: strong normal maps are drawn by their levels from afar too, as in engines
     std::string pyramid;         // levels from `burnish bake mip`
     int threads = 0;             // that make levels; 0: all cores
     bool use_cache = false;      // levels that take long are looked for in the cache, and stored there
@@ -41,6 +42,7 @@ struct MaterialMips {                           // of one material
     bool coupled = false;                       // base colours and metalness weigh as their texels face light and eye
     bool kaiser = false;                        // they are averaged by ColourKernel::kaiser
     bool gains = false;                         // levels' reflectances are multiplied by their gains
+    bool facets = true;                         // a few groups of a strong normal map's facets replace it from afar
     mipnet::Lobe lobe{};                        // of gains
     std::shared_ptr<const mipnet::Weights> net; // for filter mipnet; none: levels are brought along
 };
