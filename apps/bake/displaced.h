@@ -1,4 +1,4 @@
-// Turns height maps into displaced triangles, as ground truth for parallax mapping.
+// Turns height maps into displaced triangles, as the reference for parallax mapping.
 #pragma once
 #include <cstddef>
 #include <string>

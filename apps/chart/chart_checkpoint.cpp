@@ -49,11 +49,11 @@ Result<ChartCheckpoint> ChartCheckpoint::open(const std::string& folder, Report&
         return checkpoint;
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMaxResultsBytes);
     BN_TRY(bytes);
-    Result<ChartResults> kept = parse_chart_results(std::string(bytes->begin(), bytes->end()), path);
-    if (kept)
-        checkpoint.results_ = std::move(*kept);
+    Result<ChartResults> results = parse_chart_results(std::string(bytes->begin(), bytes->end()), path);
+    if (results)
+        checkpoint.results_ = std::move(*results);
     else
-        report.warning(fmt::format("{}: {}: everything is measured anew", path, kept.error().reason));
+        report.warning(fmt::format("{}: {}: everything is measured anew", path, results.error().reason));
     return checkpoint;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page that needs no other file), report.json, report.csv, the charts as .svg, and the pictures.
-rows.json holds the finished rows, and a stopped chart continues from it. References are kept beside the cache of environments. With the
+rows.json holds the finished rows, and a stopped chart continues from it. References are cached beside environments. With the
 defaults, one scene under one environment takes minutes on two cores.
 
 --mip measures mip filters of normals and lobes instead of frames: FLIP, L1 and MSE of each shaded level against level 0, shaded at full

@@ -167,7 +167,7 @@ Status Chart::measure_place(const Place& place)
         rows.push_back(new_row(place, setting));
         complete = complete && rows.back().measured.has_errors;
     }
-    // Render the reference and compare, unless all is kept
+    // Render the reference and compare, unless all is saved
     const std::string cached_reference = reference_name(place), picture = reference_picture(place);
     complete = complete && checkpoint_->references().count(cached_reference);
     if (std::error_code ignored; !complete || !fs::exists(picture, ignored)) {
@@ -214,7 +214,7 @@ Result<Frame> Chart::render_reference(const Place& place, ReferenceNoise& noise)
     if (!s.stopped)
         report_.event("reference", fmt::format("{} under {}, {}: {}{}{}, {:.1f} s", base_name(place.scene.data->name), base_name(place.env),
                                                describe(place.cell), counted(s.samples, "sample"),
-                                               s.samples_before ? fmt::format(" ({} kept)", s.samples_before) : "",
+                                               s.samples_before ? fmt::format(" ({} cached)", s.samples_before) : "",
                                                error_text(s.relative_error), frame->stats.ms * 1e-3));
     if (const std::uint64_t bad = s.stopped ? 0 : count_not_finite(frame->color))
         return Error{ExitCode::not_finite, place.scene.data->name, "reference", fmt::format("{} pixels are NaN or Inf", bad)};
@@ -238,7 +238,7 @@ FrameDesc Chart::timed_desc_of(const Place& place, const Setting& setting) const
     return desc;
 }
 
-// Makes the row from kept measurements. Drops its errors if their pictures are gone.
+// Makes the row from saved measurements. Drops its errors if their pictures are gone.
 ChartRow Chart::new_row(const Place& place, const Setting& setting) const
 {
     const FrameDesc desc = desc_of(place, setting);
@@ -310,9 +310,9 @@ Status Chart::find_errors(const Place& place, const Frame& reference, ChartRow& 
         if (!written)
             return written;
     row.measured.has_errors = true;
-    Measured& kept = checkpoint_->row(row.key);
-    kept.has_errors = true;
-    kept.errors = e;
+    Measured& saved_row = checkpoint_->row(row.key);
+    saved_row.has_errors = true;
+    saved_row.errors = e;
     return checkpoint_->save_sometimes();
 }
 
@@ -336,14 +336,14 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
     }
     for (std::size_t run = 0; run < runs; ++run) {
         for (const std::size_t i : order) {
-            Measured& kept = checkpoint_->row(rows[i].key);
-            if (kept.ms.size() > run)
+            Measured& saved_row = checkpoint_->row(rows[i].key);
+            if (saved_row.ms.size() > run)
                 continue;
             const double before = process_cpu_ms();
             Result<Frame> frame = place.tile.render(timed_desc_of(place, rows[i].setting), std::move(last));
             BN_TRY(frame);
-            kept.ms.push_back(frame->stats.ms);
-            kept.cpu_ms.push_back(process_cpu_ms() - before);
+            saved_row.ms.push_back(frame->stats.ms);
+            saved_row.cpu_ms.push_back(process_cpu_ms() - before);
             last = std::move(*frame);
             progress_->step();
             if (stopped())
@@ -354,8 +354,8 @@ Status Chart::time_rows(const Place& place, std::vector<ChartRow>& rows)
             return saved;
     }
     for (ChartRow& row : rows) {
-        const Measured& kept = checkpoint_->row(row.key);
-        row.measured.ms = kept.ms, row.measured.cpu_ms = kept.cpu_ms;
+        const Measured& saved_row = checkpoint_->row(row.key);
+        row.measured.ms = saved_row.ms, row.measured.cpu_ms = saved_row.cpu_ms;
         row.measured.ms.resize(runs); // an earlier chart may have had more runs
         row.measured.cpu_ms.resize(runs);
     }

@@ -154,7 +154,7 @@ std::string noise_html(const ReferenceNoise& noise)
     if (!std::isfinite(noise.flip))
         return fmt::format("<p>The reference has {} samples a pixel, too few to tell its noise.</p>\n", noise.samples);
     return fmt::format(
-        "<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the truth, on average over the "
+        "<p>The reference has {} samples a pixel: 95 % of its pixels' means are within {:.2g} % of the exact values, on average over the "
         "picture. Its noise alone makes a mean HDR-FLIP of about {}: errors of that size are the reference's own.</p>\n",
         noise.samples, 100.0 * noise.relative_error, number(noise.flip));
 }

@@ -54,7 +54,7 @@ Result<double> Chart::seconds_of_piece(const Spot& spot)
     return seconds;
 }
 
-// Measures a place into a piece, by way of a folder beside it. The reference of a killed process is kept in the cache.
+// Measures a place into a piece, by way of a folder beside it. The reference of a killed process is cached.
 Status Chart::write_piece_of(const Spot& spot, const std::string& file, const std::string& key)
 {
     const std::string folder = own_name_beside(file, ".part");
@@ -108,11 +108,11 @@ Status Chart::take_piece(const Place& place, const Packed& packed, const std::st
         checkpoint_->others() = std::max(*results->others, checkpoint_->others().value_or(0.0));
     std::vector<std::string> pictures = {reference_picture(place)};
     for (std::size_t i = 0; i < settings_.size(); ++i) {
-        const auto kept = results->rows.find(std::to_string(i));
-        if (kept == results->rows.end())
+        const auto row_at = results->rows.find(std::to_string(i));
+        if (row_at == results->rows.end())
             return damaged;
         const ChartRow row = new_row(place, settings_[i]);
-        checkpoint_->row(row.key) = kept->second;
+        checkpoint_->row(row.key) = row_at->second;
         pictures.insert(pictures.end(), {row.picture, row.error_map});
     }
     for (std::size_t i = 0; i < pictures.size(); ++i)

@@ -129,15 +129,15 @@ void mark_pareto(std::vector<ChartRow>& rows)
     }
 }
 
-std::string chart_results_json(const ChartResults& kept)
+std::string chart_results_json(const ChartResults& results)
 {
     Json json = {{"kept_version", kChartResultsVersion},
                  {"rows", Json::object()},
                  {"references", Json::object()},
-                 {"other_load", load_json(kept.others)}};
-    for (const auto& [key, noise] : kept.references)
+                 {"other_load", load_json(results.others)}};
+    for (const auto& [key, noise] : results.references)
         json["references"][key] = noise_json(noise);
-    for (const auto& [key, m] : kept.rows) {
+    for (const auto& [key, m] : results.rows) {
         Json row = m.has_errors ? errors_json(m.errors) : Json::object();
         row["ms"] = m.ms;
         row["cpu_ms"] = m.cpu_ms;

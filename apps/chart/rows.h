@@ -82,7 +82,7 @@ std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& poi
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
 
 inline constexpr int kChartResultsVersion = 3; // file layout
-std::string chart_results_json(const ChartResults& kept);
+std::string chart_results_json(const ChartResults& results);
 Result<ChartResults> parse_chart_results(const std::string& text, const std::string& file);
 std::string report_json(const ChartReport& report);
 std::string report_csv(const ChartReport& report); // rows only

@@ -35,16 +35,16 @@ Result<ChartResults> parse_chart_results(const std::string& text, const std::str
 {
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
-        ChartResults kept;
+        ChartResults results;
         if (json.at("kept_version") != kChartResultsVersion)
-            return kept;
+            return results;
         if (json.contains("other_load") && !json["other_load"].is_null())
-            kept.others = json["other_load"].get<double>();
+            results.others = json["other_load"].get<double>();
         for (const auto& [key, noise] : json.at("references").items())
-            kept.references[key] = {count_of(noise.at("samples")), number_of(noise.at("relative_error")),
-                                    number_of(noise.at("flip_noise"))};
+            results.references[key] = {count_of(noise.at("samples")), number_of(noise.at("relative_error")),
+                                       number_of(noise.at("flip_noise"))};
         for (const auto& [key, row] : json.at("rows").items()) {
-            Measured& m = kept.rows[key];
+            Measured& m = results.rows[key];
             m.ms = row.at("ms").get<std::vector<double>>();
             m.cpu_ms = row.at("cpu_ms").get<std::vector<double>>();
             if (m.cpu_ms.size() != m.ms.size() || !are_times(m.ms) || !are_times(m.cpu_ms))
@@ -59,7 +59,7 @@ Result<ChartResults> parse_chart_results(const std::string& text, const std::str
                 if (!is_error_or_unknown(error))
                     return Error{ExitCode::bad_input, file, "", "holds an error below 0"};
         }
-        return kept;
+        return results;
     } catch (const nlohmann::json::exception&) {
         return Error{ExitCode::bad_input, file, "", "does not hold the rows of a chart"};
     }

@@ -39,7 +39,7 @@ Examples:
   burnish compare reference.png test.png --error-map error.png --html report.html
   burnish compare reference.exr test.exr --fail-flip 0.02 --fail-max 0.5
   burnish compare expected/ actual/ --fail-flip 0.01 --junit junit.xml --csv figures.csv
-  burnish compare --sequence truth_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
+  burnish compare --sequence reference_%04d.exr test_%04d.exr --fail-flicker 0.002 --csv frames.csv
   burnish compare reference.exr test.exr --second-reference other_seed.exr
   burnish compare reference.exr test.exr --html report.html --live "lamp.glb --technique auto --size 640x360"
   burnish compare mean.exr test.exr --variance variance.exr --significance 0.01)";

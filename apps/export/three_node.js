@@ -100,8 +100,8 @@ class BurnishMaterial extends MeshPhysicalNodeMaterial {
 const known = [new WeakMap(), new WeakMap()]; // by multipleScattering, material, then environment
 
 function improved(material, environment, multipleScattering) {
-  const usual = material.type === 'MeshPhysicalMaterial' || material.constructor === MeshPhysicalNodeMaterial;
-  if (!usual || !(material.anisotropy > 0 || material.anisotropyNode) || material.envMap || material.envNode || material.sheen > 0 ||
+  const physical = material.type === 'MeshPhysicalMaterial' || material.constructor === MeshPhysicalNodeMaterial;
+  if (!physical || !(material.anisotropy > 0 || material.anisotropyNode) || material.envMap || material.envNode || material.sheen > 0 ||
       material.sheenNode || material.iridescence > 0 || material.iridescenceNode || material.retroreflectivity > 0)
     return material;
   const same = known[Number(multipleScattering)], of = same.get(material) ?? new WeakMap();

@@ -196,8 +196,8 @@ GoldenRow read_row(const JsonValue& of, const std::string& place, const Defaults
         throw Mistake{place + "/hold", "needs the golden picture, and this row keeps its hash alone"};
     if (row.hash_alone && !row.mask.empty())
         throw Mistake{place + "/mask", "needs the golden picture, and this row keeps its hash alone"};
-    const fs::path usual = fs::path(defaults.goldens) / (file_stem(row.name) + (row.hash_alone ? ".hash" : row.extension));
-    row.golden = text_of(of, "golden", place, usual.string());
+    const fs::path standard = fs::path(defaults.goldens) / (file_stem(row.name) + (row.hash_alone ? ".hash" : row.extension));
+    row.golden = text_of(of, "golden", place, standard.string());
     if (fs::path(row.golden).lexically_normal() == fs::path(row.picture).lexically_normal())
         throw Mistake{place + "/golden", "is the picture itself"};
     return row;

@@ -16,7 +16,7 @@
   }
 
   let opening = 0;  // dialogs that were closed so far
-  let lost = null, begun = null, kept = null, running = null, asked = 0, lead = null;
+  let lost = null, begun = null, unpacked = null, running = null, asked = 0, lead = null;
 
   // A worker with a renderer of its own. ask(message) returns a promise of its answer.
   class Renderer {
@@ -65,8 +65,8 @@
 
   async function begin() {
     await until_wanted();
-    kept ||= unpack();
-    const contents = await kept;
+    unpacked ||= unpack();
+    const contents = await unpacked;
     lead = new Renderer(error => { if (error.name !== 'AbortError') lost = error; });
     await lead.ask(contents);
   }
@@ -93,7 +93,7 @@
 
   // Starts the helpers after a first picture that has bands. They prepare that picture's scene.
   async function hire(body) {
-    const mine = lead, { files } = await kept, bytes = Object.values(files).reduce((sum, file) => sum + file.byteLength, 0);
+    const mine = lead, { files } = await unpacked, bytes = Object.values(files).reduce((sum, file) => sum + file.byteLength, 0);
     const most = Math.min(kMostWorkers, navigator.hardwareConcurrency || 1, Math.floor(kMostBytes / (kWorkerBytes + 4 * bytes)));
     if (1 + starting.size + helpers.size >= most || !may_share(body)) return;
     const first = await ask_part(mine, body, 0, 0.1);  // a band without rows is never refused
@@ -105,7 +105,7 @@
     const helper = new Renderer(() => { starting.delete(helper), helpers.delete(helper); });
     starting.add(helper);
     try {
-      await helper.ask(await kept);
+      await helper.ask(await unpacked);
       await ask_part(helper, body, 0, 0.01);
       if (starting.delete(helper)) helpers.add(helper);
     } catch (fault) { helper.end(fault); }  // a page of fewer workers

@@ -247,7 +247,7 @@ std::vector<Option> reference_rows(RenderArguments& to)
          choice(r.mode, {std::begin(kReferenceModes), std::end(kReferenceModes)})},
         {"--bounces", "N", "Bounces from surface to surface at most, in mode path", integer(r.bounces, 0, kMaxBounces)},
         {"--reference-textures", "NAME",
-         "Texture reads: footprint (filtered over a pixel, as in techniques) or full (at each ray's hit, the truth for maps)",
+         "Texture reads: footprint (filtered over a pixel, as in techniques) or full (at each ray's hit, the reference for maps)",
          choice(r.full_textures, {"footprint", "full"})},
         {"--target-error", "E",
          "Stop early at this relative error: half the 95 % confidence interval over the mean, averaged over the pixels",

@@ -28,7 +28,7 @@ Status check_camera(const RenderOptions& out)
     return {};
 }
 
-constexpr int kBandRows = 256, kRowsAtOnce = 16; // usual rows of a band; rows that compressors of .exr take at once
+constexpr int kBandRows = 256, kRowsAtOnce = 16; // default rows of a band; rows that compressors of .exr take at once
 
 // Returns true for pictures that no frame holds.
 bool needs_bands(const FrameDesc& frame)

@@ -41,8 +41,8 @@ bool is_large(const std::vector<std::string>& words)
     return width > kMaxPictureSide || height > kMaxPictureSide || width * height * samples > kMaxPictureSamples;
 }
 
-// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas, truths for engines, levels, a table,
-// nets, or goldens.
+// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas. Also references for engines, levels, a
+// table, nets, and goldens.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {

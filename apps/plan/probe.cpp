@@ -62,7 +62,7 @@ double flip_of(double square)
     return det_pow(std::max(0.0, square), 0.5 * kFlipExponent);
 }
 
-// Returns one noisy picture's squared error to the truth, relative to two noisy ones'.
+// Returns one noisy picture's squared error to the exact picture, relative to two noisy ones'.
 double squared_error_of_one()
 {
     return flip_of(0.5) * flip_of(0.5);

@@ -29,7 +29,7 @@ ReferenceOptions cached_reference_options(ReferenceOptions options, const Refere
     options.checkpoint_folder = reference_folder(home);
     options.checkpoint_seconds = home.save_every;
     options.own_checkpoint = true;
-    options.lost_checkpoint = [&report](const Error& error) { report.warning("the reference is not kept: " + error.line()); };
+    options.lost_checkpoint = [&report](const Error& error) { report.warning("the reference is not cached: " + error.line()); };
     return options;
 }
 

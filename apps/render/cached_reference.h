@@ -1,4 +1,4 @@
-// References for charts and the atlas, kept on disk and made once.
+// References for charts and the atlas, cached on disk and made once.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace burnish {
 
-struct ReferenceCache {     // where references are kept
+struct ReferenceCache {     // where references are cached
     bool use_cache = true;  // beside the cached environments, shared by all charts of a view
     std::string folder;     // fallback without that cache; empty: nowhere
     double save_every = 10; // seconds between saves

@@ -13,9 +13,9 @@
 namespace burnish {
 
 struct PlanFigures {
-    std::optional<double> budget, budget_ms;             // mean HDR-FLIP; milliseconds of processor time
-    double predicted = 0.0;                              // mean HDR-FLIP
-    double instructions = 0.0, usual_instructions = 0.0; // for shading, by the plan and by the default technique
+    std::optional<double> budget, budget_ms;               // mean HDR-FLIP; milliseconds of processor time
+    double predicted = 0.0;                                // mean HDR-FLIP
+    double instructions = 0.0, default_instructions = 0.0; // for shading, by the plan and by the default technique
     std::optional<double> predicted_ms;
 };
 

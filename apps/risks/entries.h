@@ -51,7 +51,8 @@ struct AtlasSetting {
 };
 
 enum class AtlasRole { test, cure, reference };
-// Returns the picture at s in [0,1], `side` pixels wide and high. `samples` a pixel of the reference; 0: the entry's usual number.
+// Returns the picture at s in [0,1], `side` pixels wide and high. samples: the reference's a pixel; other roles
+// ignore it.
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
 
 // Reads many settings with one option table: making the table takes longer than reading a setting.

@@ -16,8 +16,8 @@
 namespace burnish {
 namespace {
 
-constexpr std::size_t kKeptSessions = 4, kKeptPictures = 8;
-constexpr std::int64_t kKeptPixels = 8 << 20; // of all kept pictures
+constexpr std::size_t kCachedSessions = 4, kCachedPictures = 8;
+constexpr std::int64_t kCachedPixels = 8 << 20; // of all cached pictures
 
 std::vector<std::string> files_read(const Session& session)
 {
@@ -99,7 +99,7 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     const Time begin = Time::clock::now();
     std::uint64_t changes = 0;
     {
-        const std::lock_guard lock(kept_);
+        const std::lock_guard lock(cache_);
         changes = changes_;
         for (auto at = sessions_.begin(); at != sessions_.end() && !reference; ++at) // a reference's session holds its number of samples
             if (at->key == key) {
@@ -118,14 +118,14 @@ Result<Drawings::Prepared> Drawings::prepared(const DrawRequest& request, const 
     BN_TRY(session);
     made.session = std::make_shared<Session>(std::move(*session));
     made.warnings = report.warnings();
-    const std::lock_guard lock(kept_);
+    const std::lock_guard lock(cache_);
     for (const std::string& path : files_read(*made.session)) {
         const Time time = time_of(path);
         note_file(path, time > begin ? Time::min() : time); // changed while it was read
     }
     if (!reference && changes == changes_) {
         sessions_.push_front(made);
-        if (sessions_.size() > kKeptSessions)
+        if (sessions_.size() > kCachedSessions)
             sessions_.pop_back();
     }
     return made;
@@ -204,8 +204,8 @@ Result<DrawnBand> Drawings::draw_part(const DrawRequest& request, double from, d
 
 bool Drawings::keeps(const DrawRequest& request)
 {
-    const std::lock_guard lock(kept_);
-    return std::any_of(pictures_.begin(), pictures_.end(), [&](const auto& kept) { return kept.first == request; });
+    const std::lock_guard lock(cache_);
+    return std::any_of(pictures_.begin(), pictures_.end(), [&](const auto& entry) { return entry.first == request; });
 }
 
 Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, std::vector<DrawnBand> bands, double ms)
@@ -244,7 +244,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::join(const DrawRequest& request, 
         return usage_error("bands", fmt::format("have {} of {} rows", rows, height));
     out.figures.hash = hash.value(), out.figures.frame_ms = {ms};
     const std::shared_ptr<const Drawn> drawn = drawn_of(std::move(*opened), std::move(out));
-    const std::lock_guard lock(kept_);
+    const std::lock_guard lock(cache_);
     keep(request, drawn);
     return drawn;
 }
@@ -258,7 +258,7 @@ void Drawings::stop_older(bool passing)
 
 void Drawings::stop()
 {
-    const std::lock_guard lock(kept_);
+    const std::lock_guard lock(cache_);
     ending_ = true;
     end_.request_stop();
     for (Running* running : running_)
@@ -271,7 +271,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
     const std::uint64_t mine = call.passing ? ++latest_ : 0;
     Running running{{}, reference, call.passing};
     {
-        const std::lock_guard lock(kept_);
+        const std::lock_guard lock(cache_);
         stop_older(call.passing);
         running_.push_back(&running);
         if (ending_)
@@ -282,7 +282,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
         Running* running;
         ~Leave()
         {
-            const std::lock_guard lock(of.kept_);
+            const std::lock_guard lock(of.cache_);
             of.running_.remove(running);
         }
     } leave{*this, &running};
@@ -291,7 +291,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
         return overtaken();
     std::uint64_t changes = 0;
     {
-        const std::lock_guard lock(kept_);
+        const std::lock_guard lock(cache_);
         changes = changes_;
         for (auto at = pictures_.begin(); at != pictures_.end(); ++at)
             if (at->first == request) {
@@ -305,7 +305,7 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
         drawn = draw_now(request, running.stop.get_token());
     }
     BN_TRY(drawn);
-    const std::lock_guard lock(kept_);
+    const std::lock_guard lock(cache_);
     if (changes != changes_) // of files that are others now
         return drawn;
     keep(request, *drawn);
@@ -314,14 +314,14 @@ Result<std::shared_ptr<const Drawn>> Drawings::draw(const DrawRequest& request, 
 
 void Drawings::keep(const DrawRequest& request, const std::shared_ptr<const Drawn>& drawn)
 {
-    pictures_.remove_if([&](const auto& kept) { return kept.first == request; });
+    pictures_.remove_if([&](const auto& entry) { return entry.first == request; });
     pictures_.emplace_front(request, drawn);
     std::int64_t pixels = 0;
-    std::size_t kept = 0;
+    std::size_t count = 0;
     auto at = pictures_.begin();
-    for (; at != pictures_.end() && kept < kKeptPictures; ++at, ++kept) {
+    for (; at != pictures_.end() && count < kCachedPictures; ++at, ++count) {
         pixels += std::int64_t{at->first.width} * at->first.height;
-        if (kept > 0 && pixels > kKeptPixels)
+        if (count > 0 && pixels > kCachedPixels)
             break;
     }
     pictures_.erase(at, pictures_.end());
@@ -329,7 +329,7 @@ void Drawings::keep(const DrawRequest& request, const std::shared_ptr<const Draw
 
 std::uint64_t Drawings::look_for_changes()
 {
-    const std::lock_guard lock(kept_);
+    const std::lock_guard lock(cache_);
     if (std::any_of(files_.begin(), files_.end(), [](const auto& file) { return time_of(file.first) != file.second; })) {
         sessions_.clear(), pictures_.clear(), files_.clear();
         ++changes_;

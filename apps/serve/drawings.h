@@ -1,4 +1,4 @@
-// Draws the pictures that pages ask for. Sessions and pictures of the last requests are kept.
+// Draws the pictures that pages ask for. Sessions and pictures of the last requests are cached.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -40,7 +40,7 @@ class Drawings {
         bool passing = false;       // left out where a later passing request waits
         std::function<bool()> gone; // true once nobody waits for the picture
     };
-    // Draws, or returns a kept picture. Any thread may call it; one tile picture and one reference are drawn at a time. A picture stops
+    // Draws, or returns a cached picture. Any thread may call it; one tile picture and one reference are drawn at a time. A picture stops
     // where nobody waits, a reference where another request comes, and a passing picture where another passing request comes: an error of
     // ExitCode::differ. Other errors are those of `burnish render`.
     Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request, const Call& call);
@@ -87,9 +87,9 @@ class Drawings {
     Limits limits_;
     int threads_ = 0;
     std::stop_source end_;
-    std::mutex tile_, reference_, kept_;
+    std::mutex tile_, reference_, cache_;
     std::atomic<std::uint64_t> latest_ = 0; // of passing requests
-    // Under kept_:
+    // Under cache_:
     std::list<Prepared> sessions_;                                             // the latest first
     std::list<std::pair<DrawRequest, std::shared_ptr<const Drawn>>> pictures_; // the latest first
     std::vector<std::pair<std::string, Time>> files_;                          // that sessions were made from

@@ -52,15 +52,15 @@ Result<std::vector<Row>> accuracy_rows(const RunOptions& options)
         desc.width = kWidth, desc.height = kHeight, desc.msaa = 8;
         desc.view = bench_view(BenchScene::sphere, tables, kWidth, kHeight);
         desc.roughness = kRoughness, desc.override_anisotropy = true, desc.anisotropy = eta;
-        const Result<Frame> truth = (*reference)->render(desc);
-        BN_TRY(truth);
+        const Result<Frame> exact = (*reference)->render(desc);
+        BN_TRY(exact);
         double flip[2] = {};
         const char* const techniques[2] = {"major_axis", "major_axis_adaptive"};
         for (int i = 0; i < 2; ++i) {
             desc.technique = techniques[i], desc.samples = 16;
             const Result<Frame> frame = tile->render(desc);
             BN_TRY(frame);
-            flip[i] = mean_flip(truth->color, frame->color, jobs);
+            flip[i] = mean_flip(exact->color, frame->color, jobs);
         }
         const double more = flip[1] - flip[0];
         rows.push_back(

@@ -16,7 +16,7 @@ and without extracted lights:
   - Extracted lights: places that they make worse, and the mean with them over the mean without where there are some and roughness is at most 0.65.
   - The floor: mean FLIP that the references' own noise alone makes.
 
-References are kept beside the cache of environments: a second run does not make them again. What is stopped goes on where --work names
+References are cached beside environments: a second run does not make them again. What is stopped goes on where --work names
 the same folder. Exit code: 0 measured, whether aims are met or not; 2 something could not be run.
 """
 

@@ -135,8 +135,8 @@ def main():
     worse = 0
     for roughness, anisotropy in LOBES:
         lobe = {**view, "roughness": roughness, "anisotropy": anisotropy}
-        truth = scene.reference(samples=1024, brdf="ashikhmin_shirley", **lobe)
-        truth.save(str(arguments.work / "truth.pfm"))
+        reference = scene.reference(samples=1024, brdf="ashikhmin_shirley", **lobe)
+        reference.save(str(arguments.work / "reference.pfm"))
         layers = scene.render(technique="as_mc", samples=16, msaa=1, layers=["normal", "tangent"], **lobe)
         normal, tangent = (np.asarray(layers.layer(name), dtype=np.float64).reshape(-1, 3) for name in ("normal", "tangent"))
         seen = np.linalg.norm(normal, axis=1) > 0.5
@@ -149,7 +149,7 @@ def main():
             picture[seen] = shaded(environment, normal[seen], tangent[seen], eye[seen], roughness, anisotropy, count)
             write_pfm(arguments.work / f"thesis-{roughness}-{count}.pfm", picture.reshape(SIZE, SIZE, 3))
             scene.render(technique="as_mc", samples=count, msaa=1, **lobe).save(str(arguments.work / f"as_mc-{roughness}-{count}.pfm"))
-            own, ours = (figures(arguments.program, arguments.work / "truth.pfm", arguments.work / f"{name}-{roughness}-{count}.pfm") for name in ("thesis", "as_mc"))
+            own, ours = (figures(arguments.program, arguments.work / "reference.pfm", arguments.work / f"{name}-{roughness}-{count}.pfm") for name in ("thesis", "as_mc"))
             print(f"roughness {roughness} anisotropy {anisotropy} {count:5} samples: FLIP {own['flip_mean']:.4f} as_mc {ours['flip_mean']:.4f}; "
                   f"pattern {own['pattern_rms']:.3f} as_mc {ours['pattern_rms']:.3f}", flush=True)
             worse += ours["flip_mean"] > own["flip_mean"]

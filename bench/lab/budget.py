@@ -4,8 +4,8 @@
 Usage: budget.py --program build/release/burnish [--cases N] [--models FOLDER] [--environments FOLDER] [--work FOLDER] [--markdown FILE]
 
 Draws seeded cases: a scene, its materials as they are or with one roughness and anisotropy, an environment, a view. Scenes and environments
-of the first two thirds are never those of the last third. A case's truth is mc with many samples, by the same renderer, so that techniques
-alone are judged; the truth's noise is measured and taken out, and cases with a noise above half the budget are left out. Per budget:
+of the first two thirds are never those of the last third. A case's reference is mc with many samples, by the same renderer, so that techniques
+alone are judged; the reference's noise is measured and taken out, and cases with a noise above half the budget are left out. Per budget:
 
   - broken: share of pictures above the budget, and the worst picture's error over the budget;
   - factor: 98 % of the errors of the first two thirds lie below their prediction times the factor (split conformal prediction; Papadopoulos
@@ -27,7 +27,7 @@ import tempfile
 
 SIZE = "480x270"
 BUDGETS = (0.1, 0.03, 0.01)
-TRUTH, NOISY = 4096, 1024  # samples of mc
+REFERENCE, NOISY = 4096, 1024  # samples of mc
 BUILTINS = ("teapot", "spheres", "sphere", "plate", "bumps", "lacquer", "shaderballs")
 UNSEEN_BUILTINS = ("bumps", "shaderballs")
 FIXED = [("split_isotropic", 1), ("bent_normal", 1), ("major_axis_weighted", 4), *(("lobe_line", n) for n in (5, 9, 17, 36, 64)),
@@ -69,20 +69,20 @@ class Bench:
             self.run("render", *case, *words, "-q", "-o", path)
         return path
 
-    def flip(self, truth, test):
-        return float(re.search(r"flip-hdr +mean ([\d.]+)", self.run("compare", truth, test, "--metric", "flip-hdr"))[1])
+    def flip(self, reference, test):
+        return float(re.search(r"flip-hdr +mean ([\d.]+)", self.run("compare", reference, test, "--metric", "flip-hdr"))[1])
 
     def measure(self, index, case):
         """{"plans": {budget: ...}, "fixed": [[error, instructions]...], "usual": instructions}"""
         kept = self.folder / f"{index}.json"
         if kept.exists():
             return json.loads(kept.read_text())
-        truth = self.picture("truth.pfm", case, "--technique", "mc", "--samples", TRUTH)
+        reference = self.picture("reference.pfm", case, "--technique", "mc", "--samples", REFERENCE)
         noisy = self.picture("noisy.pfm", case, "--technique", "mc", "--samples", NOISY, "--seed", 9)
-        noise = self.flip(truth, noisy) * (NOISY / TRUTH) ** 0.5  # of the truth
+        noise = self.flip(reference, noisy) * (NOISY / REFERENCE) ** 0.5  # of the reference
 
         def error(path):
-            return max(0.0, self.flip(truth, path) ** 2 - noise**2) ** 0.5
+            return max(0.0, self.flip(reference, path) ** 2 - noise**2) ** 0.5
 
         row = {"case": case, "noise": noise, "plans": {}, "fixed": []}
         for budget in BUDGETS:
@@ -104,7 +104,7 @@ class Bench:
                        if (s["technique"], s["samples"]) == (technique, samples))
             row["fixed"].append([error(path), cost])
         row.pop("materials", None)
-        for name in ("truth.pfm", "noisy.pfm"):
+        for name in ("reference.pfm", "noisy.pfm"):
             (self.folder / name).unlink()
         kept.write_text(json.dumps(row))
         return row

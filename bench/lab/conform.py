@@ -6,7 +6,7 @@ Usage: conform.py --program build/release/burnish --engines FOLDER [--work FOLDE
 FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. Each engine draws the scenes of a conformance folder in headless
 Chromium, as its page there does, with a piece of code that makes the mistake. Scenes that the engine draws wrongly by itself are left out.
 Prints a row for each: the mistake made, the mistakes named. Mistakes that begin with "unknown" are none of burnish's: none may be named. --modules draws with the
-exported modules of burnish in three.js and Babylon.js, and prints each scene's distance to the truth before and after, and to the tile
+exported modules of burnish in three.js and Babylon.js, and prints each scene's distance to the reference before and after, and to the tile
 renderer's picture. Exit code: 0 measured; 2 something could not be run.
 """
 
@@ -215,11 +215,11 @@ def picture_of(folder, scene):
     return next(file for file in folder.glob(f"{scene}.*") if "variance" not in file.name)
 
 
-def distances(program, folder, pictures, truths=None):
-    """Returns each scene's mean FLIP to its truth, or to the pictures of another folder."""
+def distances(program, folder, pictures, references=None):
+    """Returns each scene's mean FLIP to its reference, or to the pictures of another folder."""
     found = {}
     for scene in (s["name"] for s in json.loads((folder / "conform.json").read_text())["scenes"]):
-        run = subprocess.run([program, "compare", picture_of(truths or folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
+        run = subprocess.run([program, "compare", picture_of(references or folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
                              capture_output=True, text=True)
         if run.returncode:
             raise RuntimeError(run.stderr.strip())
@@ -228,7 +228,7 @@ def distances(program, folder, pictures, truths=None):
 
 
 def improve(program, folder, work, engine, technique, samples, server):
-    """Prints each scene's distance to the truth: the engine as it is, and with the exported module."""
+    """Prints each scene's distance to the reference: the engine as it is, and with the exported module."""
     server.pages["/pages/burnish.js"] = subprocess.run([program, "export", engine, "--technique", technique, "--samples", str(samples), "-o", "-", "--quiet"],
                                                        check=True, capture_output=True, text=True).stdout
     found = {}
@@ -254,7 +254,7 @@ def main():
     parser.add_argument("--engines", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--only", default="three,babylon,burnish")
-    parser.add_argument("--modules", metavar="TECHNIQUE:SAMPLES", help="draw with the exported modules instead, and print distances to the truth")
+    parser.add_argument("--modules", metavar="TECHNIQUE:SAMPLES", help="draw with the exported modules instead, and print distances to the reference")
     parser.add_argument("--json")
     given = parser.parse_args()
     temporary = tempfile.TemporaryDirectory()

@@ -85,11 +85,11 @@ def correlation(field, inside, width, height, lag):
     return products / max(squares, 1e-30)
 
 
-def pattern(truth, test, width, height):
+def pattern(reference, test, width, height):
     """{rms, one, two, rise} of the relative error."""
-    dim = 0.1 * mean([v for v in truth if v > 0.0])
-    inside = [1.0 if v > 0.0 else 0.0 for v in truth]
-    error = [(b - a) / (a + dim) if i else 0.0 for a, b, i in zip(truth, test, inside)]
+    dim = 0.1 * mean([v for v in reference if v > 0.0])
+    inside = [1.0 if v > 0.0 else 0.0 for v in reference]
+    error = [(b - a) / (a + dim) if i else 0.0 for a, b, i in zip(reference, test, inside)]
     fine = less_its_mean(error, inside, width, height, 2)
     coarse = less_its_mean(error, inside, width, height, 8)
     lags = [correlation(coarse, inside, width, height, lag) for lag in range(1, 17)]
@@ -109,9 +109,9 @@ def patterns(program, folder, environments, samples):
                     "noise": picture(program, folder, environment, roughness, eta, ("--backend", "reference", "--samples", samples, "--seed", "7"))}
         for technique in TECHNIQUES:
             pictures[technique] = picture(program, folder, environment, roughness, eta, ("--technique", technique, "--samples", "16"))
-        width, height, truth = read_pfm(pictures.pop("reference"))
+        width, height, reference = read_pfm(pictures.pop("reference"))
         for name, path in pictures.items():
-            p = pattern(truth, read_pfm(path)[2], width, height)
+            p = pattern(reference, read_pfm(path)[2], width, height)
             print(f"{pathlib.Path(environment).name} roughness {roughness} eta {eta:+} {name:<20} rms {p['rms']:.4f}  "
                   f"one {p['one']:+.3f}  two {p['two']:+.3f}  rise {p['rise']:.3f}")
             rows.append({"env": wanted, "roughness": roughness, "anisotropy": eta, "name": name, **p})

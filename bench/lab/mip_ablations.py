@@ -7,7 +7,7 @@ Usage: mip_ablations.py --program build/release/burnish [--seconds N] [--brdf NA
 Each row is a net that `burnish train mip` makes in --seconds of CPU time (60): the time a step takes is measured first, and the steps that
 fit are trained, on one thread. A row's command makes the same bytes again. Nets are judged by `--evaluate --validation`: new materials of
 trained families, none of those that reports are made of. Columns: FLIP, L1 and MSE times 1000, their change against plain means, how far
-the mean radiance of a level is from the truth's (mean of |found / truth - 1|), and how anisotropic level 3 of round ridges is, the mean of
+the mean radiance of a level is from the reference's (mean of |found / reference - 1|), and how anisotropic level 3 of round ridges is, the mean of
 its lobes' greater width over the lesser, as a share of what the search `teacher` finds. `--only "two lobes"` is a second table: grain that
 crosses below a texel, by the best lobe a texel that a search finds and by the best two, of half the light each.
 --material adds three rows that are judged on one material alone: of the first net, of one that is trained on nothing else, and of the first
@@ -72,7 +72,7 @@ class Bench(Program):
 
 
 def mean_of(rows, name):
-    """Of a filter's rows; light: how far the mean radiance of a level is from the truth's."""
+    """Of a filter's rows; light: how far the mean radiance of a level is from the reference's."""
     rows = [row for row in rows if row["filter"] == name]
     mean = {metric: sum(row["mean"][metric] for row in rows) / len(rows) for metric in ("flip", "l1", "mse")}
     off = [abs(level["light"] - 1) for row in rows for level in row["levels"]]
@@ -127,7 +127,7 @@ def measure(options, work):
     make_ridges(work)
     ridges = ("bake", "mip", "ridges", "--brdf", options.brdf, "-q", "-o", "ridges.mip", "--mip-filter")
     bench.run(*ridges, "teacher")
-    truth = anisotropy(work / "ridges.mip", 3)
+    reference = anisotropy(work / "ridges.mip", 3)
     print("| net | steps | CPU | FLIP | L1 | MSE | to plain means | light | anisotropy | |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     wanted = [name for name in options.only.split(",") if name]
@@ -136,7 +136,7 @@ def measure(options, work):
             continue
         file, steps, took = bench.train(name, words)
         bench.run(*ridges, "mipnet", "--fallback", "off", "--mip-net", file)
-        ratio = anisotropy(work / "ridges.mip", 3) / truth
+        ratio = anisotropy(work / "ridges.mip", 3) / reference
         rows = bench.judged(file, "--validation")
         mean, base = mean_of(rows, "mipnet"), mean_of(rows, "baseline")
         line_of(name, steps, took, mean, base, f"{ratio:.2f}", note)

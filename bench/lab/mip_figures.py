@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Figures of the MIPNet paper (Gauthier et al. 2022) with this program's filters: pictures, FLIP's maps to the truth, levels in false colour.
+"""Figures of the MIPNet paper (Gauthier et al. 2022) with this program's filters: pictures, FLIP's maps to the reference, levels in false colour.
 
 Usage: mip_figures.py --program build/release/burnish -o FOLDER [--figure N,N,...] [--textures FOLDER] [--size WxH] [--samples N]
                       [--seconds N] [--work FOLDER] [--json FILE]
@@ -7,7 +7,7 @@ Usage: mip_figures.py --program build/release/burnish -o FOLDER [--figure N,N,..
 1: the balls of builtin:shaderballs; 4, 5, 6: materials (--textures, a folder each; a normal map alone is a metal) under Ashikhmin and Shirley's, GGX's and Beckmann's
 normals; 8: ridges that become anisotropy, maps of level 2 beside what they draw; 9: the second net seen once and four times in training
 (--seconds of CPU time each, 20). FOLDER/figure_N.png is a row a material with a row of FLIP's maps below it, columns as printed; a line a
-picture: mean FLIP, the tone curve's picture at 67 pixels a degree. The truth is the reference that reads all texels, of 2 N samples.
+picture: mean FLIP, the tone curve's picture at 67 pixels a degree. The reference reads all texels, with 2 N samples.
 Pictures are drawn small, so that balls show middle levels, and shown three times as large.
 
 Exit code: 0; 2 something could not be run.
@@ -58,20 +58,20 @@ class Figures(Bench):
         self.folder, self.figures = folder, []
 
     def drawn(self, figure, name, words, looks):
-        """The truth and each look of a scene; then FLIP's maps, and the levels that the last look reads."""
+        """The reference and each look of a scene; then FLIP's maps, and the levels that the last look reads."""
         o = self.options
         common = ("render", *words, "--frame-map", "quaternion", "--fov", 22, "--size", o.size, "--env-size", 128, "-q")
-        self.run(*common, "--backend", "reference", "--reference-textures", "full", "--samples", 2 * o.samples, "-o", "truth.png")
-        truth, pictures, maps = picture(self.work / "truth.png", TIMES), [], []
+        self.run(*common, "--backend", "reference", "--reference-textures", "full", "--samples", 2 * o.samples, "-o", "reference.png")
+        reference, pictures, maps = picture(self.work / "reference.png", TIMES), [], []
         for look, more in looks:
             self.run(*common, *more, "--technique", "mc", "--samples", o.samples, "--msaa", 8, "-o", "look.png")
-            found = json.loads(self.run("compare", "truth.png", "look.png", "--metric", "flip", "--error-map", "map.png", "--json", "-"))
+            found = json.loads(self.run("compare", "reference.png", "look.png", "--metric", "flip", "--error-map", "map.png", "--json", "-"))
             pictures.append(picture(self.work / "look.png", TIMES))
             maps.append(picture(self.work / "map.png", TIMES))
             self.figures.append({"figure": figure, "scene": name, "look": look, "flip": found["flip_mean"]})
         self.run(*common, *looks[-1][1], "--technique", "mc", "--samples", 1, "--show", "lod", "-o", "lod.png")
         print(f"figure {figure}, {name}: " + ", ".join(f"{row['look']} {row['flip']:.4f}" for row in self.figures[-len(looks):]), flush=True)
-        return [beside([*pictures, truth]), beside([*maps, picture(self.work / "lod.png", TIMES)])]
+        return [beside([*pictures, reference]), beside([*maps, picture(self.work / "lod.png", TIMES)])]
 
     def write(self, figure, rows, columns):
         path = self.folder / f"figure_{figure}.png"
@@ -81,7 +81,7 @@ class Figures(Bench):
     def balls(self):
         looks = [(name, ("--mip-filter", name)) for name in ("baseline", "mipnet")]
         rows = [row for camera in ("near", "mid") for row in self.drawn(1, camera, ("builtin:shaderballs", "--camera", camera), looks)]
-        self.write(1, rows, "baseline, mipnet, the truth")
+        self.write(1, rows, "baseline, mipnet, the reference")
 
     def material(self, folder):
         """The folder, or, where the names in it are none that the program knows, its normal map as a metal of roughness .35."""
@@ -102,7 +102,7 @@ class Figures(Bench):
         for folder in [folders[i * len(folders) // count] for i in range(min(count, len(folders)))]:
             words = ("builtin:shaderballs", "--camera", "near", "--material", self.material(folder), "--brdf", brdf)
             rows += self.drawn(figure, folder.name, words, looks)
-        self.write(figure, rows, ", ".join(names) + ", the truth")
+        self.write(figure, rows, ", ".join(names) + ", the reference")
 
     def transfer(self):
         make_ridges(self.work, 512)
@@ -111,7 +111,7 @@ class Figures(Bench):
         maps = beside([[row[:768] for row in picture(self.work / "ridges/normal.png")[:256]], level("normal"), level("lobe")])
         looks = [("baseline", ("--mip-filter", "baseline")), ("mipnet", ("--mip-filter", "mipnet", "--fallback", "off"))]
         self.write(8, [maps, *self.drawn(8, "ridges", ("builtin:shaderballs", "--camera", "near", "--material", "ridges"), looks)],
-                   "above: normals of level 0, normals and lobes of level 2; baseline, mipnet, the truth")
+                   "above: normals of level 0, normals and lobes of level 2; baseline, mipnet, the reference")
 
     def occurrences(self):
         make_ridges(self.work, 512)
@@ -120,7 +120,7 @@ class Figures(Bench):
             file, steps, _ = self.train(name, ("--layout", "paper", "--levels", levels))
             looks.append((f"{name} ({steps} steps)", ("--mip-filter", "mipnet", "--fallback", "off", "--mip-net", file)))
         self.write(9, self.drawn(9, "ridges", ("builtin:shaderballs", "--camera", "near", "--material", "ridges"), looks),
-                   "the second net seen once, four times, the truth")
+                   "the second net seen once, four times, the reference")
 
 
 def measure(options, work):

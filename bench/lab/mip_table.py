@@ -5,7 +5,7 @@ Usage: mip_table.py --program build/release/burnish [--textures FOLDER] [--brdf 
 
 --report takes the figures of a chart that was made before, in place of making one. Cells are FLIP, L1 and MSE times 1000, in bold the least
 but for the search's; then percents of L1's way from plain means to the search; then changes to plain means, as published and here, with
-mean radiance of levels off by |found / truth - 1|, in the mean and at most. The CPU seconds that the chart took come last.
+mean radiance of levels off by |found / reference - 1|, in the mean and at most. The CPU seconds that the chart took come last.
 
 Exit code: 0; 2 something could not be run.
 """

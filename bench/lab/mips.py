@@ -89,9 +89,9 @@ def scenes(options, work):
     return found[:2] if options.quick else found
 
 
-def difference(truth, test):
+def difference(reference, test):
     """L1 and MSE of two pictures' channels."""
-    off = [abs(a - b) for a, b in zip(truth, test)]
+    off = [abs(a - b) for a, b in zip(reference, test)]
     return sum(off) / len(off), sum(d * d for d in off) / len(off)
 
 
@@ -109,15 +109,15 @@ def measure(options, work):
         for size in sizes:
             for brdf in options.brdf.split(","):
                 common = (*words, "--size", size, "--brdf", brdf, "--no-background", "--env-size", "128", "--frame-map", "quaternion", "-q")
-                truth = f"truth {name} {size} {brdf}.pfm"
-                if not (work / truth).exists():
-                    run("render", *common, "--backend", "reference", "--reference-textures", "full", "--samples", 8 * options.samples, "-o", truth)
-                shown = read_pfm(work / truth)
+                reference = f"reference {name} {size} {brdf}.pfm"
+                if not (work / reference).exists():
+                    run("render", *common, "--backend", "reference", "--reference-textures", "full", "--samples", 8 * options.samples, "-o", reference)
+                shown = read_pfm(work / reference)
                 row = {}
                 for way, given in ways.items():
                     run("render", *common, *given, "--texture-anisotropy", options.taps, "--technique", "mc", "--samples", options.samples, "--msaa", 16,
                         "-o", "test.pfm")
-                    figures = json.loads(run("compare", truth, "test.pfm", "--metric", "flip-hdr", "--json", "-"))
+                    figures = json.loads(run("compare", reference, "test.pfm", "--metric", "flip-hdr", "--json", "-"))
                     l1, mse = difference(shown, read_pfm(work / "test.pfm"))
                     row[way] = {"flip": figures["flip_mean"], "l1": l1, "mse": mse}
                 rows.append({"scene": name, "size": size, "brdf": brdf, "filters": row})

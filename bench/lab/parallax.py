@@ -182,18 +182,18 @@ def measure(options, work):
             view = ("--size", options.size, "--eye", eye, "--target", f"0.5,{0.5 * high},0", "--fov", 38, "--env", "builtin:sky", "--msaa", 16,
                     "--no-background", "--roughness", 0.5, "--texture-anisotropy", 16, "-q")
             name = f"{depth}_{angle}_"
-            run("render", "wall.glb", *view, "--material", "plain", "-o", name + "truth.pfm", "-o", name + "truth.png")
+            run("render", "wall.glb", *view, "--material", "plain", "-o", name + "reference.pfm", "-o", name + "reference.png")
             flat = ("wall.obj", "--material", "mapped")
             for way, words in (("flat", ()), ("uv", ("--pom-metric", "uv")), ("surface", ("--pom-metric", "surface"))):
                 given = () if way == "flat" else ("--height-map", "heights.pfm", "--height-scale", depth / 0.05)
                 run("render", *flat, *given, *words, *view, "-o", name + way + ".pfm", "-o", name + way + ".png")
-            covered = [alpha_of(work / (name + way + ".png")) for way in ("truth", "flat")]
+            covered = [alpha_of(work / (name + way + ".png")) for way in ("reference", "flat")]
             row = {"depth": depth, "angle": angle}
             kept = [i for i in range(len(covered[0])) if covered[0][i] == covered[1][i] == 255]
             some = sum(1 for i in range(len(covered[0])) if covered[0][i] or covered[1][i])
             row["masked"] = 1.0 - len(kept) / some
             for way in ("flat", "uv", "surface"):
-                run("compare", name + "truth.pfm", name + way + ".pfm", "--metric", "flip-hdr", "--error-map", "map.pfm", "-q")
+                run("compare", name + "reference.pfm", name + way + ".pfm", "--metric", "flip-hdr", "--error-map", "map.pfm", "-q")
                 errors, channels = read_pfm(work / "map.pfm")
                 row[way] = sum(errors[channels * i] for i in kept) / len(kept)
             worse = worse or row["surface"] >= row["flat"]

@@ -8,7 +8,7 @@ Usage: phong.py --program build/release/burnish [--env FILE] [--size WxH] [--wor
     between texels, and the FLIP by which a picture with 64 samples moves where it takes the table.
   - Tables of half vectors (`burnish bake half-vectors`): the largest angle, in degrees, between a sample of 64 and its texel, and FLIP.
 
-Exit code: 0 of 64 samples shinier lobes are nearer to the truth; 1 they are not; 2 something could not be run.
+Exit code: 0 of 64 samples shinier lobes are nearer to the reference; 1 they are not; 2 something could not be run.
 """
 
 import argparse
@@ -105,8 +105,8 @@ class Pictures:
     def draw(self, name, *words):
         run(self.given.program, "render", *self.words, *words, "-o", self.work / name)
 
-    def flip(self, truth, name):
-        text = run(self.given.program, "compare", self.work / truth, self.work / name, "--metric", "flip", "--json", "-", "-q")
+    def flip(self, reference, name):
+        text = run(self.given.program, "compare", self.work / reference, self.work / name, "--metric", "flip", "--json", "-", "-q")
         return json.loads(text)["flip_mean"]
 
 
@@ -114,11 +114,11 @@ def by_samples(pictures):
     rows = {}
     for exponent in EXPONENTS:
         lobe = ("--roughness", f"{exponent ** -0.25:.6g}", "--anisotropy", "0")
-        pictures.draw("truth.pfm", *lobe, "--samples", "8192", "--as-tables", "off")
+        pictures.draw("reference.pfm", *lobe, "--samples", "8192", "--as-tables", "off")
         rows[exponent] = []
         for samples in SAMPLES:
             pictures.draw("t.pfm", *lobe, "--samples", samples)
-            rows[exponent].append(pictures.flip("truth.pfm", "t.pfm"))
+            rows[exponent].append(pictures.flip("reference.pfm", "t.pfm"))
         print(f"| {exponent} | " + " | ".join(f"{value:.4f}" for value in rows[exponent]) + " |", flush=True)
     return rows
 
@@ -130,13 +130,13 @@ def by_tables(pictures):
     pictures.draw("own.pfm", *lobe)
     chance = random.Random(3)
     places = [(chance.random(), chance.random()) for _ in range(300)]
-    truth = [albedo(NU, NV, y, x) for x, y in places]
+    reference = [albedo(NU, NV, y, x) for x, y in places]
     found = {}
     exponents = ("--nu", NU, "--nv", NV)
     for side in ALBEDO_SIDES:
         run(program, "bake", "brdf-lut", *exponents, "--size", f"{side}x{side}", "-q", "-o", work / "a.pfm")
         table = read_pfm(work / "a.pfm")
-        worst = max(abs(p - q) for place, value in zip(places, truth) for p, q in zip(between(table, *place), value))
+        worst = max(abs(p - q) for place, value in zip(places, reference) for p, q in zip(between(table, *place), value))
         pictures.draw("t.pfm", *lobe, "--as-table", work / "a.pfm")
         found["albedo", side] = (worst, pictures.flip("own.pfm", "t.pfm"))
         print(f"| albedo | {side} | {worst:.5f} | {found['albedo', side][1]:.5f} |", flush=True)

@@ -3,7 +3,7 @@
 
 Pairs of scenes and environments that the constants of apps/risks/risks.cpp were not chosen by; with --set those that they were. Of every pair:
 the share of shaded pixels that is marked, the share of pixels with FLIP above .15 that is among them (recall), the share of marked ones with
-FLIP above .05 (precision). The truth is the reference of the same lobe, 1024 samples a pixel.
+FLIP above .05 (precision). The reference has the same lobe and 1024 samples a pixel.
 
 --time N: in place of that CPU time, user and system, of N runs with --risks and N without, by turns, one thread, and of the frame itself: the
 difference of runs of one frame and of five, a fourth.
@@ -102,7 +102,7 @@ def judge(program, folder, pair, samples):
     scene, env = (text if text.startswith("builtin:") else str(DATA / below / text) for text, below in ((scene, ""), (env, "env")))
     common = [program, "render", scene, "--env", env, "--size", SIZE, "--no-background", "-q", *words.split()]
     run = lambda *more: subprocess.run(more, check=True, capture_output=True, text=True).stdout
-    if not (folder / "truth.exr").exists():
+    if not (folder / "reference.exr").exists():
         drop = {"--technique": 2, "--samples": 2}
         kept, skip = [], 0
         for word in common:
@@ -110,11 +110,11 @@ def judge(program, folder, pair, samples):
             if not skip:
                 kept.append(word)
             skip = max(0, skip - 1)
-        run(*kept, "--backend", "reference", "--samples", str(samples), "-o", str(folder / "truth.pfm"))
+        run(*kept, "--backend", "reference", "--samples", str(samples), "-o", str(folder / "reference.pfm"))
         run(*common, "-o", str(folder / "test.pfm"), "-o", str(folder / "test.png"))
         for kind in ("pfm", "png"):
-            run(program, "compare", str(folder / "truth.pfm"), str(folder / "test.pfm"), "-q", "--error-map", str(folder / f"flip.{kind}"))
-        (folder / "truth.exr").touch()
+            run(program, "compare", str(folder / "reference.pfm"), str(folder / "test.pfm"), "-q", "--error-map", str(folder / f"flip.{kind}"))
+        (folder / "reference.exr").touch()
     words = run(*[w for w in common if w != "-q"], "--risks", str(folder / "risks.png"))
     flip, marks = floats(folder / "flip.pfm"), colours(folder / "risks.png")
     n = dict.fromkeys(("shaded", "marked", "far", "far_marked", "near_marked"), 0)
@@ -162,7 +162,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--set", action="store_true", help="the pairs that constants were chosen by")
-    parser.add_argument("--keep", help="folder of the pictures; truths are found there again")
+    parser.add_argument("--keep", help="folder of the pictures; references are found there again")
     parser.add_argument("--samples", type=int, default=1024)
     parser.add_argument("--time", type=rounds_of, metavar="N", help="rounds; quartiles want four")
     args = parser.parse_args()

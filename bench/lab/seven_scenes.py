@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Distances of engines to the truth on seven bare shapes, as they are and with burnish's exported modules.
+"""Distances of engines to the reference on seven bare shapes, as they are and with burnish's exported modules.
 
 Usage: seven_scenes.py --program build/release/burnish --engines FOLDER --environments A,B,C,D [--work FOLDER] [--technique lobe_line:64]
                        [--energy-compensation] [--json FILE]
 
 FOLDER holds node_modules with three, babylonjs and babylonjs-loaders. A to D are .hdr files. Each engine draws 256 x 192 pixels in headless
 Chromium by the page of a conformance folder. Prints the mean HDR-FLIP over each object to a reference with 1024 samples a pixel.
---energy-compensation gives the truth, the tile renderer and the modules multiple scattering, as both engines have it. Exit code: 0 measured; 2 something could not be run.
+--energy-compensation gives the reference, the tile renderer and the modules multiple scattering, as both engines have it. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
@@ -111,8 +111,8 @@ def run(*words):
     return done.stdout
 
 
-def distance(program, truth, picture, coverage):
-    return json.loads(run(program, "compare", truth, picture, "--metric", "flip-hdr", "--json", "-", "--quiet"))["flip_mean"] / coverage
+def distance(program, reference, picture, coverage):
+    return json.loads(run(program, "compare", reference, picture, "--metric", "flip-hdr", "--json", "-", "--quiet"))["flip_mean"] / coverage
 
 
 def covered(path):
@@ -147,7 +147,7 @@ def main():
             for page in (folder / "pages").glob("*.html"):
                 page.write_text(re.sub(r"improve\((?=gltf|BABYLON)([^;]*)\);", r"improve(\1, { multipleScattering: true });", page.read_text()))
         if not (folder / "environment.hdr").exists() or not filecmp.cmp(environment, folder / "environment.hdr", shallow=False):
-            for old in folder.glob("*-truth*.pfm"):
+            for old in folder.glob("*-reference*.pfm"):
                 old.unlink()
             shutil.copy(environment, folder / "environment.hdr")
         if not (folder / "node_modules").exists():
@@ -167,15 +167,15 @@ def main():
         for name, shape, roughness, strength in scenes:
             view = (folder / f"scenes/{name}.gltf", "--env", folder / "environment.hdr", "--no-background", "--size", f"{WIDTH}x{HEIGHT}", "--quiet",
                     *(("--energy-compensation",) if given.energy_compensation else ()))
-            truth = folder / f"{name}-truth{'-compensated' if given.energy_compensation else ''}.pfm"
-            if not truth.exists():
-                run(given.program, "render", *view, "--backend", "reference", "--samples", "1024", "-o", truth)
+            reference = folder / f"{name}-reference{'-compensated' if given.energy_compensation else ''}.pfm"
+            if not reference.exists():
+                run(given.program, "render", *view, "--backend", "reference", "--samples", "1024", "-o", reference)
             run(given.program, "render", *view, "--msaa", "8", "--technique", technique, "--samples", samples, "-o", folder / f"{name}-tile.pfm")
-            share = covered(truth)
-            row = {"shape": shape, "roughness": roughness, "strength": strength, "environment": letter, "tile": distance(given.program, truth, folder / f"{name}-tile.pfm", share)}
+            share = covered(reference)
+            row = {"shape": shape, "roughness": roughness, "strength": strength, "environment": letter, "tile": distance(given.program, reference, folder / f"{name}-tile.pfm", share)}
             for engine in ("three", "babylon"):
                 for way in ("as_it_is", "module"):
-                    row[f"{engine}_{way}"] = distance(given.program, truth, folder / f"{engine}-{way}/{name}.pfm", share)
+                    row[f"{engine}_{way}"] = distance(given.program, reference, folder / f"{engine}-{way}/{name}.pfm", share)
             rows.append(row)
     columns = ("three_as_it_is", "three_module", "babylon_as_it_is", "babylon_module", "tile")
     print(f"{'':26}" + "".join(f"{name:>18}" for name in columns))

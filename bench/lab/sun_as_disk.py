@@ -75,13 +75,13 @@ def measure(a, work):
             words = ("builtin:spheres", "--size", a.size, "--eye", "0,0.1,0.7", "--target", "0,0,0", "--no-background", "--roughness", roughness,
                      "--anisotropy", eta, "-q")
             name = work / f"{sky}_{roughness:g}_{eta:g}"
-            ways = {"truth": ("--env", paths[True], "--backend", "reference", "--samples", a.samples),
+            ways = {"reference": ("--env", paths[True], "--backend", "reference", "--samples", a.samples),
                     "key": ("--env", paths[True], "--technique", a.technique, "--msaa", "8"),
                     "area": ("--env", paths[False], "--technique", a.technique, "--msaa", "8", "--light", disk)}
             for way, more in ways.items():
                 if not pathlib.Path(f"{name}_{way}.pfm").exists():
                     run("render", *words, *more, "-o", f"{name}_{way}.pfm")
-            flip = {way: json.loads(run("compare", f"{name}_truth.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
+            flip = {way: json.loads(run("compare", f"{name}_reference.pfm", f"{name}_{way}.pfm", "--metric", "flip-hdr", "--json", "-",
                                         "-q"))["flip_mean"] for way in ("key", "area")}
             rows.append({"radius_deg": radius, "elevation_deg": elevation, "roughness": roughness, "anisotropy": eta, **flip})
             print(f"disc of {radius:g} degrees at {elevation:g}, roughness {roughness:g}, anisotropy {eta:g}: extracted light {flip['key']:.4f}, area "

@@ -35,7 +35,7 @@ struct Kind { // file names are PREFIX, 16 hexadecimal digits, SUFFIX
 constexpr Kind kKinds[] = {
     {"environment-", ".bnenv"}, {"pipelines-", ".bin"}, {"reference-", ".part"}, {"levels-", ".mip"}, {"sky-", ".vis"}};
 
-bool is_kept(const std::string& name)
+bool is_cache_name(const std::string& name)
 {
     return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const Kind& kind) {
         constexpr std::size_t kDigits = 16;
@@ -59,7 +59,7 @@ std::vector<CachedFile> cached_files(const std::string& folder)
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
         std::error_code gone; // another process may have removed the file
         const std::string name = at->path().filename().string();
-        if (!(is_kept(name) || is_kept(name_of_temporary(name))) || !fs::is_regular_file(at->symlink_status(gone)))
+        if (!(is_cache_name(name) || is_cache_name(name_of_temporary(name))) || !fs::is_regular_file(at->symlink_status(gone)))
             continue;
         const CachedFile file{at->last_write_time(gone), at->path(), at->file_size(gone)};
         if (!gone)

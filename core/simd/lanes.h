@@ -2,7 +2,7 @@
 // oracle (double precision), counted (counts its work) or mutated (kernels with mistakes).
 //   real     kLanes floating-point numbers      (scalar: float itself; oracle: double itself)
 //   integer  kLanes 32-bit integers, wrapping   (scalar and oracle: int32_t itself)
-//   mask     kLanes truth values                (scalar and oracle: bool itself)
+//   mask     kLanes booleans                     (scalar and oracle: bool itself)
 // All names live in burnish::BN_ISA_NS, so that copies for different instruction sets never meet in the linker.
 //
 // Every instruction set gives equal bits. Operations are + - * / sqrt, comparisons, conversions and integer arithmetic,

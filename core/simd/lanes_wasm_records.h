@@ -113,7 +113,7 @@ BN_INLINE v128_t rebiased(v128_t word)
     return wasm_f32x4_mul(shifted, wasm_f32x4_splat(0x1p112f));
 }
 // Returns true where one of the halves is subnormal, Inf or NaN.
-BN_INLINE bool any_unusual(v128_t a, v128_t b)
+BN_INLINE bool any_special(v128_t a, v128_t b)
 {
     const v128_t magnitudes = wasm_i16x8_splat(0x7fff), one = wasm_i16x8_splat(1);
     const v128_t m = a & magnitudes, n = b & magnitudes;
@@ -124,7 +124,7 @@ BN_INLINE bool any_unusual(v128_t a, v128_t b)
 struct half_pair {
     v128_t low, high; // four floats each
 };
-BN_INLINE half_pair unusual_floats(v128_t halves)
+BN_INLINE half_pair special_floats(v128_t halves)
 {
     const auto converted = [](v128_t word) {
         const v128_t magnitude = word & wasm_i32x4_splat(0x7fff), shifted = wasm_i32x4_shl(magnitude, 13);
@@ -138,7 +138,7 @@ BN_INLINE half_pair unusual_floats(v128_t halves)
     };
     return {converted(wasm_u32x4_extend_low_u16x8(halves)), converted(wasm_u32x4_extend_high_u16x8(halves))};
 }
-BN_INLINE half_pair usual_floats(v128_t halves)
+BN_INLINE half_pair normal_floats(v128_t halves)
 {
     return {rebiased(wasm_i32x4_extend_low_i16x8(halves)), rebiased(wasm_i32x4_extend_high_i16x8(halves))};
 }
@@ -155,7 +155,7 @@ BN_INLINE texel_acc texel_zero()
 BN_INLINE void load_texel_pair(texel_buffer texels, std::uint32_t at, float out[8])
 {
     const v128_t pair = wasm_v128_load(texels + std::size_t{4} * at);
-    const half_pair floats = any_unusual(pair, pair) ? unusual_floats(pair) : usual_floats(pair);
+    const half_pair floats = any_special(pair, pair) ? special_floats(pair) : normal_floats(pair);
     wasm_v128_store(out, floats.low);
     wasm_v128_store(out + 4, floats.high);
 }
@@ -167,10 +167,10 @@ BN_CALL void add_texels(texel_acc& acc, texel_buffer texels, const integer& row0
             const int lane = 4 * p + k;
             const v128_t above = wasm_v128_load(record_at(texels, row0, lane, 8)), below = wasm_v128_load(record_at(texels, row1, lane, 8));
             half_pair x, y;
-            if (__builtin_expect(any_unusual(above, below), 0))
-                x = unusual_floats(above), y = unusual_floats(below);
+            if (__builtin_expect(any_special(above, below), 0))
+                x = special_floats(above), y = special_floats(below);
             else
-                x = usual_floats(above), y = usual_floats(below);
+                x = normal_floats(above), y = normal_floats(below);
             const auto sum = [&](const real& a, v128_t of_a, const real& b, v128_t of_b) {
                 return wasm_f32x4_add(wasm_f32x4_mul(wasm_f32x4_splat(a.p[p][k]), of_a), wasm_f32x4_mul(wasm_f32x4_splat(b.p[p][k]), of_b));
             };

@@ -61,10 +61,10 @@ namespace {
 constexpr float kLeastLoss = 0.01f; // of light: below this loss, one lobe per texel is accurate enough
 constexpr double kAlike = 0.05;     // of the squared lobe width: normals that differ by less are one group
 
-void put_facets(const Scene& scene, const Material& m, const KeptWeights& kept, MaterialRecord& to)
+void put_facets(const Scene& scene, const Material& m, const MaterialMips& mips, const KeptWeights& kept, MaterialRecord& to)
 {
     to.facets = 0, to.facets_from = 1.0f;
-    if (kept.loss < kLeastLoss || m.transmission > 0.0f || m.tilt_tex.used())
+    if (!mips.facets || kept.loss < kLeastLoss || m.transmission > 0.0f || m.tilt_tex.used())
         return;
     to.facets_from = kept.loss;
     const float roughness = mean_roughness(scene, m), own2 = roughness * roughness;
@@ -93,7 +93,7 @@ void put_far_normals(const Scene& scene, const Material& m, const MaterialMips& 
     const KeptWeights kept = kept_weights_of(scene, m, mips);
     to.keeps = kept.any ? 1 : 0;
     std::copy(std::begin(kept.of), std::end(kept.of), to.kept);
-    put_facets(scene, m, kept, to);
+    put_facets(scene, m, mips, kept, to);
 }
 
 std::string why_dim(const Scene& scene, const Material& m)

@@ -70,7 +70,7 @@ template <class Find> bool found_after_waiting(std::optional<CacheLock>& lock, c
     return find(); // another may have ended just now
 }
 
-Status write_kept(const std::string& path, const MipParts& levels)
+Status write_cached(const std::string& path, const MipParts& levels)
 {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     std::error_code failed;
@@ -80,13 +80,13 @@ Status write_kept(const std::string& path, const MipParts& levels)
     return written;
 }
 
-void keep_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const std::string& folder, const Jobs& jobs,
-                std::vector<MipLevels>& kept)
+void cache_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const std::string& folder, const Jobs& jobs,
+                 std::vector<MipLevels>& cached)
 {
     const MipSource source = mip_source(scene, m);
     const std::uint64_t hash = source.hash(jobs);
     const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, mips); };
-    if (std::any_of(kept.begin(), kept.end(), fit))
+    if (std::any_of(cached.begin(), cached.end(), fit))
         return;
     const std::string path = cache_path(folder, hash, scene, m, mips);
     const auto find = [&] {
@@ -94,24 +94,24 @@ void keep_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const
         if (file.materials.size() != 1 || !file.maps.empty() || !fit(file.materials[0]))
             return false;
         note_cache_use(path);
-        kept.push_back(std::move(file.materials[0]));
+        cached.push_back(std::move(file.materials[0]));
         return true;
     };
     std::optional<CacheLock> lock; // until the levels are cached
     if (find() || found_after_waiting(lock, path, find))
         return;
     const Activity activity("levels of " + levels_name(m, mips));
-    kept.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
-    if (const Status written = write_kept(path, {{&kept.back()}, 0, {}}); !written)
+    cached.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
+    if (const Status written = write_cached(path, {{&cached.back()}, 0, {}}); !written)
         scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
 }
 
-void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::string& folder, const Jobs& jobs,
-              std::vector<MapLevels>& kept)
+void cache_map(Scene& scene, const Material& m, const UsedMap& map, const std::string& folder, const Jobs& jobs,
+               std::vector<MapLevels>& cached)
 {
     const MapId id = map_id(scene, m, map, jobs);
     const Image& image = map_image(scene, *map.ref);
-    if (find_map(kept, id, image))
+    if (find_map(cached, id, image))
         return;
     const std::string path = cache_path(folder, id);
     const auto find = [&] {
@@ -119,15 +119,15 @@ void keep_map(Scene& scene, const Material& m, const UsedMap& map, const std::st
         if (!file.materials.empty() || file.maps.size() != 1 || !find_map(file.maps, id, image))
             return false;
         note_cache_use(path);
-        kept.push_back(std::move(file.maps[0]));
+        cached.push_back(std::move(file.maps[0]));
         return true;
     };
     std::optional<CacheLock> lock; // until the levels are cached
     if (find() || found_after_waiting(lock, path, find))
         return;
     const Activity activity(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name + "'");
-    kept.push_back(map_levels(scene, m, map, id, jobs));
-    if (const Status written = write_kept(path, {{}, 1, [&](std::size_t) { return kept.back(); }}); !written)
+    cached.push_back(map_levels(scene, m, map, id, jobs));
+    if (const Status written = write_cached(path, {{}, 1, [&](std::size_t) { return cached.back(); }}); !written)
         scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +
                                  "' are not cached: " + written.error().line());
 }
@@ -139,18 +139,18 @@ void cache_mips(Scene& scene, SceneMips& mips, const Jobs& jobs)
     const std::string folder = cache_folder();
     if (folder.empty())
         return;
-    MipFile kept;
+    MipFile cached;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
         const MaterialMips& of = mips.of(i);
         if (takes_net(of.filter) && of.net && is_filtered(scene, m, of))
-            keep_lobes(scene, m, of, folder, jobs, kept.materials);
+            cache_lobes(scene, m, of, folder, jobs, cached.materials);
         for (const UsedMap& map : used_maps(scene, m, of))
             if (map.coupled || map.kernel != ColourKernel::box)
-                keep_map(scene, m, map, folder, jobs, kept.maps);
+                cache_map(scene, m, map, folder, jobs, cached.maps);
     }
-    if (!kept.materials.empty() || !kept.maps.empty())
-        mips.cached = std::make_shared<const MipFile>(std::move(kept));
+    if (!cached.materials.empty() || !cached.maps.empty())
+        mips.cached = std::make_shared<const MipFile>(std::move(cached));
 }
 
 } // namespace burnish

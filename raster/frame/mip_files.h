@@ -16,8 +16,8 @@ mipnet::Lobe lobe_of_model(int brdf); // returns the nets' lobe that is nearest 
 void warn_of_unfiltered(Scene& scene, const SceneMips& mips); // a line for each material that its filter makes nothing of, with the reason
 
 // Gives materials their nets, of asked.net or the program's. Of filter mipnet, unless asked.fallback is off, those for which it is
-// worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the truth, and a warning
-// says so.
+// worse than it may be (mipnet::Comparison) get filter kappa or baseline in place of it, whichever is nearer to the reference. A
+// warning says so.
 // only: by material, which ones; null: all.
 Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits, const std::vector<bool>* only = nullptr);
 

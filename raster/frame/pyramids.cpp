@@ -517,20 +517,20 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
 
 void PyramidCache::forget_material(std::int32_t material)
 {
-    std::erase_if(all, [&](const auto& kept) { return kept.first.material == material; });
+    std::erase_if(all, [&](const auto& entry) { return entry.first.material == material; });
 }
 
 std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
-                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* kept)
+                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* cache)
 {
-    // Take those that are kept
+    // Take those that are cached
     std::vector<std::shared_ptr<const TexturePyramid>> pyramids(keys.size());
     std::vector<std::size_t> missing;
     std::vector<bool> filtered(scene.materials.size(), false);
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (kept)
-            if (const auto at = std::find_if(kept->all.begin(), kept->all.end(), [&](const auto& k) { return k.first == keys[i]; });
-                at != kept->all.end())
+        if (cache)
+            if (const auto at = std::find_if(cache->all.begin(), cache->all.end(), [&](const auto& k) { return k.first == keys[i]; });
+                at != cache->all.end())
                 pyramids[i] = at->second;
         if (pyramids[i])
             continue;
@@ -544,11 +544,11 @@ std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& sc
         const std::size_t i = missing[k];
         pyramids[i] = std::make_shared<const TexturePyramid>(make_pyramid(scene, mips, keys[i], levels));
     });
-    if (!kept)
+    if (!cache)
         return pyramids;
-    kept->all.clear();
+    cache->all.clear();
     for (std::size_t i = 0; i < keys.size(); ++i)
-        kept->all.emplace_back(keys[i], pyramids[i]);
+        cache->all.emplace_back(keys[i], pyramids[i]);
     return pyramids;
 }
 

@@ -78,9 +78,9 @@ struct PyramidCache {
     std::vector<std::pair<PyramidKey, std::shared_ptr<const TexturePyramid>>> all;
     void forget_material(std::int32_t material); // call after a change to its fields
 };
-// Returns the pyramids of the keys. Makes those that are not kept, in parallel, and keeps exactly these.
-std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
-                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* kept);
+// Returns the pyramids of the keys. Makes those that are not cached, in parallel, and caches exactly these.
+std::vector<std::shared_ptr<const TexturePyramid>>
+make_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* cache);
 
 TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels);
 

@@ -63,6 +63,9 @@ void add_filters(Key& key, const Scene& scene, const SceneMips& mips)
         if (const MaterialMips& m = mips.of(i); m.coupled || m.kaiser)
             key.add('c', i, m.coupled, m.kaiser);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (!mips.of(i).facets)
+            key.add('f', i);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const MaterialMips& m = mips.of(i); m.net)
             key.add(mipnet::net_hash(*m.net));
     if (mips.baked)

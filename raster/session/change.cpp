@@ -231,9 +231,9 @@ Status Session::change(SceneChanges changes)
         SessionParts parts = parts_;
         if (changes.environment)
             parts.environment = changes.environment;
-        auto kept = std::make_shared<PyramidCache>(*pyramids_);
+        auto pyramids = std::make_shared<PyramidCache>(*pyramids_);
         if (changes.nodes.empty() && changes.materials.empty() && changes.primitives.empty() && changes.lights.empty()) {
-            Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
+            Result<Session> next = make_with(std::move(parts), options_, std::move(pyramids));
             BN_TRY(next);
             *this = std::move(*next);
             return {};
@@ -241,7 +241,7 @@ Status Session::change(SceneChanges changes)
         for (auto& [index, material] : changes.materials) {
             const Material& old = parts.scene->scene.materials[static_cast<std::size_t>(index)];
             material.emitter = old.emitter, material.heights = old.heights; // these belong to area lights and maps
-            kept->forget_material(index);
+            pyramids->forget_material(index);
         }
         const bool shared = parts_.scene.use_count() > 2;    // by others than parts_ and parts
         std::atomic_thread_fence(std::memory_order_acquire); // other threads' last reads come before
@@ -250,7 +250,7 @@ Status Session::change(SceneChanges changes)
         parts.scene = data;
         Applied applied(*data, changes);
         BN_TRY(settle(*data, changes));
-        Result<Session> next = make_with(std::move(parts), options_, std::move(kept));
+        Result<Session> next = make_with(std::move(parts), options_, std::move(pyramids));
         BN_TRY(next);
         *this = std::move(*next);
         applied.stay();

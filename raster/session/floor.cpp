@@ -165,7 +165,7 @@ std::vector<bool> clear_materials(const Scene& scene)
     return clear;
 }
 
-// Finds the sky's visibility, from the cache where it is kept.
+// Finds the sky's visibility; looks in the cache first.
 class SkyFinder {
   public:
     SkyFinder(const Scene& scene, const DrawTables& tables, const FloorSettings& settings)
@@ -178,10 +178,10 @@ class SkyFinder {
         const std::string path = use_cache_ ? visibility_path(hash) : "";
         if (path.empty())
             return trace(seers, ray_count, spread);
-        std::optional<std::vector<float>> kept = read_visibility_cache(path, hash, seers.size());
-        if (kept)
-            return std::move(*kept);
-        std::optional<CacheLock> lock; // until the visibility is kept
+        std::optional<std::vector<float>> cached = read_visibility_cache(path, hash, seers.size());
+        if (cached)
+            return std::move(*cached);
+        std::optional<CacheLock> lock; // until the visibility is cached
         {
             const Activity activity("waiting for another process that finds contact shadows");
             lock.emplace(path, kMostLockSeconds, check_stop);

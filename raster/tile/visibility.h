@@ -63,7 +63,7 @@ BN_INLINE void list_register(const FrameParams& f, const std::int32_t* from, int
             covered = covered | select(load_int(from + i * kBlockPixels) == id, int_lit(1 << i), zero);
         list.add_pass(id, pixel, covered, rest != zero);
         rest = rest & ~covered;
-        if (none(rest != zero)) // usual case
+        if (none(rest != zero)) // common case
             break;
         id = int_lit(-2); // no sample's id
         for (int i = f.msaa - 1; i > 0; --i)

@@ -58,9 +58,9 @@ class Pipelines {
 
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
-    // Sets the known numbers. Pipelines made for other numbers are kept beside the new ones.
+    // Sets the known numbers. Pipelines made for other numbers stay cached beside the new ones.
     void know(std::vector<KnownNumber> numbers);
-    // Return a pipeline, made on first use and then kept.
+    // Return a pipeline, made on first use and then cached.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
 

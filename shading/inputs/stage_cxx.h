@@ -13,7 +13,7 @@
 namespace burnish {
 inline namespace BN_ISA_NS {
 
-// Looks up the place for a piece of a pixel block, the usual case, which saves four divisions. Computes other places.
+// Looks up the place for a piece of a pixel block, the common case, which saves four divisions. Computes other places.
 BN_INLINE real2 place_of_center(frame_ref f, const view_params& view, integer px, integer py)
 {
     if constexpr (kLanes > 1) {

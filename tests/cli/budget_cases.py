@@ -25,12 +25,12 @@ def flip(bench, reference, test):
 @case("budget.holds_and_saves", budget=20)
 def holds(bench):
     """The error stays below the budget, at the cost of fewer instructions; materials get settings of their own."""
-    bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "truth.pfm").expect(0)
+    bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "reference.pfm").expect(0)
     before = 0.0
     for budget in (0.2, 0.08):
         name = f"b{budget}"
         done = bench.run(*POT, "--budget", budget, "-o", f"{name}.pfm", "--stats", f"{name}.json", "--plan-out", "plan.json").expect(0)
-        plan, error = stats_of(bench, f"{name}.json")["plan"], flip(bench, "truth.pfm", f"{name}.pfm")
+        plan, error = stats_of(bench, f"{name}.json")["plan"], flip(bench, "reference.pfm", f"{name}.pfm")
         check(error <= budget, f"the error is {error}, the budget {budget}")
         check(error <= 1.3 * plan["predicted_flip"], f"the error is {error}, predicted {plan['predicted_flip']}")
         check(before < plan["instructions"] < 0.6 * plan["usual_instructions"], plan)

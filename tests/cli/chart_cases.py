@@ -15,7 +15,7 @@ from harness import Skipped, case, check, scratch
 
 TINY = ("--size", "64x36", "--msaa", "4", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64", "--runs", "2")
 FEW = (*TINY, "--techniques", "bent_normal,major_axis", "--sweep", "samples=1,4")
-TRUTH = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts render the reference
+REFERENCE = ("--backend", "reference", "--samples", "64", "--reference-textures", "full")  # as charts render the reference
 FIELDS = {"scene", "env", "technique", "settings", "ms_median", "ms_p95", "flip_mean", "flip_p99", "rel_mse", "max_abs", "pattern_rms", "quad_ratio_x", "quad_ratio_y", "nan_pixels", "pareto"}
 
 
@@ -118,7 +118,7 @@ def display_flip(bench):
     check(report["metric"] == "flip" and "as they are shown" in (bench.folder / "r/report.html").read_text(), "the report does not say which FLIP")
     same = ("builtin:plate", *TINY[:8], "--floor", "off", *shown)
     bench.run("render", *same, "--technique", "bent_normal", "-o", "t.png", "-q").expect(0)
-    bench.run("render", *same, *TRUTH, "-o", "ref.png", "-q").expect(0)
+    bench.run("render", *same, *REFERENCE, "-o", "ref.png", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.png", "t.png", "--json", "-", "-q").expect(0).out)["flip_mean"]
     check(abs(report["rows"][0]["flip_mean"] - other) < 1e-6, f"{report['rows'][0]['flip_mean']} and by compare {other}")
 
@@ -144,7 +144,7 @@ def sweeps_any_option(bench):
     # A row's image equals an image by render with equal options.
     same = ("builtin:plate", *TINY[:8], "--floor", "off", "--env-rotation", "90", "--tilt", "15,0")
     bench.run("render", *same, "--technique", "major_axis", "--samples", "4", "--axis-k", "2.5", "-o", "t.exr", "-q").expect(0)
-    bench.run("render", *same, *TRUTH, "-o", "ref.exr", "-q").expect(0)
+    bench.run("render", *same, *REFERENCE, "-o", "ref.exr", "-q").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
     mine = errors["major_axis"][2.5, 90, "15,0", 4]
     check(abs(mine - other) < 1e-6, f"{mine} and by compare {other}")
@@ -163,7 +163,7 @@ def sweeps_scenes(bench):
     of_last = next(row for row in rows if (row["settings"]["time"], row["settings"]["f0"]) == (1, "1,0,0"))
     same = (*seen, "--size", "64x36", "--time", "1", "--f0", "1,0,0", "-q")
     bench.run("render", *same, "--technique", "bent_normal", "-o", "t.exr").expect(0)
-    bench.run("render", *same, *TRUTH, "-o", "ref.exr").expect(0)
+    bench.run("render", *same, *REFERENCE, "-o", "ref.exr").expect(0)
     other = json.loads(bench.run("compare", "ref.exr", "t.exr", "--json", "-", "-q").expect(0).out)["flip_mean"]
     check(abs(of_last["flip_mean"] - other) < 1e-6, f"{of_last['flip_mean']} and by compare {other}")
 
@@ -339,9 +339,9 @@ def cpu_seconds(pid):
 
 
 def reference_samples(done):
-    """Returns (all samples, samples kept from before) for a chart's single reference."""
+    """Returns (all samples, samples cached before) for a chart's single reference."""
     line = next(line for line in done.err.splitlines() if line.startswith("reference"))
-    found = re.search(r": (\d+) samples?(?: \((\d+) kept\))?", line)
+    found = re.search(r": (\d+) samples?(?: \((\d+) cached\))?", line)
     return int(found[1]), int(found[2] or 0)
 
 

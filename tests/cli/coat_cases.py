@@ -117,10 +117,10 @@ def widened(bench):
     floor["images"], floor["textures"] = [{"uri": "grain.png"}], [{"source": 0}]
     words = (scratch(bench, "floor.gltf", files.text(floor)), "--eye", "0,3,4", "--target", "0,0,0", "--fov", "35", "--size", "48x36", "--env", "builtin:sky",
              "--env-size", "64", "--env-samples", "64", "--no-background", "-q")
-    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 512, "-o", "truth.pfm", timeout=300.0).expect(0)
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 512, "-o", "reference.pfm", timeout=300.0).expect(0)
     error = {}
     for name in ("box", "lean", "kappa", "leadr", "ssgt"):
         bench.run("render", *words, "--mip-filter", name, "--msaa", "8", "--technique", "mc", "--samples", 256, "-o", name + ".pfm", timeout=300.0).expect(0)
-        found = json.loads(bench.run("compare", "truth.pfm", name + ".pfm", "--json", "-").expect(0).out)
+        found = json.loads(bench.run("compare", "reference.pfm", name + ".pfm", "--json", "-").expect(0).out)
         error[name] = found["flip_mean"]
     check(error["kappa"] < 0.6 * error["box"] and max(error.values()) == error["box"], f"{error}")

@@ -242,13 +242,13 @@ def lean(bench):
     scratch(bench, "fine.png", png(512, 256, grain))
     words = ("builtin:sphere", "--size", "24x24", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "--roughness", "0.25", "--anisotropy", "0", "--normal-map", "fine.png", "-q")
-    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", "2048", "-o", "truth.pfm").expect(0)
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", "2048", "-o", "reference.pfm").expect(0)
     off = {}
     for way in ("box", "lean"):
         for taps in ("1", "16"):
             bench.run("render", *words, "--mip-filter", way, "--texture-anisotropy", taps, "--technique", "mc", "--samples", "1024", "--msaa", "4",
                       "-o", "t.pfm").expect(0)
-            off[way, taps] = off_by(bench, "truth.pfm", "t.pfm")["mse"]
+            off[way, taps] = off_by(bench, "reference.pfm", "t.pfm")["mse"]
     for taps in ("1", "16"):
         check(off["lean", taps] < 0.4 * off["box", taps], f"{off}")
 
@@ -366,10 +366,10 @@ def obj(bench):
 def phong(bench):
     words = ("builtin:spheres", "--size", "48x36", "--msaa", "1", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "-q", "--technique")
-    bench.run("render", *words, "mc", "--brdf", "ashikhmin_shirley", "--samples", "4096", "-o", "truth.pfm").expect(0)
+    bench.run("render", *words, "mc", "--brdf", "ashikhmin_shirley", "--samples", "4096", "-o", "reference.pfm").expect(0)
     for samples, most in (("2048", 1e-4), ("64", 1e-2), ("16", 3e-2)):  # neighbours share samples, and see little alike in so small an image
         bench.run("render", *words, "as_mc", "--samples", samples, "-o", "t.pfm").expect(0)
-        found = off_by(bench, "truth.pfm", "t.pfm")
+        found = off_by(bench, "reference.pfm", "t.pfm")
         check(found["mse"] < most, f"{samples} samples: {found}")
     bench.run("render", *words, "as_mc", "--brdf", "ashikhmin_shirley", "-o", "t.pfm").expect(2).expect_one_line("as_mc", "ggx_aniso")
 
@@ -400,13 +400,13 @@ def phong_reference(bench):
     for degrees, eta in ((20, "-0.5"), (60, "0.5"), (80, "0.5"), (84, "-0.5")):
         a = math.radians(degrees)
         words = ("--eye", f"{0.3 + 3 * math.sin(a)},0.3,{3 * math.cos(a)}", "--target", "0.3,0.3,0", "--anisotropy", eta, "--f0", "0.9,0.6,0.3")
-        truth = mean(*words, "--backend", "reference", "--brdf", "ashikhmin_shirley", "--samples", "1024")
+        reference = mean(*words, "--backend", "reference", "--brdf", "ashikhmin_shirley", "--samples", "1024")
         for name, given in (("mc", ("--technique", "mc", "--brdf", "ashikhmin_shirley", "--samples", "512")),
                             ("1024", ("--technique", "as_mc", "--samples", "1024")), ("16", ("--technique", "as_mc", "--samples", "16")),
                             ("turned", ("--technique", "as_mc", "--samples", "16", "--seed", "5")),
                             ("no table", ("--technique", "as_mc", "--samples", "16", "--as-tables", "off"))):
             found = mean(*words, *given)
-            off.setdefault(name, []).append(max(abs(x / t - 1) for x, t in zip(found, truth)))
+            off.setdefault(name, []).append(max(abs(x / t - 1) for x, t in zip(found, reference)))
     check(max(off["mc"]) < 0.002, f"mc: {off}")
     check(max(off["1024"]) < 0.005, f"as_mc: {off}")
     check(max(off["16"]) < 0.01 and max(off["no table"]) > 2 * max(off["16"]), f"as_mc of 16 samples: {off}")

@@ -223,11 +223,11 @@ def refused(bench):
     no(2, "needs --pipeline ids", "--aov", "depth", "--backend", "vulkan", "--pipeline", "forward", "-o", "a.exr")
 
 
-@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_truth", tier="nightly")
+@case("layers.specular_antialiasing_brings_normal_maps_nearer_to_the_reference", tier="nightly")
 def specular_aa(bench):
     """Compares a still image with the reference; Vulkan draws the same image."""
     view = ("builtin:bumps", "--horizon", "off", "--size", "120x68", "--env-size", "128", "--env-samples", "64", "-q")
-    done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "truth.exr")
+    done = bench.run("render", *view, "--backend", "reference", "--reference-textures", "full", "--samples", "256", "-o", "reference.exr")
     if done.code == 77:
         raise Skipped(done.err.strip())
     done.expect(0)
@@ -235,7 +235,7 @@ def specular_aa(bench):
         flip = []
         for more in ((), ("--specular-aa",)):
             bench.run("render", *view, "--msaa", msaa, *more, "-o", "a.exr").expect(0)
-            flip.append(json.loads(bench.run("compare", "truth.exr", "a.exr", "--metric", "flip-hdr", "--json", "-").expect(0).out)["flip_mean"])
+            flip.append(json.loads(bench.run("compare", "reference.exr", "a.exr", "--metric", "flip-hdr", "--json", "-").expect(0).out)["flip_mean"])
         check(flip[1] < 0.98 * flip[0], f"{msaa} samples a pixel: mean FLIP {flip}")
     pictures = []
     for backend in ("tile", "vulkan"):

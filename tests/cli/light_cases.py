@@ -205,13 +205,13 @@ def shadows(bench):
                         for more in ((*SHADOWS, "--threads", "1"), (*SHADOWS, "--threads", "3", "--tile-size", "32"), ()))
     check(one == three and one != none, f"{one} {three} {none}")
     size = (*FLOOR, "--size", "160x120")
-    bench.run("render", "ball.gltf", *size, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "512", "-o", "truth.png",
+    bench.run("render", "ball.gltf", *size, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "512", "-o", "reference.png",
               timeout=300).expect(0)
     bench.run("render", "ball.gltf", *size, "-o", "open.png").expect(0)
     for samples, most in (("16", "0.012"), ("64", "0.01")):  # by default 16
         bench.run("render", "ball.gltf", *size, *SHADOWS, "--shadow-samples", samples, "-o", "ratio.png").expect(0)
-        bench.run("compare", "truth.png", "ratio.png", "--fail-flip", most).expect(0)
-    bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+        bench.run("compare", "reference.png", "ratio.png", "--fail-flip", most).expect(0)
+    bench.run("compare", "reference.png", "open.png", "--fail-flip", "0.03").expect(1)
 
 
 @case("lights.shadows_of_lamps_are_the_reference_s", budget=8)
@@ -224,12 +224,12 @@ def all_shadows(bench):
     gltf["scenes"] = [{"nodes": list(range(len(gltf["nodes"])))}]
     scratch(bench, "lamp.gltf", json.dumps(gltf))
     lamp = ("lamp.gltf", *FLOOR[:FLOOR.index("--light")], "--size", "160x120")
-    bench.run("render", *lamp, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "256", "-o", "truth.png", timeout=300).expect(0)
+    bench.run("render", *lamp, "--backend", "reference", "--reference-mode", "shadowed", "--samples", "256", "-o", "reference.png", timeout=300).expect(0)
     bench.run("render", *lamp, "--shadows", "on", "-o", "on.png").expect(0)
     bench.run("render", *lamp, "--shadows", "ratio", "-o", "ratio.png").expect(0)
     bench.run("render", *lamp, "-o", "open.png").expect(0)
-    bench.run("compare", "truth.png", "on.png", "--fail-flip", "0.01").expect(0)
-    bench.run("compare", "truth.png", "open.png", "--fail-flip", "0.03").expect(1)
+    bench.run("compare", "reference.png", "on.png", "--fail-flip", "0.01").expect(0)
+    bench.run("compare", "reference.png", "open.png", "--fail-flip", "0.03").expect(1)
     check((bench.folder / "ratio.png").read_bytes() == (bench.folder / "open.png").read_bytes(), "a ratio for area lights shades lamps")
     # An area light lies between the lamp and the floor. Light passes through it unless it is solid
     quad = ("--light", "quad:points=0.6,1.4,0.1/0.6,1.4,0.7/1.2,1.4,0.7/1.2,1.4,0.1:radiance=0.001,0.001,0.001")

@@ -35,7 +35,7 @@ DRAW = "burnish render builtin:plate -q " + " ".join(TINY)
 BEFORE = {
     "burnish compare reference.png": (f"{DRAW} --roughness 0.4 -o reference.png -o reference.exr", f"{DRAW} --roughness 0.401 -o test.png -o test.exr"),
     "burnish compare expected/": ("mkdir expected actual", f"{DRAW} -o expected/plate.png", "cp expected/plate.png actual"),
-    "burnish compare --sequence": tuple(f"{DRAW} --animate roughness=0.3:0.4 --steps 3 -o {name}_%04d.exr" for name in ("truth", "test")),
+    "burnish compare --sequence": tuple(f"{DRAW} --animate roughness=0.3:0.4 --steps 3 -o {name}_%04d.exr" for name in ("reference", "test")),
     "burnish compare reference.exr test.exr --second-reference": (f"{DRAW} --roughness 0.4 --technique mc --samples 64 --seed 7 -o other_seed.exr",),
     "burnish compare mean.exr": (f"{DRAW} --roughness 0.4 --backend reference --samples 128 -o mean.exr --variance variance.exr",),
     "burnish golden check goldens.json": ("burnish golden check goldens.json -q || test $? = 5", "burnish golden bless goldens.json -q",

@@ -96,13 +96,13 @@ def keeps(bench):
     words = ("builtin:sphere", "--size", "24x24", "--env-size", "64", "--env-samples", "64", "--key-lights", "off", "--no-background",
              "--normal-map", "fine.png", "-q")
     bench.run("render", *words, "--frame-map", "quaternion", "--backend", "reference", "--reference-textures", "full", "--samples", "2048", "-o",
-              "truth.pfm").expect(0)
+              "reference.pfm").expect(0)
     off = {}
     for name in ("box", *LOBES):
         for taps in ("1", "16"):
             bench.run("render", *words, "--mip-filter", name, "--frame-map", "quaternion", "--texture-anisotropy", taps, "--technique", "mc",
                       "--samples", "1024", "--msaa", "4", "-o", "t.pfm").expect(0)
-            off[name, taps] = off_by(bench, "truth.pfm", "t.pfm")["mse"]
+            off[name, taps] = off_by(bench, "reference.pfm", "t.pfm")["mse"]
     for taps in ("1", "16"):
         for name, share in (("leadr", 1.0), ("ssgt", 0.5), ("kappa", 0.5)):  # leadr's widths are Beckmann's
             check(off[name, taps] < share * off["box", taps], f"{off}")
@@ -375,17 +375,17 @@ def protocols(bench):
     dark = ("p.gltf", *DARK)
     bench.run("render", *dark, "--size", "256x256", "--msaa", "1", "-o", "texels.pfm").expect(0)
     bench.run("render", *dark, "--size", "16x16", "--backend", "reference", "--reference-textures", "full", "--samples", "4096", "--variance", "var.pfm", "-o",
-              "truth.pfm").expect(0)
+              "reference.pfm").expect(0)
     _, _, texels = read_pfm(bench.folder / "texels.pfm")
-    _, _, truth = read_pfm(bench.folder / "truth.pfm")
+    _, _, reference = read_pfm(bench.folder / "reference.pfm")
     _, _, variance = read_pfm(bench.folder / "var.pfm")
     beyond = 0
     for y in range(16):
         for x in range(16):
             mean = sum(texels[3 * ((16 * y + j) * 256 + 16 * x + i)] for j in range(16) for i in range(16)) / 256
             at = 3 * (16 * y + x)
-            beyond += abs(mean - truth[at]) > 3 * math.sqrt(variance[at])
-    check(min(truth) > 0.001 and beyond <= 3, f"{beyond} of 256 pixels are beyond 3 sigma")  # .7 are expected
+            beyond += abs(mean - reference[at]) > 3 * math.sqrt(variance[at])
+    check(min(reference) > 0.001 and beyond <= 3, f"{beyond} of 256 pixels are beyond 3 sigma")  # .7 are expected
 
 
 @case("mip.levels_reflect_as_much_as_their_texels")
@@ -413,8 +413,8 @@ def gains(bench):
         bench.run("render", *words, *more, "-o", "m.pfm").expect(0)
         return sum(read_pfm(bench.folder / "m.pfm")[2])
 
-    truth = mean("--backend", "reference", "--reference-textures", "full", "--samples", "4096")
-    off = {(name, gain): mean("--mip-filter", name, "--mip-gain", gain) / truth - 1 for name in ("kappa", "ssgt", "mipnet") for gain in ("on", "off")}
+    reference = mean("--backend", "reference", "--reference-textures", "full", "--samples", "4096")
+    off = {(name, gain): mean("--mip-filter", name, "--mip-gain", gain) / reference - 1 for name in ("kappa", "ssgt", "mipnet") for gain in ("on", "off")}
     print({" ".join(of): round(by, 3) for of, by in off.items()})
     for name in ("kappa", "ssgt", "mipnet"):
         check(abs(off[name, "on"]) < 0.03 < 0.06 < abs(off[name, "off"]), f"{off}")
@@ -440,9 +440,9 @@ def coupled(bench):
         _, _, values = read_pfm(bench.folder / name)
         return sum(values[0::3]) / sum(values[2::3])
 
-    truth = ratio("t.pfm", "--backend", "reference", "--reference-textures", "full", "--samples", "1024")
+    reference = ratio("t.pfm", "--backend", "reference", "--reference-textures", "full", "--samples", "1024")
     by = {name: ratio("a.pfm", "--mip-filter", "kappa", "--couple", name) for name in ("none", "albedo")}
-    check(abs(by["albedo"] - truth) < 0.5 * abs(by["none"] - truth), f"{truth} {by}")
+    check(abs(by["albedo"] - reference) < 0.5 * abs(by["none"] - reference), f"{reference} {by}")
     check(hash_of(bench, "foil.gltf", *DARK[:-1], "--size", "128x128", "--color-kernel", "kaiser") != hash_of(bench, "foil.gltf", *DARK[:-1], "--size", "128x128"), "--color-kernel is not looked at")
     # colours with other texture coordinates, and frames without normals
     gltf = lone_plane(normalTexture={"index": 0}, pbrMetallicRoughness={"baseColorTexture": {"index": 0, "texCoord": 1}})
@@ -464,11 +464,11 @@ def shaderballs(bench):
         check(len(set(by.values())) == 3, f"{camera}: filters draw one picture: {by}")
     words = ("builtin:shaderballs", "--camera", "mid", "--size", "64x48", "--no-background", "--frame-map", "quaternion", "--env-size", "64", "--env-samples",
              "64", "-q")
-    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", "512", "-o", "truth.pfm").expect(0)
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", "512", "-o", "reference.pfm").expect(0)
     off = {}
     for name in ("box", "kappa", "mipnet"):
         bench.run("render", *words, "--mip-filter", name, "--technique", "mc", "--samples", "128", "--msaa", "8", "-o", "t.pfm").expect(0)
-        off[name] = off_by(bench, "truth.pfm", "t.pfm")["mse"]
+        off[name] = off_by(bench, "reference.pfm", "t.pfm")["mse"]
     check(max(off["kappa"], off["mipnet"]) < off["box"], f"{off}")
 
 

@@ -117,7 +117,7 @@ def mean_light(bench, name, *words):
     return sum(values) / len(values)
 
 
-def truth_of(bench, name, samples, *words):
+def reference_of(bench, name, samples, *words):
     return mean_light(bench, name, *words, "--backend", "reference", "--reference-textures", "full", "--samples", samples)
 
 
@@ -132,8 +132,8 @@ def light_is_kept(bench, kind):
     name, white = far_plate(bench, kind, KINDS[kind][1][0]), furnace(bench)
     for on in (False, True):
         look = (*white, *eye_at(30), "--size", "6x6", *horizon(bench, on))
-        truth = truth_of(bench, name, 256, *look)
-        off = {mip: mean_light(bench, name, *look, "--mip-filter", mip, "--technique", "mc", "--samples", 64) / truth - 1 for mip in FILTERS}
+        reference = reference_of(bench, name, 256, *look)
+        off = {mip: mean_light(bench, name, *look, "--mip-filter", mip, "--technique", "mc", "--samples", 64) / reference - 1 for mip in FILTERS}
         print(kind, on, {mip: round(by, 3) for mip, by in off.items()})
         check(all(abs(by) < 0.1 for by in off.values()), f"{kind}, horizon {on}: {off}")
 
@@ -169,9 +169,9 @@ def light_is_that_of_texels(bench, kind):
             off = {mip: [] for mip in FILTERS}
             for elevation in VIEWS:
                 look = (*light, *eye_at(elevation), "--size", "12x12", *horizon(bench, True))
-                truth = truth_of(bench, name, 1024, *look)
+                reference = reference_of(bench, name, 1024, *look)
                 for mip in FILTERS:
-                    off[mip].append(mean_light(bench, name, *look, "--mip-filter", mip, "--technique", "mc", "--samples", 64) / truth - 1)
+                    off[mip].append(mean_light(bench, name, *look, "--mip-filter", mip, "--technique", "mc", "--samples", 64) / reference - 1)
             for mip, by in off.items():
                 print(name, light[1], mip, *(f"{b:+.3f}" for b in by))
                 if max(map(abs, by if light == white else [sum(by) / len(by)])) > most:
@@ -209,7 +209,7 @@ def rough_metal(bench):
         for light in ("builtin:studio", "builtin:sky"):
             for elevation in VIEWS:
                 look = ("--env", light, *eye_at(elevation), "--size", "8x8")
-                off = mean_light(bench, name, *look, "--mip-filter", "kappa", "--technique", "mc", "--samples", 64) / truth_of(bench, name, 1024, *look) - 1
+                off = mean_light(bench, name, *look, "--mip-filter", "kappa", "--technique", "mc", "--samples", 64) / reference_of(bench, name, 1024, *look) - 1
                 print(name, light, elevation, f"{off:+.3f}")
                 check(abs(off) < 0.1, f"{name}, {light}, {elevation}: {off}")
 
@@ -225,7 +225,7 @@ def default_technique(bench):
             off = []
             for elevation in VIEWS:
                 look = ("--env", light, *eye_at(elevation), "--size", "6x6")
-                off.append(mean_light(bench, name, *look, "--mip-filter", "kappa") / truth_of(bench, name, 1024, *look) - 1)
+                off.append(mean_light(bench, name, *look, "--mip-filter", "kappa") / reference_of(bench, name, 1024, *look) - 1)
             print(name, light, *(f"{by:+.3f}" for by in off))
             if abs(sum(off) / len(off)) > most:
                 far_off.append(f"{name} {light} {off}")

@@ -37,23 +37,23 @@ def flickers(bench, steps, samples):
     scratch(bench, "fine.png", grain(128, 0.3))
     words = ("floor.gltf", "--normal-map", "fine.png", "--frame-map", "quaternion", "--eye", "0,3,4", "--target", "0,0,0", "--fov", "35", "--size", "48x36",
              "--env-size", "64", "--env-samples", "64", "--no-background", "-q", "--animate", "zoom=4:0.6", "--steps", steps)
-    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 4 * samples, "-o", "truth%d.pfm",
+    bench.run("render", *words, "--backend", "reference", "--reference-textures", "full", "--samples", 4 * samples, "-o", "reference%d.pfm",
               timeout=1000.0).expect(0)
     changes = {}
     for name in ("box", "lean", "kappa", "leadr", "mipnet"):
         bench.run("render", *words, "--mip-filter", name, "--technique", "mc", "--samples", samples, "--msaa", "8", "-o", name + "%d.pfm",
                   timeout=1000.0).expect(0)
-        found = json.loads(bench.run("compare", "--sequence", "truth%d.pfm", name + "%d.pfm", "--json", "-", timeout=1000.0).expect(0).out)
+        found = json.loads(bench.run("compare", "--sequence", "reference%d.pfm", name + "%d.pfm", "--json", "-", timeout=1000.0).expect(0).out)
         changes[name] = found["change"] / found["reference_change"]
-    print("changes to the truth's:", {name: round(share, 2) for name, share in changes.items()})
+    print("changes to the reference's:", {name: round(share, 2) for name, share in changes.items()})
     check(max(changes["kappa"], changes["leadr"], changes["mipnet"]) < 1.5 and max(changes["lean"], changes["box"]) < 2, f"{changes}")
 
 
-@case("mip.a_zoom_out_flickers_as_the_truth_does", tier="nightly")
+@case("mip.a_zoom_out_flickers_as_the_reference_does", tier="nightly")
 def zoom_out(bench):
     flickers(bench, 8, 128)
 
 
-@case("mip.a_zoom_out_of_sixty_steps_flickers_as_the_truth_does", tier="nightly")
+@case("mip.a_zoom_out_of_sixty_steps_flickers_as_the_reference_does", tier="nightly")
 def long_zoom_out(bench):
     flickers(bench, 60, 256)

@@ -281,8 +281,8 @@ def node_pictures(bench, folder):
     return [folder / "with.pfm", folder / "without.pfm"]
 
 
-@case("export.example_projects_draw_near_the_truth", tier="nightly")
-def near_the_truth(bench):
+@case("export.example_projects_draw_near_the_reference", tier="nightly")
+def near_the_reference(bench):
     needs_embree(bench)
     engines = os.environ.get("BURNISH_ENGINES", "")
     if not engines:
@@ -294,14 +294,14 @@ def near_the_truth(bench):
                 "writeFileSync('studio.hdr', Buffer.from(await studio_file().arrayBuffer())); console.log('1');")
     far = 2.2 * math.sqrt(3.3 ** 2 + 2) / math.sqrt(1 + 0.25 ** 2)  # where main.js puts the camera
     bench.run("render", "balls.gltf", "--env", "studio.hdr", "--eye", f"0,{0.25 * far},{far}", "--target", "0,0,0", "--fov", "30", "--size", "900x420",
-              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "truth.png", "-o", "truth.pfm", "-q", timeout=600).expect(0)
+              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "reference.png", "-o", "reference.pfm", "-q", timeout=600).expect(0)
     for engine, pictures_of in (("babylon", screenshots), ("three", screenshots), ("three", node_pictures)):
         folder = bench.folder / engine if (bench.folder / engine).exists() else project(bench, engine)
         if not (folder / "node_modules").exists():
             (folder / "node_modules").symlink_to(pathlib.Path(engines).resolve() / "node_modules")
         flips = []
         for picture in pictures_of(bench, folder):
-            bench.run("compare", "truth.png" if pictures_of == screenshots else "truth.pfm", picture, "--json", "c.json", "-q")
+            bench.run("compare", "reference.png" if pictures_of == screenshots else "reference.pfm", picture, "--json", "c.json", "-q")
             flips.append(json.loads((bench.folder / "c.json").read_text())["flip_mean"])
         name = f"{engine}, {pictures_of.__name__}"
         print(f"{name}: FLIP {flips[1]:.3f} without the module, {flips[0]:.3f} with it")

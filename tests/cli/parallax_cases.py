@@ -31,17 +31,17 @@ def wall(bench):
 
 # Rays find the stones at the triangles' places: much closer than the flat wall, and not with heights taken for depths.
 @case("parallax.shows_what_triangles_show", tier="nightly")
-def truth(bench):
+def reference(bench):
     flat = wall(bench)
     bench.run("bake", "displaced", "wall.obj", "h.png", "--height-scale", "0.06", "--triangles", "130000", "-q", "-o", "wall.glb").expect(0)
     scratch(bench, "even.pfm", pfm(4, 2, lambda x, y: (1, 1, 1)))  # normals make no difference under uniform light
     words = (*OBLIQUE, "--env", "even.pfm", "--msaa", "4", "--roughness", "1", "--f0", "0,0,0", "--no-background", "-q")
-    bench.run("render", "wall.glb", *words, "--material", "stones", "-o", "truth.pfm").expect(0)
+    bench.run("render", "wall.glb", *words, "--material", "stones", "-o", "reference.pfm").expect(0)
     off = {}
     for name, given in (("flat", ()), ("parallax", ("--height-map", "h.png", "--height-scale", "1.2")),
                         ("less", ("--height-map", "h.png", "--height-scale", "0.4"))):
         bench.run("render", *flat, *words, *given, "-o", name + ".pfm").expect(0)
-        off[name] = off_by(bench, "truth.pfm", name + ".pfm")["mse"]
+        off[name] = off_by(bench, "reference.pfm", name + ".pfm")["mse"]
     check(off["parallax"] < 0.35 * off["flat"] and off["parallax"] < off["less"] < off["flat"], f"{off}")
 
 

@@ -218,7 +218,7 @@ refused('image', lambda: pr.Mesh.from_trimesh(type('T', (), {'vertices': SQUARE,
 refused('positions/3', lambda: pr.Primitive([(0, 0, 0), (math.nan, 0, 0), (0, 0, 0)]))
 renderer.render(whole)
 renderer.delete()
-assert not renderer._kept
+assert not renderer._cached
 """)
 
 

@@ -33,7 +33,7 @@ LACKING = {
     "tables and levels from files": "as-table ltc-table mip-net mip-pyramid",
     "tests of the reference, and its files": "reference-strategy checkpoint checkpoint-seconds",
     "several processes share a job": "pieces shard take piece merge work",
-    "the library has the usual limits": "strict allow-outside-uris",
+    "the library has the default limits": "strict allow-outside-uris",
 }
 
 

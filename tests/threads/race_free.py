@@ -19,7 +19,7 @@ RUNS = {
     "tile": ("render", "builtin:spheres", *SMALL, "--msaa", "4", "--tile-size", "32", "-o", "tile.exr"),
     "tile by every technique": ("render", "builtin:plate", *SMALL, "--technique", "major_axis_adaptive", "-o", "plate.png"),
     "bake": ("render", "builtin:teapot", "--size", "32x32", "--env-size", "64", "--threads", "4", "--no-cache", "-o", "bake.png"),
-    "reference": ("render", "builtin:teapot", *SMALL, "--backend", "reference", "--samples", "4", "--checkpoint", "state", "-o", "truth.exr"),
+    "reference": ("render", "builtin:teapot", *SMALL, "--backend", "reference", "--samples", "4", "--checkpoint", "state", "-o", "reference.exr"),
     "reference of paths": ("render", "builtin:plate", *SMALL, "--backend", "reference", "--reference-mode", "path", "--samples", "2", "-o", "p.exr"),
     "compare": ("compare", "tile.exr", "tile.exr", "--metric", "flip-hdr,ssim,mse"),
     "parity": ("parity", "builtin:plate", "--size", "64x48", "--env-size", "16", "--technique", "bent_normal,lobe_line", "--msaa", "1", "--device",

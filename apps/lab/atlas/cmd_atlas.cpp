@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxTableBytes = 16ull << 20;
 constexpr const char* kFooter =
-    R"(Each entry is a path of pictures from settings where a method holds to settings where it fails, measured against the reference or another
-truth. DIR gets index.html with the pictures, atlas.json, and finished entries; a stopped atlas continues from those.
+    R"(Each entry is a path of pictures from settings where a method holds to settings where it fails, measured against a reference.
+DIR gets index.html with the pictures, atlas.json, and finished entries; a stopped atlas continues from those.
 
 Exit codes: 0 all entries hold, 1 an entry is worse than its blessed figures or its cure fails, 2 wrong option, 7 output not written, 77 no
 Embree, which the reference needs.
@@ -126,8 +126,8 @@ Result<WalkedEntry> Atlas::measure(const AtlasEntry& entry)
     if (options_.folder.empty())
         return walk_entry(entry, options_.walk(), cache_);
     const CachedFiles files = cached_files(options_, entry);
-    if (std::optional<MeasuredEntry> kept = read_cached(files))
-        return WalkedEntry{std::move(*kept), {}, false};
+    if (std::optional<MeasuredEntry> cached = read_cached(files))
+        return WalkedEntry{std::move(*cached), {}, false};
     Result<WalkedEntry> walked = walk_entry(entry, options_.walk(), cache_);
     if (!walked || walked->stopped)
         return walked;

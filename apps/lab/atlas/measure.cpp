@@ -216,13 +216,13 @@ Status Walker::find_kind()
     const int side = entry_.reference == AtlasReference::full ? walk_.side : std::min(walk_.side, kVerdictSide);
     const Result<AtlasSetting> few = setting_of(entry_, AtlasRole::test, place(at), side, 0);
     BN_TRY(few);
-    const Result<double> usual = error_of(*few, entry_, at);
-    BN_TRY(usual);
+    const Result<double> few_error = error_of(*few, entry_, at);
+    BN_TRY(few_error);
     AtlasSetting more = *few;
     take_more(more.options.frame);
     const Result<double> sampled = error_of(more, entry_, at, true);
     BN_TRY(sampled);
-    m.kind = gone(*sampled, *usual) ? "sampling" : "approximation";
+    m.kind = gone(*sampled, *few_error) ? "sampling" : "approximation";
     if (m.kind == "sampling" || entry_.reference != AtlasReference::full)
         return {};
     // Compare with a reference that filters textures alike

@@ -125,7 +125,7 @@ std::string section(const AtlasResult& r)
             "<p class=\"controls\"><label>Path <input type=\"range\" class=\"path\" min=\"0\" max=\"{0}\" value=\"{0}\" step=\"1\" "
             "aria-label=\"place on the path of {1}\"></label></p>\n<p class=\"says\" aria-live=\"polite\"></p>\n<div class=\"panes\">\n",
             last, e.id);
-        out += pane(r, AtlasRow::reference, "truth") + pane(r, AtlasRow::test, "breaks") + pane(r, AtlasRow::error, "its error");
+        out += pane(r, AtlasRow::reference, "reference") + pane(r, AtlasRow::test, "breaks") + pane(r, AtlasRow::error, "its error");
         if (e.cure[0])
             out += pane(r, AtlasRow::cure, "cure") + pane(r, AtlasRow::cure_error, "the cure's error");
         out += fmt::format("</div>\n<script type=\"application/json\" class=\"steps\">{}</script>\n", script_json(steps_of(r)));
@@ -153,10 +153,10 @@ std::string atlas_page(const std::vector<AtlasResult>& results, const AtlasWalk&
                         red       ? fmt::format("<strong class=\"red\">{} not held.</strong>", red)
                         : unknown ? fmt::format("{} not blessed.", unknown)
                                   : std::string(results.size() == 1 ? "It is held." : "All are held."));
-    page += "<p>Keys: <kbd>N</kbd> <kbd>P</kbd> next and previous entry, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> along its path, <kbd>+</kbd> "
-            "<kbd>-</kbd> zoom, <kbd>F</kbd> flickers what breaks with the truth.</p>\n<noscript><p>The paths need JavaScript; curves and "
-            "figures do "
-            "not.</p></noscript>\n";
+    page +=
+        "<p>Keys: <kbd>N</kbd> <kbd>P</kbd> next and previous entry, <kbd>&larr;</kbd> <kbd>&rarr;</kbd> along its path, <kbd>+</kbd> "
+        "<kbd>-</kbd> zoom, <kbd>F</kbd> flickers what breaks with the reference.</p>\n<noscript><p>The paths need JavaScript; curves and "
+        "figures do not.</p></noscript>\n";
     page += overview(results);
     for (const AtlasResult& r : results)
         page += section(r);

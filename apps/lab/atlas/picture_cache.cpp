@@ -30,10 +30,10 @@ Result<std::optional<Frame>> some(Result<Frame> frame)
     return std::optional<Frame>(std::move(*frame));
 }
 
-template <class Cached> void make_room(Cached& kept, std::size_t most = kMostCached)
+template <class Cached> void make_room(Cached& entries, std::size_t most = kMostCached)
 {
-    if (kept.size() >= most)
-        kept.clear();
+    if (entries.size() >= most)
+        entries.clear();
 }
 
 // Returns the file of --as-table; empty: none.

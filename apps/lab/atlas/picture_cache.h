@@ -53,7 +53,7 @@ class PictureCache {
 
     Machine machine_;
     Report& report_;
-    // Caches by the key of their inputs; only the most recent entries are kept.
+    // Caches by the key of their inputs. A full one is cleared.
     std::map<std::string, std::shared_ptr<const SceneData>> scenes_;
     std::map<std::string, std::shared_ptr<const Environment>> environments_;
     std::map<std::string, SessionParts> parts_;

@@ -1,4 +1,4 @@
-// Measurements of an entry as JSON: kept in DIR to resume a stopped atlas, and written to atlas.json.
+// Measurements of an entry as JSON: cached in DIR to resume a stopped atlas, and written to atlas.json.
 #pragma once
 #include <string>
 

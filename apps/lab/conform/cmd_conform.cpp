@@ -141,7 +141,7 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
     if (a.write.empty() && same_file(a.pictures, a.folder))
         return usage_error("PICTURES", "is the conformance folder: give a folder of its own");
     if (same_file(a.pictures, a.folder + "/truth"))
-        return usage_error("PICTURES", "is the folder of truths");
+        return usage_error("PICTURES", "is the folder of references");
     for (const std::string& name : a.mistakes)
         for (const Mutant& mutant : mutants())
             if (mutant.name == name && mutant.kernels != 0 && (mutant.kernels & kOfGltfBend) != 0 && !is_gltf(a.technique))
@@ -242,7 +242,7 @@ int make_references(const ConformArguments& a, Report& report)
 int write_folder(const ConformArguments& a, Report& report)
 {
     if (!reference_available())
-        return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which makes the truths"});
+        return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which makes the references"});
     if (any_pieces(a.pieces) && !a.pieces.merge)
         return make_references(a, report);
     if (a.pieces.merge) // before a file is written
@@ -288,8 +288,8 @@ void tell(const Judgement& judgement, Report& report)
             report.figure(s.name, s.reason);
             continue;
         }
-        std::string line = fmt::format("{:5} FLIP {:.3f} to the truth, {:.3f} to what is right ({:.3f} from the truth)",
-                                       outcome_name(s.outcome), s.to_reference, s.to_right, s.usual);
+        std::string line = fmt::format("{:5} FLIP {:.3f} to the reference, {:.3f} to what is right ({:.3f} from the reference)",
+                                       outcome_name(s.outcome), s.to_reference, s.to_right, s.way_to_reference);
         if (s.outcome == SceneJudgement::Outcome::wrong && s.nearest != kNoMistake)
             line += fmt::format("; nearest: {}, FLIP {:.3f}", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
         report.figure(s.name, line);

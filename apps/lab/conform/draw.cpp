@@ -80,9 +80,9 @@ FrameDesc ConformDrawer::desc_of(const Scene& scene) const
 
 Result<std::shared_ptr<const Environment>> ConformDrawer::sky(bool lit, const std::vector<MutantSky>& changes)
 {
-    std::shared_ptr<const Environment>& kept = lit ? skies_[changes] : black_;
-    if (kept)
-        return kept;
+    std::shared_ptr<const Environment>& cached = lit ? skies_[changes] : black_;
+    if (cached)
+        return cached;
     EnvironmentOptions options;
     options.cube_size = lit ? kCubeSize : 16;
     options.extracted_lights = 0;
@@ -93,8 +93,8 @@ Result<std::shared_ptr<const Environment>> ConformDrawer::sky(bool lit, const st
             picture = changed_sky(picture, change);
     Result<Environment> baked = bake_environment(picture, "environment", options, *jobs_);
     BN_TRY(baked);
-    kept = std::make_shared<const Environment>(std::move(*baked));
-    return kept;
+    cached = std::make_shared<const Environment>(std::move(*baked));
+    return cached;
 }
 
 Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<const int> mistakes)

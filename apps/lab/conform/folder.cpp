@@ -108,7 +108,7 @@ Result<ConformFolder> read_conform_folder(const std::string& path)
     if (!content)
         return bad_folder(content.error().file, "", content.error().reason + ": write the folder anew");
     if (json.value("content", Json()) != *content)
-        return bad_folder(file, "/content", "a scene or the environment has changed since its truth was made: write the folder anew");
+        return bad_folder(file, "/content", "a scene or the environment has changed since its reference was made: write the folder anew");
     return conform_folder(path);
 }
 

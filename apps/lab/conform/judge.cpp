@@ -118,7 +118,7 @@ class Judge {
     ConformDrawer& drawer_;
     const std::vector<EnginePicture>& pictures_;
     const Jobs& jobs_;
-    std::vector<Image> usual_;       // by scene
+    std::vector<Image> way_shown_;   // by scene
     std::vector<std::size_t> order_; // of scenes, with unlike ones after each other
     double exposure_ev_ = 0.0;       // of the mistake kExposure
 };
@@ -243,7 +243,7 @@ Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pair
             now.found.before += left[i], now.found.after += e.distance;
             const bool suspect = is_suspect(scene, to, left[i]) && e.distance <= kExplains * left[i];
             accepted = accepted || (suspect && (left[i] > to.right_up_to || e.distance <= kNear * to.noise));
-            if (known.empty() && set.size() == 1 && e.distance < std::min(scene.to_usual, scene.to_nearest))
+            if (known.empty() && set.size() == 1 && e.distance < std::min(scene.to_way, scene.to_nearest))
                 scene.nearest = set.front(), scene.to_nearest = e.distance, scene.nearest_ev = exposure_ev_;
         }
         const double share = whole ? kExplainsWhole : kExplains;
@@ -256,7 +256,7 @@ Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pair
 // Finds mistakes one after the other. pairs: begins with two at once where no single one explains enough.
 Status Judge::find_mistakes(bool pairs, Judgement& to)
 {
-    std::vector<Image> without = usual_;
+    std::vector<Image> without = way_shown_;
     std::vector<double> left(pictures_.size());
     for (std::size_t i = 0; i < left.size(); ++i)
         left[i] = to.scenes[i].explained;
@@ -332,21 +332,21 @@ Result<DrawnWay> Judge::draw_way(const RightWay& way)
     return drawn;
 }
 
-// Fills a judgement for an engine that draws in that way. Fills usual_.
+// Fills a judgement for an engine that draws in that way. Fills way_shown_.
 void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const std::vector<Image>& references, Judgement& to)
 {
     const RightWay& way = *ways[at].way;
     drawer_.set_way(way);
     to.way = &way;
-    usual_ = ways[at].shown;
+    way_shown_ = ways[at].shown;
     std::vector<double> distances;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         if (!usable(i))
             continue;
         SceneJudgement& scene = to.scenes[i];
-        scene.to_usual = scene.explained = ways[at].distance[i];
-        scene.usual = mean_flip(shown_picture(references[i]), usual_[i], jobs_);
-        scene.to_right = std::min(scene.to_reference, scene.to_usual);
+        scene.to_way = scene.explained = ways[at].distance[i];
+        scene.way_to_reference = mean_flip(shown_picture(references[i]), way_shown_[i], jobs_);
+        scene.to_right = std::min(scene.to_reference, scene.to_way);
         for (const DrawnWay& other : ways) // lost light may be given back or not
             if (other.way->kernels == way.kernels && std::string_view(other.way->technique) == way.technique)
                 scene.to_right = std::min(scene.to_right, other.distance[i]);
@@ -369,7 +369,7 @@ double unexplained_distance(const Judgement& judgement)
 {
     double sum = 0.0;
     for (const SceneJudgement& s : judgement.scenes)
-        if (s.outcome == SceneJudgement::Outcome::wrong || (s.outcome == SceneJudgement::Outcome::right && s.explained > s.to_usual))
+        if (s.outcome == SceneJudgement::Outcome::wrong || (s.outcome == SceneJudgement::Outcome::right && s.explained > s.to_way))
             sum += std::max(s.explained - judgement.right_up_to, 0.0);
     return sum;
 }
@@ -377,7 +377,7 @@ double unexplained_distance(const Judgement& judgement)
 // Returns true for a scene that the mistakes found bring near to the picture.
 bool is_explained(const SceneJudgement& s, const Judgement& judgement)
 {
-    return s.explained <= judgement.right_up_to || s.explained <= kExplains * s.to_usual;
+    return s.explained <= judgement.right_up_to || s.explained <= kExplains * s.to_way;
 }
 
 // Takes the mistakes back where they explain few of the wrong scenes: a fault that nobody knows looks like one of ours here and there.
@@ -391,7 +391,7 @@ void forget_chance(Judgement& judgement)
         return;
     judgement.mistakes.clear(), judgement.exposure_ev = 0.0;
     for (SceneJudgement& s : judgement.scenes)
-        s.explained = s.to_usual;
+        s.explained = s.to_way;
 }
 
 Result<Judgement> Judge::run(const ConformFolder& folder, const std::vector<Image>& references)

@@ -29,14 +29,14 @@ struct SceneJudgement {
     std::string reason;      // for unusable and missing ones
     bool not_finite = false; // the picture holds NaN or infinities
     bool from_eight_bits = false;
-    double to_reference = 0.0; // the picture's mean LDR-FLIP to the reference
-    double usual = 0.0;        // of Judgement::way to the reference
-    double to_right = 0.0;     // from the picture to the reference or to Judgement::way, the least
-    double to_usual = 0.0;     // from the picture to Judgement::way
-    int nearest = kNoMistake;  // none is nearer than Judgement::way
-    double to_nearest = 2.0;   // from the picture to that one
-    double nearest_ev = 0.0;   // its exposure, if it is kExposure
-    double explained = 0.0;    // from the picture to the one with the mistakes found; to_usual without any
+    double to_reference = 0.0;     // the picture's mean LDR-FLIP to the reference
+    double way_to_reference = 0.0; // from Judgement::way to the reference
+    double to_right = 0.0;         // from the picture to the reference or to Judgement::way, the least
+    double to_way = 0.0;           // from the picture to Judgement::way
+    int nearest = kNoMistake;      // none is nearer than Judgement::way
+    double to_nearest = 2.0;       // from the picture to that one
+    double nearest_ev = 0.0;       // its exposure, if it is kExposure
+    double explained = 0.0;        // from the picture to the one with the mistakes found; to_way without any
 };
 
 struct FoundMistake {

@@ -30,8 +30,8 @@ std::string fault_of(const SceneJudgement& s)
 {
     if (!is_compared(s))
         return s.reason;
-    std::string text = fmt::format("FLIP {:.3f} to the truth, {:.3f} to what is right; that way itself is {:.3f} from the truth",
-                                   s.to_reference, s.to_right, s.usual);
+    std::string text = fmt::format("FLIP {:.3f} to the reference, {:.3f} to what is right; that way itself is {:.3f} from the reference",
+                                   s.to_reference, s.to_right, s.way_to_reference);
     if (s.nearest != kNoMistake)
         text += fmt::format("; nearest: {} (FLIP {:.3f})", mistake_words(s.nearest, s.nearest_ev), s.to_nearest);
     return text;
@@ -46,7 +46,7 @@ Result<std::string> figure(const std::string& title, const std::string& caption,
                        base64(*png), image.width, image.height, escaped(title), escaped(title), escaped(caption));
 }
 
-// Returns a scene's pictures: the engine's, the reference, the usual way, the mistakes found or the nearest, the error.
+// Returns a scene's pictures: the engine's, the reference, the engine's way, the mistakes found or the nearest, the error.
 Result<std::string> pictures_of(const SceneJudgement& s, std::size_t scene, const Judgement& judgement, const ConformPictures& pictures,
                                 ConformDrawer& drawer, const Jobs& jobs)
 {
@@ -59,15 +59,15 @@ Result<std::string> pictures_of(const SceneJudgement& s, std::size_t scene, cons
         return {};
     };
     if (is_compared(s))
-        BN_TRY(add("Engine", fmt::format("FLIP {:.3f} to the truth", s.to_reference), pictures.engine[scene].shown));
-    BN_TRY(add("Truth", "by the reference", reference));
+        BN_TRY(add("Engine", fmt::format("FLIP {:.3f} to the reference", s.to_reference), pictures.engine[scene].shown));
+    BN_TRY(add("Reference", "by Monte Carlo", reference));
     if (!is_compared(s))
         return out;
     BN_TRY(
         add("Error", "black 0, light yellow 1", magma_map(flip_ldr(reference, pictures.engine[scene].shown, FlipOptions{}, jobs).error)));
-    Result<std::optional<Image>> usual = drawer.draw(scene, {});
-    BN_TRY(usual);
-    BN_TRY(add("Without mistakes", fmt::format("FLIP {:.3f} to the truth", s.usual), shown_picture(**usual)));
+    Result<std::optional<Image>> without = drawer.draw(scene, {});
+    BN_TRY(without);
+    BN_TRY(add("Without mistakes", fmt::format("FLIP {:.3f} to the reference", s.way_to_reference), shown_picture(**without)));
     std::vector<int> shown;
     std::string words;
     for (const FoundMistake& m : judgement.mistakes)
@@ -113,8 +113,8 @@ std::string conform_json(const Judgement& judgement)
         else
             row.update({{"flip_to_truth", s.to_reference},
                         {"flip_to_right", s.to_right},
-                        {"flip_of_usual_way_to_truth", s.usual},
-                        {"flip_to_usual_way", s.to_usual},
+                        {"flip_of_usual_way_to_truth", s.way_to_reference},
+                        {"flip_to_usual_way", s.to_way},
                         {"flip_with_mistakes", s.explained},
                         {"eight_bits", s.from_eight_bits},
                         {"nearest", s.nearest == kNoMistake ? Json(nullptr) : Json(mistake_name(s.nearest))},
@@ -166,7 +166,8 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
                             "class=\"{2}\">{2}</strong></td><td>{3}</td><td>{4}</td><td>{5}</td></tr>\n",
                             escaped(s.name), escaped(folder.scenes[i].about), outcome_name(s.outcome),
                             is_compared(s) ? fmt::format("{:.3f}", s.to_reference) : "",
-                            is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "", is_compared(s) ? fmt::format("{:.3f}", s.usual) : "");
+                            is_compared(s) ? fmt::format("{:.3f}", s.to_right) : "",
+                            is_compared(s) ? fmt::format("{:.3f}", s.way_to_reference) : "");
         const Result<std::string> shown = pictures_of(s, i, judgement, pictures, drawer, jobs);
         BN_TRY(shown);
         walls += fmt::format(
@@ -181,10 +182,10 @@ Result<std::string> conform_page(const Judgement& judgement, const ConformFolder
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
         "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
-        "<p>An engine's pictures against the reference's. {6}A picture is right where it looks like the truth, or like the engine's way of "
-        "drawing image light without a mistake.</p>\n"
-        "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP to the truth</th><th>to what is "
-        "right</th><th>what is right, to the truth</th></tr>\n{4}</table>\n{5}"
+        "<p>An engine's pictures against the reference's. {6}A picture is right where it looks like the reference, or like the engine's "
+        "way of drawing image light without a mistake.</p>\n"
+        "{3}<table class=\"rows\">\n<tr><th>scene</th><th>about</th><th>picture</th><th>FLIP to the reference</th><th>to what is "
+        "right</th><th>what is right, to the reference</th></tr>\n{4}</table>\n{5}"
         "</main>\n</body>\n</html>\n",
         title, kChartPageStyle.bytes, kConformStyle.bytes, mistakes.empty() ? "" : "<h2>Mistakes found</h2>\n<ol>\n" + mistakes + "</ol>\n",
         rows, walls, way);

@@ -94,7 +94,7 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
         if (reference->width != kConformWidth || reference->height != kConformHeight || reference->type != PixelType::f32 ||
             reference->channels != 3)
             return Error{ExitCode::bad_input, folder.reference_of(scene.name), "",
-                         "is no truth of a conformance folder: write the folder anew"};
+                         "is no reference of a conformance folder: write the folder anew"};
         const std::size_t values = reference->bytes.size() / sizeof(float);
         if (!std::all_of(reference->f32(), reference->f32() + values, [](float v) { return std::isfinite(v); }))
             return Error{ExitCode::not_finite, folder.reference_of(scene.name), "", "holds NaN or infinities: write the folder anew"};

@@ -9,6 +9,7 @@
 #include "apps/cli/outputs.h"
 #include "apps/cli/shared_options.h"
 #include "apps/cli/values.h"
+#include "apps/lab/race/opaque_scene.h"
 #include "apps/lab/race/race_report.h"
 #include "apps/options/scene_with_view.h"
 #include "apps/render/stats.h"
@@ -29,6 +30,9 @@ and is timed from submission to the fence. It runs the project's shader, made fr
 write it. The ratio compares the process' CPU times, device over tile: above 1, the tile renderer needs less. A frame that differs (mean FLIP
 above 0.01 over pixels without silhouettes) is marked and does not count. A row that fails, or that the lean shader cannot draw, is reported,
 and the program ends with its exit code.
+
+An engine's shader has no horizon under normal maps and no facets of distant ones, and draws opaque surfaces in a pass of their own. So with
+the lean shader no renderer draws these, or materials that let light through or blend. A note counts these materials.
 
 Examples:
   burnish race
@@ -114,12 +118,16 @@ struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
     std::vector<std::string> devices, shaders;
     int runs = 5;
+    bool lean = false; // the lean shader is among them: normal maps have no horizon and no facets, and scenes are opaque
 };
 
 Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
 {
     RacePlan plan;
+    plan.lean = std::find(in.shaders.begin(), in.shaders.end(), "lean") != in.shaders.end();
     RenderArguments arguments = in.render;
+    if (plan.lean)
+        arguments.plain.frame.horizon = 0, arguments.plain.mips.facets = false;
     for (const std::string& scene : in.scenes)
         for (const std::string& technique : in.techniques)
             for (const int msaa : in.msaa) {
@@ -187,11 +195,27 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
     bench.out.rows.push_back(row);
 }
 
+// Loads a scene and its view. Leaves out what the lean shader's pass does not draw, and adds a note. Errors: nothing is left.
+Result<SceneWithView> load_raced_scene(Race& bench, const RenderOptions& base)
+{
+    Result<SceneWithView> scene = load_scene_with_view(base.scene, base, bench.report);
+    if (!scene || !bench.plan.lean)
+        return scene;
+    const Result<OpaqueScene> opaque = opaque_scene(scene->data);
+    BN_TRY(opaque);
+    if (opaque->empty())
+        return Error{ExitCode::unavailable, base.scene, "", "nothing is left to draw: all its materials let light through or blend"};
+    if (opaque->left_out > 0)
+        bench.out.notes.push_back(base.scene + ": " + left_out_note(*opaque));
+    scene->data = opaque->data;
+    return scene;
+}
+
 // Races frames first to last - 1 of the plan, all of one scene.
 void race_scene(Race& bench, std::size_t first, std::size_t last)
 {
     const std::vector<RenderOptions>& frames = bench.plan.frames;
-    const Result<SceneWithView> scene = load_scene_with_view(frames[first].scene, frames[first], bench.report);
+    const Result<SceneWithView> scene = load_raced_scene(bench, frames[first]);
     if (!scene) {
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t d = 0; d < bench.devices.size(); ++d)
@@ -262,7 +286,9 @@ OptionTable option_table(RaceArguments& to)
     table.add("", {{"SCENE", "", "A .gltf or .glb file, or builtin:NAME; may be several", scenes(to.scenes)},
                    {"--techniques", "NAMES", "all, or names by commas; see burnish list techniques", techniques_value(to.techniques)},
                    {"--devices", "NAMES", "Devices, separated by commas; absent ones are named and left out", choices(to.devices, {})},
-                   {"--shaders", "NAMES", "Shaders, separated by commas: own (the kernels' text) and lean (as an engine would write it)",
+                   {"--shaders", "NAMES",
+                    "Shaders, separated by commas: own (the kernels' text) and lean (as an engine would write it). With lean, neither "
+                    "renderer draws the horizon and facets of normal maps, nor materials that let light through or blend",
                     choices(to.shaders, {std::begin(kRaceShaders), std::end(kRaceShaders)})},
                    {"--msaa", "N,N", "Samples a pixel, separated by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
                    {"--runs", "N", "Timed frames for every row and renderer, in turn", integer(to.runs, 1, 10000)},

@@ -27,7 +27,7 @@ struct RaceReport {
     std::string processor, isa, version;
     int threads = 0, width = 0, height = 0, runs = 0;
     std::vector<RaceRow> rows;
-    std::vector<std::string> notes; // about devices, one line each
+    std::vector<std::string> notes; // about devices and scenes, one line each
 };
 
 inline constexpr double kMaxRaceFlip = 0.01;  // limit for flip_mean: above it the renderers draw different pictures

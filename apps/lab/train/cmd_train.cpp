@@ -59,7 +59,7 @@ OptionTable train_option_table(TrainArguments& to)
                {"--only-maps", "FOLDER", "Folder of materials to train on instead of those made in code; --maps adds to them",
                 folder(to.only_maps)},
                {"--from", "WEIGHTS", "Weights to start from, with the same lobe, layout and size", file(to.from)},
-               {"--taught-by", "WEIGHTS", "Weights whose levels are the truth, for the same lobe", file(to.distilled_from)},
+               {"--taught-by", "WEIGHTS", "Weights whose levels are the reference, for the same lobe", file(to.distilled_from)},
                {"--checkpoint", "FILE", "Checkpoint file for unfinished training", file(to.checkpoint), "WEIGHTS.part"}});
     table.add("Measuring",
               {{"--evaluate", "WEIGHTS", "Weights to measure, instead of training", file(to.evaluate)},

@@ -79,7 +79,7 @@ Result<ImageProbe> probe_jpeg(const ImageBytes& file, const Limits& limits)
         const std::uint64_t length = big_endian(file.data + at, 2);
         if (length < 2 || at + length > file.size)
             return file.error(fmt::format("byte {}", at), fmt::format("a segment of {} bytes does not fit", length));
-        // Take pieces of the colour profile (ICC.1:2022 annex B), which lie in order in usual files
+        // Take pieces of the colour profile (ICC.1:2022 annex B), which lie in order in most files
         constexpr std::string_view kPiece("ICC_PROFILE\0", 12);
         if (*marker == 0xE2 && length >= 16 && starts_with(file, kPiece, at + 2))
             probe.colour.profile.insert(probe.colour.profile.end(), file.data + at + 16, file.data + at + length);

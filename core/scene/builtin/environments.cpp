@@ -60,7 +60,7 @@ Panel panel(double azimuth_deg, double elevation_deg, double half_width, double 
 {
     const double a = azimuth_deg * kPi / 180.0, e = elevation_deg * kPi / 180.0;
     Panel p;
-    // Azimuth 0 is +Z, the usual place of the camera; azimuth 90 is +X.
+    // Azimuth 0 is +Z, the camera's default side; azimuth 90 is +X.
     p.center = {det_cos(e) * det_sin(a), det_sin(e), det_cos(e) * det_cos(a)};
     p.right = {det_cos(a), 0.0, -det_sin(a)};
     p.up = glm::cross(p.center, p.right);

@@ -215,8 +215,8 @@ Bytes read_uri(Document& doc, const std::string& uri, const std::string& place, 
     if (is_data(uri))
         return own = decode_data_uri(doc, uri, place);
     const std::string path = resolve_file_uri(doc, uri, place), file = canonical_path(doc, path, place);
-    if (const auto kept = doc.buffer_files.find(file); kept != doc.buffer_files.end())
-        return kept->second;
+    if (const auto cached = doc.buffer_files.find(file); cached != doc.buffer_files.end())
+        return cached->second;
     return own = read_counted(doc, file, path, place);
 }
 

@@ -318,7 +318,7 @@ class Reader {
         }
         picture.nearest = std::string(input_of(node, "filtertype").attribute("value").value()) == "closest";
         for (const char* const name : {"texcoord", "rotate", "realworldimagesize", "realworldtilesize", "operationorder"})
-            if (const xml_node input = input_of(node, name); input && !is_usual(input, name))
+            if (const xml_node input = input_of(node, name); input && !is_default(input, name))
                 return fault("", fmt::format("its {} is not read", name));
         const bool gltf = std::strncmp(node.name(), "gltf", 4) == 0;
         BN_TRY(gltf ? place_as_gltf(node, picture) : place_as_tiles(node, picture));
@@ -338,7 +338,7 @@ class Reader {
         return {};
     }
 
-    // The nodes of gltf_pbr: KHR_texture_transform about the usual pivot.
+    // The nodes of gltf_pbr: KHR_texture_transform about the default pivot.
     Status place_as_gltf(xml_node node, PictureInput& picture) const
     {
         glm::vec2 pivot(0.0f, 1.0f);
@@ -368,15 +368,15 @@ class Reader {
     }
 
     // Returns true where an input has no effect: the first texture coordinates, sizes of 1, no rotation.
-    bool is_usual(xml_node input, const std::string& name)
+    bool is_default(xml_node input, const std::string& name)
     {
         if (name == "texcoord") {
             const xml_node from = find(input, input.attribute("nodename").value());
             return is_named(from, "texcoord") && input_of(from, "index").attribute("value").as_int() == 0;
         }
         const Result<Input> value = constant(input);
-        const float usual = name.starts_with("real") || name.starts_with("op") ? 1.0f : 0.0f;
-        return value && value->value.x == usual && value->value.y == usual;
+        const float neutral = name.starts_with("real") || name.starts_with("op") ? 1.0f : 0.0f;
+        return value && value->value.x == neutral && value->value.y == neutral;
     }
 
     Status put_pair(xml_node input, glm::vec2& to) const

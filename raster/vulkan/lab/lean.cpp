@@ -29,7 +29,7 @@ constexpr const char* kLeanTechniques[] = {
 // Traits of a material, as in surface.glsl.
 constexpr std::int32_t kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32, kUnlit = 64,
                        kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048, kLamps = 4096,
-                       kAreas = 8192, kRoundLights = 16384;
+                       kAreas = 8192, kRoundLights = 16384, kCoat = 32768;
 
 struct LeanFrame { // std140: frame.glsl
     glm::mat4 clip_from_world;
@@ -39,8 +39,10 @@ struct LeanFrame { // std140: frame.glsl
 struct LeanMaterial { // std140: surface.glsl
     glm::vec4 base, dielectric, f0, diffuse, factors, emissive, lobe, grain;
     glm::vec4 place[2 * kTextureSlots];
+    glm::vec4 coat;
 };
-static_assert(sizeof(LeanMaterial) == sizeof(glm::vec4) * (8 + 2 * kTextureSlots));
+static_assert(sizeof(LeanMaterial) == sizeof(glm::vec4) * (9 + 2 * kTextureSlots));
+static_assert(offsetof(LeanMaterial, coat) == sizeof(glm::vec4) * (8 + 2 * kTextureSlots));
 constexpr std::uint32_t kTableSamplers = 5;                                       // of set 0: albedo tables and transformed cosines
 constexpr std::size_t kMaterialStride = (sizeof(LeanMaterial) + 255) / 256 * 256; // the largest alignment of uniform buffers
 
@@ -91,14 +93,24 @@ const char* not_of_frame(const FrameDesc& desc, const GpuScene& scene)
     return nullptr;
 }
 
+// Returns the material's first coating that the stages lack; null: none.
+const char* not_of_coatings(const MaterialRecord& m)
+{
+#define BN_COATING(id, bit, strength, lobe)                                                                                                \
+    if (bit != kCoating_clearcoat && (m.coatings & (1 << bit)) != 0)                                                                       \
+        return #id;
+#include "shading/coatings.def"
+    return m.coat_spread != 0 ? "clear coats that the spread of their normals widens" : nullptr;
+}
+
 const char* not_of_material(const MaterialRecord& m)
 {
     if (!m.unlit && lean_technique(m.technique) < 0)
         return techniques()[static_cast<std::size_t>(m.technique)].name;
     if (m.transmission > 0.0f)
         return "materials that let light through";
-    if (m.coatings != 0)
-        return "coatings";
+    if (const char* coating = not_of_coatings(m); coating)
+        return coating;
     if (m.film != 0)
         return "thin films";
     if (m.alpha_mode == kAlpha_blend)
@@ -297,6 +309,7 @@ LeanMaterial lean_material(const MaterialRecord& m, const FrameDesc& desc, const
     r.grain = glm::vec4(turned ? m.grain[0] : shape.u.x, turned ? m.grain[1] : shape.u.y, stretch,
                         roughness * std::min(std::max(1.2f - eta, 0.0f), 1.0f));
     place_textures(m, f, textures, r);
+    r.coat = glm::vec4(m.clearcoat, m.clearcoat_roughness, m.clearcoat_f0, m.clearcoat_normal_scale);
     return r;
 }
 
@@ -330,6 +343,7 @@ void LeanDrawer::fill_materials(const FrameDesc& desc)
         trait(f.light_count > 0, kLamps);
         trait(f.area_light_count > 0, kAreas);
         trait(m.lights_lobe == lobe_with(kRoundLobe), kRoundLights);
+        trait((m.coatings >> kCoating_clearcoat & 1) != 0, kCoat);
         const bool gridded = f.grid_count > 0;
         constants_.push_back({std::max(lean_technique(m.technique), 0), gridded ? f.grid_count : m.samples, textures, traits});
     }

@@ -1,4 +1,4 @@
-// Error of mipmaps against the truth: level 0 lit at full resolution, its linear radiance averaged.
+// Error of mipmaps against the reference: level 0 lit at full resolution, its linear radiance averaged.
 #pragma once
 #include <vector>
 

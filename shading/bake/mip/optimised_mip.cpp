@@ -64,7 +64,7 @@ std::vector<Texels> optimised_levels(const Texels& level0, const std::vector<std
             std::vector<float> radiance(kTrainingPairs * kSlots), shown(radiance.size()), one(kTrainingPairs), out(kChannels * kSlots);
             std::vector<float> from(starts.size() * kChannels * kSlots);
             for (std::size_t slot = 0; slot < kSlots; ++slot) { // repeat the last texel in unused slots
-                // Average the truth under each texel, and collect its starts
+                // Average the reference under each texel, and collect its starts
                 const std::size_t at = std::min(group * kSlots + slot, count - 1), row = static_cast<std::size_t>(to.width);
                 if (group * kSlots + slot < count)
                     gather_radiance(level0, finer, surface, light, FootprintAxis(static_cast<int>(at % row), width, to.width),

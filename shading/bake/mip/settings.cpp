@@ -32,6 +32,7 @@ SceneMips asked_mips(const MipSettings& settings, std::size_t materials)
     if (settings.filter != MipFilter{})
         each.filter = settings.filter, each.kappa = settings.kappa.value_or(kDefaultMipKappa);
     each.gains = settings.gains, each.coupled = settings.couple_albedo, each.kaiser = settings.kaiser_colours;
+    each.facets = settings.facets;
     return {std::vector<MaterialMips>(materials, each), nullptr, nullptr, settings.frames_override};
 }
 

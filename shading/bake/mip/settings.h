@@ -24,9 +24,10 @@ struct MipSettings {             // of all materials
     bool gains = false;          // levels' reflectances are multiplied by their gains
     bool couple_albedo = false;  // levels' base colours and metalness weigh as their texels face light and eye
     bool kaiser_colours = false; // and are averaged by ColourKernel::kaiser
+    bool facets = true;          // false: strong normal maps are drawn by their levels from afar too, as in engines
     std::string pyramid;         // levels from `burnish bake mip`
     int threads = 0;             // that make levels; 0: all cores
-    bool use_cache = false;      // levels that take long are looked for in the cache, and kept there
+    bool use_cache = false;      // levels that take long are looked for in the cache, and stored there
     bool frames_override = true; // false: no frame sets roughness, anisotropy or FrameDesc::frame_map off; its textures are not made
 
     bool names(const std::string& path) const { return !path.empty() && (path == pyramid || path == net); }
@@ -41,6 +42,7 @@ struct MaterialMips {                           // of one material
     bool coupled = false;                       // base colours and metalness weigh as their texels face light and eye
     bool kaiser = false;                        // they are averaged by ColourKernel::kaiser
     bool gains = false;                         // levels' reflectances are multiplied by their gains
+    bool facets = true;                         // a few groups of a strong normal map's facets replace it from afar
     mipnet::Lobe lobe{};                        // of gains
     std::shared_ptr<const mipnet::Weights> net; // for filter mipnet; none: levels are brought along
 };
@@ -48,7 +50,7 @@ struct MaterialMips {                           // of one material
 struct SceneMips {
     std::vector<MaterialMips> materials;   // by scene material; materials beyond its end are filtered by box
     std::shared_ptr<const MipFile> baked;  // levels that were baked beforehand; none: made from the maps
-    std::shared_ptr<const MipFile> cached; // the same as are made from the maps, found in the cache or kept there
+    std::shared_ptr<const MipFile> cached; // the same as are made from the maps, found in the cache or stored there
     bool frames_override = true;           // MipSettings::frames_override
 
     const MaterialMips& of(std::size_t material) const;

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shading/lab/lean/surface.glsl"
 #include "shading/lab/lean/techniques.glsl"
+#include "shading/lab/lean/coat.glsl"
 #include "shading/lab/lean/lights.glsl"
 
 layout(location = 0) out vec4 radiance;
@@ -38,17 +39,28 @@ void main()
         return;
     }
     // Add the specular and the diffuse environment light
-    Surface s = surface_of(base);
+    Axes geometry = geometric_axes();
+    Surface s = surface_of(base, geometry);
     vec3 light = specular_of(s) * frame.scale.x;
     if (has(kDiffuse))
         light += s.diffuse * (diffuse_share(s) * frame.scale.y) * textureLod(cubes[1], s.n, 0.0).rgb;
-    // Apply occlusion, then add lights and emission
     light *= s.occlusion;
+    // Make the coat, under the same occlusion
+    Coat coat = Coat(geometry, 0.0, 0.0, 1.0);
+    vec3 gloss = vec3(0.0);
+    if (has(kCoat)) {
+        coat = coat_of(geometry, s.v);
+        gloss = environment_on_coat(coat, s.v) * (frame.scale.x * s.occlusion);
+    }
+    // Add lights and emission
     if (has(kLamps))
-        light += light_of_lamps(s);
+        light += light_of_lamps(s, coat, gloss);
     if (has(kAreas))
-        light += light_of_areas(s);
+        light += light_of_areas(s, coat, gloss);
     if (has(kEmits))
         light += s.emissive;
+    // Put the coat over it
+    if (has(kCoat))
+        light = light * (1.0 - coat.share) + gloss;
     radiance = vec4(light, 1.0);
 }

@@ -3,7 +3,7 @@
 #ifndef BN_LEAN_LIGHTS_GLSL
 #define BN_LEAN_LIGHTS_GLSL
 
-#include "shading/lab/lean/surface.glsl"
+#include "shading/lab/lean/coat.glsl"
 
 // counts: lamps, area lights. Then the lamps, four vec4 each; then the area lights, nineteen each: see lean_lights.cpp.
 layout(std430, set = 0, binding = 7) readonly buffer LeanLights
@@ -30,12 +30,15 @@ float diffuse_share(Surface s)
     return 1.0 - max(kept.r, max(kept.g, kept.b));
 }
 
-vec3 light_of_lamps(Surface s)
+// Returns the lamps' light on the surface, and adds their light on the coat to gloss.
+vec3 light_of_lamps(Surface s, Coat coat, inout vec3 gloss)
 {
     vec3 sum = vec3(0.0);
     vec2 alpha = max(alphas_under_lights(s), 1e-3);
     vec3 dull = has(kDiffuse) ? s.diffuse * (diffuse_share(s) / kPi) : vec3(0.0);
     float of_eye = length(vec3(alpha * s.o.xy, s.o.z));
+    float coat_alpha = max(coat.roughness * coat.roughness, 1e-3), coat_alpha2 = coat_alpha * coat_alpha;
+    float coat_of_eye = coat_stretch(coat.n_dot_v, coat_alpha2);
     for (int i = 0; i < int(lights.counts.x); ++i) {
         // Find direction and irradiance
         vec4 place = lights.data[kLampStride * i], axis = lights.data[kLampStride * i + 1], radiant = lights.data[kLampStride * i + 2];
@@ -46,10 +49,16 @@ vec3 light_of_lamps(Surface s)
         float window = clamp(1.0 - d2 * place.w * d2 * place.w, 0.0, 1.0);
         float cone = clamp(dot(-l, axis.xyz) * axis.w + radiant.w, 0.0, 1.0);
         float reach = distant ? 1.0 : window * cone * cone / d2;
+        // Evaluate the coat
+        if (has(kCoat)) {
+            float on_coat = dot(coat.axes.n, l);
+            if (on_coat > 0.0 && reach > 0.0)
+                gloss += radiant.rgb * (coat_brdf(coat, s.v, l, on_coat, coat_alpha2, coat_of_eye) * reach * on_coat);
+        }
+        // Evaluate the lobe and the diffuse part
         float cosine = dot(s.n, l);
         if (cosine <= 0.0 || reach <= 0.0)
             continue;
-        // Evaluate the lobe and the diffuse part
         vec3 i_lobe = vec3(dot(s.u_axis, l), dot(s.v_axis, l), cosine), h = normalize(i_lobe + s.o);
         vec2 slope = h.xy / alpha;
         float spread = dot(slope, slope) + h.z * h.z;
@@ -74,11 +83,12 @@ vec4 channels(int plane, vec3 at, float slab, float above)
     return mix(lower, upper, above);
 }
 
-Cosine cosine_of(Surface s, vec2 alpha)
+// o: to the eye, in the lobe's axes.
+Cosine cosine_of(vec3 o, vec2 alpha)
 {
     // Find the place in the table's quadrant
-    vec2 side = vec2(s.o.x < 0.0 ? -1.0 : 1.0, s.o.y < 0.0 ? -1.0 : 1.0);
-    vec3 e = normalize(vec3(abs(s.o.xy), max(s.o.z, 0.02)));
+    vec2 side = vec2(o.x < 0.0 ? -1.0 : 1.0, o.y < 0.0 ? -1.0 : 1.0);
+    vec3 e = normalize(vec3(abs(o.xy), max(o.z, 0.02)));
     float wide = clamp(alpha.x, 0.002, 2.0), ratio = max(alpha.y, 1e-6) / max(alpha.x, 1e-6);
     float theta = acos(min(e.z, 1.0)) * (7.0 / 1.57079633), phi = e.x + e.y > 0.0 ? atan(e.y, e.x) * (7.0 / 1.57079633) : 0.0;
     float slab = min(floor(theta), 6.0);
@@ -216,11 +226,16 @@ float area_share(int at, Cosine lobe, mat3 axes)
     return polygon_share(lobe.to_cosine * axes, points, int(shape.y));
 }
 
-vec3 light_of_areas(Surface s)
+// Returns the area lights' light on the surface, and adds their light on the coat to gloss.
+vec3 light_of_areas(Surface s, Coat coat, inout vec3 gloss)
 {
-    Cosine shiny = cosine_of(s, alphas_under_lights(s)), dull = Cosine(mat3(1.0), mat3(1.0), vec2(1.0, 0.0));
-    mat3 axes = transpose(mat3(s.u_axis, s.v_axis, s.n));
-    vec3 specular = vec3(0.0), diffuse = vec3(0.0);
+    Cosine shiny = cosine_of(s.o, alphas_under_lights(s)), dull = Cosine(mat3(1.0), mat3(1.0), vec2(1.0, 0.0)), clear = dull;
+    mat3 axes = transpose(mat3(s.u_axis, s.v_axis, s.n)), coat_axes = axes;
+    if (has(kCoat)) {
+        coat_axes = transpose(mat3(coat.axes.t, coat.axes.b, coat.axes.n));
+        clear = cosine_of(vec3((coat_axes * s.v).xy, coat.n_dot_v), vec2(coat.roughness * coat.roughness));
+    }
+    vec3 specular = vec3(0.0), diffuse = vec3(0.0), on_coat = vec3(0.0);
     for (int i = 0; i < int(lights.counts.y); ++i) {
         // Skip lights that face away
         int at = kLampStride * int(lights.counts.x) + kAreaStride * i;
@@ -231,7 +246,11 @@ vec3 light_of_areas(Surface s)
         specular += radiance * area_share(at, shiny, axes);
         if (has(kDiffuse))
             diffuse += radiance * area_share(at, dull, axes);
+        if (has(kCoat))
+            on_coat += radiance * area_share(at, clear, coat_axes);
     }
+    if (has(kCoat))
+        gloss += on_coat * (coat.share * clear.albedo.x);
     vec3 sum = specular * (s.f0 * (shiny.albedo.x - shiny.albedo.y) + s.f90 * shiny.albedo.y);
     return has(kDiffuse) ? sum + s.diffuse * diffuse * diffuse_share(s) : sum;
 }

@@ -11,8 +11,9 @@ layout(constant_id = 3) const int kTraits = 0; // the material's traits, see bel
 
 const int kAnisotropic = 1, kDiffuse = 2, kOneShape = 4, kVertexColors = 8, kTwoSided = 16, kAlphaTest = 32,
           kUnlit = 64, kMirror = 128, kEmits = 256, kOneEta = 512, kFactorRoughness = 1024, kPhongTable = 2048, kLamps = 4096,
-          kAreas = 8192, kRoundLights = 16384;
-const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8;
+          kAreas = 8192, kRoundLights = 16384, kCoat = 32768;
+const int kBaseColorTex = 0, kMetalRoughTex = 1, kNormalTex = 2, kOcclusionTex = 3, kEmissiveTex = 4, kTensor2Tex = 7, kTensor4Tex = 8,
+          kCoatTex = 12, kCoatRoughnessTex = 13, kCoatNormalTex = 14;
 const int kTextureSlots = 0
 #define BN_SLOT(slot, at, texture, encoding, power) +1
 #include "core/scene/material.def"
@@ -32,6 +33,7 @@ layout(std140, set = 0, binding = 1) uniform LeanMaterial
     vec4 lobe; // slope deviations along and across, roughness, eta or anisotropy strength
     vec4 grain; // the axis along tangent and bitangent, or a texture's rotation; bent normal's stretch and level
     vec4 place[2 * kTextureSlots]; // by slot: linear part of the coordinate transform; shift, most taps, set
+    vec4 coat; // of a clear coat: factor, roughness, reflectance at normal incidence, normal scale
 }
 material;
 
@@ -48,6 +50,11 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uv;
 layout(location = 4) in vec4 color;
+
+struct Axes {
+    vec3 n, t, b; // orthonormal
+    float hand; // b is hand * cross(n, t)
+};
 
 struct Surface {
     vec3 n, v, u_axis, v_axis; // unit; along the grain and across
@@ -176,24 +183,40 @@ void place_lobe(inout Surface s, vec3 t, vec3 b)
     s.o = vec3(dot(s.u_axis, s.v), dot(s.v_axis, s.v), max(dot(s.n, s.v), 1e-4));
 }
 
+// Returns the geometry's axes on the eye's side.
+Axes geometric_axes()
+{
+    bool behind = has(kTwoSided) && !gl_FrontFacing;
+    Axes a;
+    a.n = normalize(behind ? -normal : normal);
+    a.t = normalize(tangent.xyz - a.n * dot(a.n, tangent.xyz));
+    a.hand = tangent.w < 0.0 != behind ? -1.0 : 1.0;
+    a.b = cross(a.n, a.t) * a.hand;
+    return a;
+}
+
+// Turns axes by a normal map's texel.
+Axes mapped_axes(Axes a, vec3 texel, float scale)
+{
+    vec3 map = texel * 2.0 - 1.0;
+    Axes m;
+    m.n = normalize((a.t * map.x + a.b * map.y) * scale + a.n * map.z);
+    m.t = normalize(a.t - m.n * dot(m.n, a.t));
+    m.b = cross(m.n, m.t) * a.hand;
+    m.hand = a.hand;
+    return m;
+}
+
 // Makes the surface. base: base colour and alpha, with textures.
-Surface surface_of(vec4 base)
+Surface surface_of(vec4 base, Axes geometry)
 {
     Surface s;
-    // Build the shading frame
-    s.v = normalize(frame.eye.xyz - position * frame.eye.w);
-    bool behind = has(kTwoSided) && !gl_FrontFacing;
-    s.n = normalize(behind ? -normal : normal);
-    vec3 t = normalize(tangent.xyz - s.n * dot(s.n, tangent.xyz));
-    float hand = tangent.w < 0.0 != behind ? -1.0 : 1.0;
-    vec3 b = cross(s.n, t) * hand;
     // Apply the normal map
-    if (textured(kNormalTex)) {
-        vec3 map = fetch(textures[kNormalTex], kNormalTex).xyz * 2.0 - 1.0;
-        s.n = normalize((t * map.x + b * map.y) * material.factors.z + s.n * map.z);
-        t = normalize(t - s.n * dot(s.n, t));
-        b = cross(s.n, t) * hand;
-    }
+    s.v = normalize(frame.eye.xyz - position * frame.eye.w);
+    Axes axes = geometry;
+    if (textured(kNormalTex))
+        axes = mapped_axes(geometry, fetch(textures[kNormalTex], kNormalTex).xyz, material.factors.z);
+    s.n = axes.n;
     // Evaluate roughness and metalness
     s.roughness = material.lobe.z;
     float metallic = material.factors.x;
@@ -205,7 +228,7 @@ Surface surface_of(vec4 base)
     }
     // Place the lobe
     s.n_dot_v = clamp(dot(s.n, s.v), 1e-4, 1.0);
-    place_lobe(s, t, b);
+    place_lobe(s, axes.t, axes.b);
     // Mix the reflectances
     s.dielectric_f0 = material.dielectric.rgb;
     s.dielectric_f90 = material.dielectric.w;

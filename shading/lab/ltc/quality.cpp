@@ -101,9 +101,9 @@ Judged judged(const Place& place, const Looked& looked, Model model, int cosines
     const Differences d = differences(lobe, looked.m, cones, rule);
     j.l1 = d.l1;
     for (std::size_t i = 0; i < kLights; ++i) {
-        const double part = polygon_part(inverse(looked.m), quads[i]), truth = part + d.lights[i];
+        const double part = polygon_part(inverse(looked.m), quads[i]), exact = part + d.lights[i];
         j.light_absolute[i] = std::abs(d.lights[i]);
-        j.light_relative[i] = std::abs(d.lights[i]) / std::max(truth, 0.02);
+        j.light_relative[i] = std::abs(d.lights[i]) / std::max(exact, 0.02);
     }
     j.all_relative = std::abs(looked.all - white.all) / white.all;
     j.grazing_absolute = std::abs(looked.grazing - white.grazing);

@@ -89,7 +89,7 @@ LobePairs optimised_pairs(const Texels& level0, const std::vector<Texels>& ones,
         const std::size_t row = static_cast<std::size_t>(one.width);
         jobs.parallel_for((one.count() + kSlots - 1) / kSlots, [&](std::size_t g, int) {
             TexelGroup group = {g * kSlots, std::vector<float>(kTrainingPairs * kSlots)};
-            // Average the truth under each texel
+            // Average the reference under each texel
             std::vector<float> wanted(kTrainingPairs);
             for (std::size_t slot = 0; slot < kSlots; ++slot) {
                 const std::size_t at = std::min(group.first + slot, one.count() - 1);

@@ -254,10 +254,10 @@ def near_index_one(bench):
     found = {}
     for index in ("1.5", "1.1", "1.01", "1.001", "1"):
         words = (f"builtin:glass-ball={index}", "--env-size", "64", "--env-samples", "64", "--size", "48x48", "--no-background", "-q")
-        bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "truth.pfm").expect(0)
+        bench.run("render", *words, "--backend", "reference", "--samples", "1024", "-o", "reference.pfm").expect(0)
         for samples in (4, 1024):
             bench.run("render", *words, "--technique", "mc", "--samples", samples, "-o", "mc.pfm").expect(0)
-            out = bench.run("compare", "truth.pfm", "mc.pfm", "--metric", "flip-hdr", "-q", "--csv", "-").expect(0).out
+            out = bench.run("compare", "reference.pfm", "mc.pfm", "--metric", "flip-hdr", "-q", "--csv", "-").expect(0).out
             found.setdefault(samples, []).append(float(next(csv.DictReader(io.StringIO(out)))["flip_mean"]))
     print(found)
     for samples, errors in found.items():

@@ -57,7 +57,7 @@ def requests(bench):
     bench.run("conform", "a", "b", "--without", "nothing").expect(2).expect_one_line("nothing")
     bench.run("conform", "a", "b").expect(4).expect_one_line("a/conform.json", "--write")
     bench.run("conform", "a", "b", "--without", ",".join(SCENES)).expect(2).expect_one_line("--without", "no scene")
-    bench.run("conform", "a", "a/truth", "--draw").expect(2).expect_one_line("PICTURES", "truths")
+    bench.run("conform", "a", "a/truth", "--draw").expect(2).expect_one_line("PICTURES", "references")
     bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", "--technique", "hdrp").expect(2).expect_one_line("no_bend", "gltf")
     for way in ((), ("--technique", "gltf")):
         bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", *way).expect(4).expect_one_line("a/conform.json")

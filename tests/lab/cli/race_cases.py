@@ -25,6 +25,16 @@ def lean(bench):
         check(row["flip_mean"] < most, f"{name}: FLIP {row['flip_mean']}")
 
 
+@case("race.lean_coats_and_leaves_glass_out", budget=12)
+def lean_coats(bench):
+    """Coats under a sky; a note counts the materials that no renderer draws."""
+    rows = lean_rows(bench, "builtin:lacquer", "builtin:glass", "--size", "64x48", "--techniques", "split_isotropic", "--msaa", "1")
+    check_lean(rows, 2)
+    notes = json.loads((bench.folder / "race.json").read_text())["notes"]
+    check("builtin:glass: 4 of 5 materials let light through or blend; neither renderer draws them" in notes, f"{notes}")
+    check(not any("lacquer" in note for note in notes), f"{notes}")
+
+
 @case("race.rows_hold_picture_and_times", tier="nightly")
 def race_rows(bench):
     done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,

@@ -119,7 +119,7 @@ def no_dots(bench):
     check(found["two"] < found["one"], f"dots: {found}")
 
 
-@case("export.modules_bring_engines_nearer_to_the_truth", tier="nightly")
+@case("export.modules_bring_engines_nearer_to_the_reference", tier="nightly")
 def nearer(bench):
     engines = os.environ.get("BURNISH_ENGINES", "")
     if not engines:

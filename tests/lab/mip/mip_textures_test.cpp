@@ -189,7 +189,7 @@ TEST(mip_error, errors_are_those_of_what_differs)
         EXPECT_GT(errors[1][l].l1, l == 0 ? 1e-4 : 4.0 * errors[1][l - 1].l1 * (l == 1 ? 1.0 : 0.4));
         EXPECT_GE(errors[1][l].mse, errors[1][l].l1 * errors[1][l].l1);
         EXPECT_EQ(errors[1][l].flip > 0.0, l < 2) << "squares of 16 texels and more have one";
-        EXPECT_NEAR(mip_difference(same[l], wider[l], surface).l1, errors[1][l].l1, 1e-6) << "of a level that is the truth";
+        EXPECT_NEAR(mip_difference(same[l], wider[l], surface).l1, errors[1][l].l1, 1e-6) << "of a level that is the reference";
     }
     const auto other = mip_errors(flat_texels(64, 0.3f), {same, wider}, surface, Jobs(1), {.first = 48, .times = 24, .lamps = 0});
     EXPECT_EQ(other[1][0].flip, 0.0);
@@ -340,10 +340,10 @@ TEST(colour_levels, that_are_coupled_have_less_than_half_the_error_of_colour)
         for (std::size_t i = 0; i < t.count(); ++i)
             of_all += static_cast<double>(out[i]), of_steep += static_cast<double>(out[i] * steep.f32()[i]);
     }
-    const double truth = of_steep / of_all, box = static_cast<double>(colour_levels(steep, {}).back().f32()[0]);
+    const double reference = of_steep / of_all, box = static_cast<double>(colour_levels(steep, {}).back().f32()[0]);
     const double coupled = static_cast<double>(colour_levels(steep, {.weight = &facing}).back().f32()[0]);
     EXPECT_NEAR(box, 0.5, 1e-6);
-    EXPECT_LT(std::abs(coupled - truth), 0.5 * std::abs(box - truth)) << truth << " coupled " << coupled;
+    EXPECT_LT(std::abs(coupled - reference), 0.5 * std::abs(box - reference)) << reference << " coupled " << coupled;
 }
 
 } // namespace

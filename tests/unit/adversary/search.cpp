@@ -41,9 +41,9 @@ std::vector<double> picked(const std::vector<double>& in, std::size_t n, const s
     return out;
 }
 
-double unit_of(Unit unit, double truth)
+double unit_of(Unit unit, double reference)
 {
-    return unit == Unit::whole ? 0x1p-24 : ulp(truth, kLeast);
+    return unit == Unit::whole ? 0x1p-24 : ulp(reference, kLeast);
 }
 
 // Results in floats and doubles, and the doubles' movement when each argument moves by a float step, summed.
@@ -52,18 +52,18 @@ struct Looked {
     TexelView texels;
     std::size_t n;
     const std::vector<double>& in;
-    std::vector<double> value, truth;
+    std::vector<double> value, reference;
 
     Looked(const Domain& d, const std::vector<double>& points)
         : exact(kernel(oracle_fns(), d.kernel.c_str())), texels(texels_of(d)), n(points.size() / static_cast<std::size_t>(exact.inputs)),
-          in(points), value(run(kernel(fast_fns(), d.kernel.c_str()), points, texels)), truth(run(exact, points, texels))
+          in(points), value(run(kernel(fast_fns(), d.kernel.c_str()), points, texels)), reference(run(exact, points, texels))
     {
     }
     double error(std::size_t at) const
     {
-        if (!std::isfinite(value[at]) && std::isfinite(truth[at]))
+        if (!std::isfinite(value[at]) && std::isfinite(reference[at]))
             return std::numeric_limits<double>::infinity();
-        return std::isfinite(truth[at]) ? std::abs(value[at] - truth[at]) : 0.0;
+        return std::isfinite(reference[at]) ? std::abs(value[at] - reference[at]) : 0.0;
     }
     // Returns the error in units alone, an upper bound of the score, since sway lowers the score.
     double most(const Judged& j, std::size_t k) const
@@ -71,21 +71,21 @@ struct Looked {
         double largest = 0.0;
         for (int c = j.first; c < j.first + j.count; ++c) {
             const std::size_t at = static_cast<std::size_t>(c) * n + k;
-            largest = std::max(largest, error(at) / unit_of(j.unit, truth[at]));
+            largest = std::max(largest, error(at) / unit_of(j.unit, reference[at]));
         }
         return largest;
     }
     bool left_out(const Domain& d, std::size_t k) const
     {
         const std::size_t at = static_cast<std::size_t>(std::max(d.same, 0)) * n + k;
-        return d.same >= 0 && value[at] != truth[at];
+        return d.same >= 0 && value[at] != reference[at];
     }
 };
 
 std::vector<double> sway_of_each(const Looked& l, const std::vector<std::size_t>& points)
 {
     const std::size_t n = points.size(), results = static_cast<std::size_t>(l.exact.outputs);
-    const std::vector<double> in = picked(l.in, l.n, points), truth = picked(l.truth, l.n, points);
+    const std::vector<double> in = picked(l.in, l.n, points), reference = picked(l.reference, l.n, points);
     std::vector<double> sum(results * n);
     for (std::size_t i = 0; i < in.size() / n; ++i) {
         std::vector<double> far(results * n);
@@ -95,7 +95,7 @@ std::vector<double> sway_of_each(const Looked& l, const std::vector<std::size_t>
                 nudged[i * n + k] *= 1.0 + step;
             const std::vector<double> moved = run(l.exact, nudged, l.texels);
             for (std::size_t at = 0; at < far.size(); ++at)
-                far[at] = std::max(far[at], std::abs(moved[at] - truth[at]));
+                far[at] = std::max(far[at], std::abs(moved[at] - reference[at]));
         }
         for (std::size_t at = 0; at < far.size(); ++at)
             sum[at] += std::isfinite(far[at]) ? far[at] : 0.0;
@@ -119,7 +119,7 @@ std::vector<Worst> scores(const Domain& d, const Judged& j, const std::vector<do
         const std::size_t k = asked[p];
         for (int c = j.first; c < j.first + j.count; ++c) {
             const std::size_t at = static_cast<std::size_t>(c) * l.n + k;
-            const double unit = unit_of(j.unit, l.truth[at]), error = l.error(at),
+            const double unit = unit_of(j.unit, l.reference[at]), error = l.error(at),
                          score = error / (unit + sway[static_cast<std::size_t>(c) * asked.size() + p]);
             if (score > out[k].score)
                 out[k] = {score, error / unit, error, {}};

@@ -96,10 +96,10 @@ TEST(lobe_albedo, is_near_the_integral_for_all_lobes_and_views)
     const std::vector<Albedo> got = lookup(float_fns().back(), lobes);
     double largest = 0.0, relative = 0.0, squares = 0.0, of_bias = 0.0, least = 1.0;
     for (std::size_t i = 0; i < lobes.size(); ++i) {
-        const Albedo truth = integral(lobes[i], 128);
-        const double albedo = truth.scale + truth.bias, error = std::abs(got[i].scale + got[i].bias - albedo);
+        const Albedo reference = integral(lobes[i], 128);
+        const double albedo = reference.scale + reference.bias, error = std::abs(got[i].scale + got[i].bias - albedo);
         largest = std::max(largest, error), relative = std::max(relative, error / albedo), squares += error / albedo * (error / albedo);
-        of_bias = std::max(of_bias, std::abs(got[i].bias - truth.bias));
+        of_bias = std::max(of_bias, std::abs(got[i].bias - reference.bias));
         least = std::min(least, albedo);
     }
     const double rms = std::sqrt(squares / static_cast<double>(lobes.size()));
@@ -183,8 +183,8 @@ TEST(lobe_albedo, slices_are_near_the_integral_of_their_lobe)
             }
         }
         for (std::size_t k = 0; k < lobes.size(); ++k) {
-            const Albedo truth = integral(lobes[k], 96);
-            const double error = first[k].scale + first[k].bias - truth.scale - truth.bias;
+            const Albedo reference = integral(lobes[k], 96);
+            const double error = first[k].scale + first[k].bias - reference.scale - reference.bias;
             largest = std::max(largest, std::abs(error)), squares += error * error;
         }
     }

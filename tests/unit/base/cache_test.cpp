@@ -148,7 +148,7 @@ class Variable { // sets an environment variable for its lifetime
     std::optional<std::string> before_;
 };
 
-TEST_F(cache, limit_is_the_variable_s_or_the_usual_one)
+TEST_F(cache, limit_is_the_variable_s_or_the_default)
 {
     const Variable variable("BURNISH_CACHE_BYTES", nullptr);
     EXPECT_EQ(cache_limit(), kDefaultCacheBytes);

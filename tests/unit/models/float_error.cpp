@@ -18,10 +18,10 @@ Extent extent_of(std::vector<double>& all)
 
 } // namespace
 
-double ulp(double truth, double least)
+double ulp(double reference, double least)
 {
     int exponent;
-    std::frexp(std::max(std::abs(truth), least), &exponent);
+    std::frexp(std::max(std::abs(reference), least), &exponent);
     return std::ldexp(1.0, exponent - 24);
 }
 
@@ -41,10 +41,10 @@ std::vector<double> sway(const Kernel& exact, const std::vector<double>& in)
     return largest;
 }
 
-void Errors::add(double value, double truth, double last_place, double moved)
+void Errors::add(double value, double reference, double last_place, double moved)
 {
-    in_ulp.push_back(std::abs(value - truth) / last_place);
-    in_sway.push_back(std::abs(value - truth) / (last_place + moved));
+    in_ulp.push_back(std::abs(value - reference) / last_place);
+    in_sway.push_back(std::abs(value - reference) / (last_place + moved));
 }
 
 void Errors::expect_within(Extent bound, const char* function, const char* result)

@@ -209,10 +209,10 @@ TEST_P(float_models, stay_close_to_the_double_oracle)
         const std::size_t n = 20000;
         for (std::size_t f = 0; f < 3; ++f) {
             const Batch pairs = random_pairs(GetParam(), setting, f == 2, n, 43);
-            const std::vector<double> truth = pairs.run(*exact[f]), value = pairs.run(*narrow[f]),
+            const std::vector<double> reference = pairs.run(*exact[f]), value = pairs.run(*narrow[f]),
                                       moved = sway(*exact[f], pairs.arguments());
             for (std::size_t k = 0; k < n; ++k)
-                of[f].add(value[k], truth[k], ulp(truth[k]), moved[k]);
+                of[f].add(value[k], reference[k], ulp(reference[k]), moved[k]);
         }
         ASSERT_NO_FATAL_FAILURE(sample_errors(GetParam(), setting, n, of));
     }

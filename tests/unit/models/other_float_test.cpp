@@ -115,15 +115,15 @@ TEST_P(other_floats, results_are_finite_and_in_range)
 
 TEST_P(other_floats, stay_close_to_the_double_oracle)
 {
-    const std::vector<double> in = points(GetParam()), truth = results(oracle_fns(), GetParam(), in),
+    const std::vector<double> in = points(GetParam()), reference = results(oracle_fns(), GetParam(), in),
                               value = results(float_fns()[0], GetParam(), in);
     const std::vector<double> moved = sway(kernel(oracle_fns(), GetParam().name), in);
     Errors errors;
-    for (std::size_t k = 0; k < truth.size(); ++k) {
-        double size = std::abs(truth[k]);
-        for (std::size_t at = k % kPoints; at < truth.size() && GetParam().measure == Measure::together; at += kPoints)
-            size = std::max(size, std::abs(truth[at]));
-        errors.add(value[k], truth[k], ulp(size), moved[k]);
+    for (std::size_t k = 0; k < reference.size(); ++k) {
+        double size = std::abs(reference[k]);
+        for (std::size_t at = k % kPoints; at < reference.size() && GetParam().measure == Measure::together; at += kPoints)
+            size = std::max(size, std::abs(reference[at]));
+        errors.add(value[k], reference[k], ulp(size), moved[k]);
     }
     errors.expect_within(GetParam().bound, GetParam().name, "value");
 }

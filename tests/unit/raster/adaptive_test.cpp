@@ -86,14 +86,16 @@ double distance(const Frame& a, const Frame& b)
 
 // Monte Carlo integration of the same lobe is the reference. Over a grid of lobes, samples by density beat sixteen equal samples, and so
 // does an adaptive count with a third of the fetches.
-TEST(adaptive, samples_by_density_are_nearer_to_the_truth_than_equal_ones)
+TEST(adaptive, samples_by_density_are_nearer_to_the_reference_than_equal_ones)
 {
     const Judge judge;
     double bent = 0.0, equal = 0.0, weighted = 0.0, adaptive = 0.0;
     for (float roughness : {0.2f, 0.35f, 0.5f})
         for (float anisotropy : {0.5f, 0.8f, -0.5f, -0.8f}) {
-            const Frame truth = judge.sphere("mc", 2048, roughness, anisotropy);
-            const auto error = [&](const char* technique) { return distance(truth, judge.sphere(technique, 16, roughness, anisotropy)); };
+            const Frame reference = judge.sphere("mc", 2048, roughness, anisotropy);
+            const auto error = [&](const char* technique) {
+                return distance(reference, judge.sphere(technique, 16, roughness, anisotropy));
+            };
             bent += error("bent_normal"), equal += error("major_axis");
             weighted += error("major_axis_weighted"), adaptive += error("major_axis_adaptive");
         }

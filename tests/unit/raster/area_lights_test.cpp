@@ -359,12 +359,12 @@ TEST(area_lights, a_picture_of_one_colour_is_none_word_for_word)
 }
 
 // Returns the mean absolute difference divided by the mean.
-double mean_error(const Image& found, const Image& truth)
+double mean_error(const Image& found, const Image& reference)
 {
     double error = 0.0, all = 0.0;
-    for (std::size_t k = 0; k < truth.bytes.size() / sizeof(float); ++k) {
-        error += std::abs(static_cast<double>(found.f32()[k]) - static_cast<double>(truth.f32()[k]));
-        all += static_cast<double>(truth.f32()[k]);
+    for (std::size_t k = 0; k < reference.bytes.size() / sizeof(float); ++k) {
+        error += std::abs(static_cast<double>(found.f32()[k]) - static_cast<double>(reference.f32()[k]));
+        all += static_cast<double>(reference.f32()[k]);
     }
     return error / all;
 }

@@ -70,9 +70,9 @@ TEST(energy, one_fetch_gives_back_what_sampling_does)
                         d.override_anisotropy = true, d.energy_compensation = true;
                         d.roughness = roughness, d.anisotropy = eta;
                         d.technique = "mc", d.samples = 256;
-                        const double truth = floor.seen(d, cosine, azimuth * kDegree);
+                        const double reference = floor.seen(d, cosine, azimuth * kDegree);
                         d.technique = "bent_normal";
-                        const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) - truth);
+                        const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) - reference);
                         EXPECT_LT(error, 0.02) << "metallic " << metallic << ", roughness " << roughness << ", eta " << eta << ", cosine "
                                                << cosine << ", azimuth " << azimuth;
                         largest = std::max(largest, error);
@@ -94,10 +94,10 @@ TEST(energy, prefiltered_techniques_give_back_what_their_lobe_does)
                 for (double azimuth : {5.0, 45.0, 88.0}) {
                     d.roughness = roughness, d.anisotropy = eta;
                     d.technique = "mc", d.samples = 1024;
-                    const double truth = floor.seen(d, cosine, azimuth * kDegree);
+                    const double reference = floor.seen(d, cosine, azimuth * kDegree);
                     for (const char* technique : {"split_isotropic", "bent_normal", "major_axis", "major_axis_weighted", "lobe_line"}) {
                         d.technique = technique, d.samples = 4;
-                        const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) / truth - 1.0);
+                        const double error = std::abs(floor.seen(d, cosine, azimuth * kDegree) / reference - 1.0);
                         EXPECT_LT(error, 0.01) << technique << ", roughness " << roughness << ", eta " << eta << ", cosine " << cosine
                                                << ", azimuth " << azimuth;
                         largest = std::max(largest, error);
@@ -202,7 +202,7 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
                     for (double azimuth : {0.0, 90.0, 180.0, 270.0}) {
                         d.tilt_rad = tilt * static_cast<float>(kDegree), d.roughness = roughness, d.anisotropy = eta;
                         d.technique = "mc", d.samples = 256;
-                        const double truth = floor.seen(d, cosine, azimuth * kDegree);
+                        const double reference = floor.seen(d, cosine, azimuth * kDegree);
                         const EyeOfLobe eye = eye_of_lobe(d.tilt_rad, cosine, azimuth * kDegree);
                         FrameDesc upright = d;
                         upright.tilt_rad = glm::vec2(0.0f);
@@ -214,7 +214,7 @@ TEST(tilt, every_technique_gives_back_what_monte_carlo_does)
                             double own = 1.0;
                             if (level && (t.sampling == Sampling::grid || t.traits & kPhongGrid)) // lobes with another albedo
                                 own = floor.seen(upright, eye.cosine, eye.azimuth_rad) / of_level;
-                            off[i].add(floor.seen(d, cosine, azimuth * kDegree) - truth * own);
+                            off[i].add(floor.seen(d, cosine, azimuth * kDegree) - reference * own);
                         }
                     }
     for (std::size_t i = 0; i < off.size(); ++i) {
@@ -299,11 +299,11 @@ TEST(masking, every_technique_gives_back_what_monte_carlo_does)
                 d.roughness = roughness, d.anisotropy = eta, d.technique = "mc", d.samples = 1024, d.masking = 0;
                 const double correlated = floor.seen(d, cosine, 0.4);
                 d.masking = 1;
-                const double truth = floor.seen(d, cosine, 0.4);
-                apart = std::max(apart, correlated - truth);
+                const double reference = floor.seen(d, cosine, 0.4);
+                apart = std::max(apart, correlated - reference);
                 for (const char* technique : {"split_isotropic", "bent_normal", "major_axis_weighted", "lobe_line"}) {
                     d.technique = technique, d.samples = 4;
-                    const double error = std::abs(floor.seen(d, cosine, 0.4) - truth);
+                    const double error = std::abs(floor.seen(d, cosine, 0.4) - reference);
                     EXPECT_LT(error, 0.015) << technique << ", roughness " << roughness << ", eta " << eta << ", cosine " << cosine;
                     largest = std::max(largest, error);
                 }

@@ -127,7 +127,7 @@ FrameDesc desc_of(bool horizon)
 // Returns the largest relative error of the light over filters and eyes.
 double worst_of(const SlopeAt& slope, bool horizon, const Environment* environment)
 {
-    double truth[std::size(kEyes)] = {}, worst = 0.0;
+    double reference[std::size(kEyes)] = {}, worst = 0.0;
     for (int filter = -1; filter < static_cast<int>(mip_filters().size()); ++filter) {
         const MipFilter mip = static_cast<MipFilter>(std::max(filter, 0));
         if (mip == kMipFilter_teacher)
@@ -142,10 +142,10 @@ double worst_of(const SlopeAt& slope, bool horizon, const Environment* environme
         const ShadingFrame f = maker.make(desc_of(horizon));
         for (std::size_t eye = 0; eye < std::size(kEyes); ++eye) {
             if (filter < 0) {
-                truth[eye] = mean_light(f, kEyes[eye], 1e-6f, 4096);
+                reference[eye] = mean_light(f, kEyes[eye], 1e-6f, 4096);
                 continue;
             }
-            const double off = mean_light(f, kEyes[eye], 4.0f, 32) / truth[eye] - 1.0;
+            const double off = mean_light(f, kEyes[eye], 4.0f, 32) / reference[eye] - 1.0;
             worst = std::max(worst, std::abs(off));
         }
     }

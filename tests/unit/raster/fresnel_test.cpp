@@ -61,9 +61,9 @@ TEST(fresnel, a_mirror_reflects_what_the_equations_say)
 {
     double largest = 0.0;
     for (const TechniqueInfo& t : techniques()) {
-        const auto expect = [&](const Floor& floor, FrameDesc d, double cosine, double truth) {
+        const auto expect = [&](const Floor& floor, FrameDesc d, double cosine, double reference) {
             d.technique = t.name, d.samples = t.default_samples, d.roughness = 0.0f;
-            const double off = std::abs(floor.seen(d, cosine, 0.4) - truth);
+            const double off = std::abs(floor.seen(d, cosine, 0.4) - reference);
             EXPECT_LT(off, 2e-3) << t.name << ", cosine " << cosine;
             largest = std::max(largest, off);
         };
@@ -143,16 +143,16 @@ TEST(fresnel, one_fetch_gives_back_what_sampling_does)
             for (double cosine : {0.95, 0.7, 0.45, 0.25, 0.1}) {
                 FrameDesc d = with_law(kFresnelConductor);
                 d.roughness = roughness, d.technique = "mc", d.samples = 1024;
-                const double truth = floor.seen(d, cosine, 0.4);
+                const double reference = floor.seen(d, cosine, 0.4);
                 d.technique = "bent_normal";
-                const double off = floor.seen(d, cosine, 0.4) - truth;
+                const double off = floor.seen(d, cosine, 0.4) - reference;
                 EXPECT_LT(std::abs(off), 0.025) << metal.name << ", roughness " << roughness << ", cosine " << cosine;
                 largest = std::max(largest, std::abs(off)), squares += off * off, ++count;
                 Scene approximate = square(1.0f, 1.0f);
                 for (int c = 0; c < 3; ++c)
                     approximate.materials[0].base_color[c] = static_cast<float>(metal.at(c, 1.0));
                 const double approximated = Floor(std::move(approximate)).seen(d, cosine, 0.4);
-                schlick = std::max(schlick, std::abs(approximated - truth));
+                schlick = std::max(schlick, std::abs(approximated - reference));
             }
         std::printf("%s: rms %.4f, at most %.4f; Schlick's approximation at most %.4f\n", metal.name, std::sqrt(squares / count), largest,
                     schlick);

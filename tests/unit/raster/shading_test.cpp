@@ -155,9 +155,9 @@ TEST(technique, tilted_lobes_are_dimmed_as_monte_carlo_dims_them)
         for (float anisotropy : {0.0f, 0.7f})
             for (float tilt : {0.3f, 0.6f, 1.0f}) {
                 d.roughness = roughness, d.anisotropy = anisotropy, d.tilt_rad = {tilt, 0.0f};
-                const double truth = light("mc", 256);
+                const double reference = light("mc", 256);
                 for (const TechniqueInfo& t : techniques()) {
-                    const double ratio = light(t.name, t.default_samples) / truth;
+                    const double ratio = light(t.name, t.default_samples) / reference;
                     const bool beckmann = std::string(t.name) == "filtered_is"; // no tails: all samples may be below the horizon
                     const bool phong = t.traits & kPhongGrid;                   // loses light where rough, upright too
                     EXPECT_GT(ratio, phong      ? 0.7

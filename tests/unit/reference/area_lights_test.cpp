@@ -77,16 +77,16 @@ TEST(area_lights, by_cosines_are_the_reference_s)
                 FrameDesc d = desc_of_lit({0.3f, -1.0f, 0.8f}, roughness, 0.7f);
                 ReferenceOptions o;
                 o.samples = 4096;
-                const Estimate truth = estimate(render_reference(stage, d, o));
+                const Estimate reference = estimate(render_reference(stage, d, o));
                 d.technique = "bent_normal";
                 const Image tile = stage.render(d, best_isa()).color;
                 double mean = 0.0;
                 for (std::size_t k = 0; k < 6 * 6 * 3; ++k)
                     mean += static_cast<double>(tile.f32()[k]) / (6 * 6 * 3);
                 std::printf("%s %s roughness %.1f: reference %.5f +- %.1g, cosines %+.2f %%\n", kAreaShapeNames[i],
-                            shiny ? "metal" : "paint", static_cast<double>(roughness), truth.mean, truth.deviation,
-                            100.0 * (mean / truth.mean - 1.0));
-                EXPECT_NEAR(mean, truth.mean, shiny ? 0.05 * truth.mean + 0.06 : 0.03 * truth.mean)
+                            shiny ? "metal" : "paint", static_cast<double>(roughness), reference.mean, reference.deviation,
+                            100.0 * (mean / reference.mean - 1.0));
+                EXPECT_NEAR(mean, reference.mean, shiny ? 0.05 * reference.mean + 0.06 : 0.03 * reference.mean)
                     << kAreaShapeNames[i] << ", roughness " << roughness; // relative to a radiance of 2
             }
 }

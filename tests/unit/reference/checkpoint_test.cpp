@@ -251,13 +251,13 @@ TEST(target_error, ends_early_and_is_met)
     // Checks the confidence interval: a far better estimate lies inside about as often as promised.
     FrameDesc d = small_desc();
     d.seed = 77;
-    const Frame truth = render_reference(stage, d, options_of(ReferenceMode::shadowed, 16 * f.stats.sampling.samples));
+    const Frame reference = render_reference(stage, d, options_of(ReferenceMode::shadowed, 16 * f.stats.sampling.samples));
     std::size_t inside = 0, n = 0;
     for (std::size_t i = 0; i < f.color.bytes.size() / sizeof(float); ++i) {
-        const double v = static_cast<double>(f.variance.f32()[i]) + static_cast<double>(truth.variance.f32()[i]);
+        const double v = static_cast<double>(f.variance.f32()[i]) + static_cast<double>(reference.variance.f32()[i]);
         if (!(v > 1e-14))
             continue;
-        const double difference = static_cast<double>(f.color.f32()[i]) - static_cast<double>(truth.color.f32()[i]);
+        const double difference = static_cast<double>(f.color.f32()[i]) - static_cast<double>(reference.color.f32()[i]);
         ++n;
         inside += difference * difference < 1.96 * 1.96 * v;
     }

@@ -110,17 +110,17 @@ Means means_of(const Scene& scene, double angle_deg)
 struct Errors { // rms over rings, relative to the reference's mean
     double drawn, footprint;
 };
-Errors errors_of(const char* name, const Scene& scene, const Scene& truth)
+Errors errors_of(const char* name, const Scene& scene, const Scene& reference)
 {
     Errors e = {0.0, 0.0};
     double level = 0.0;
     int rings = 0;
     for (double angle = 0.0; angle < 70.0; angle += 10.0, ++rings) {
         const Means m = means_of(scene, angle);
-        const double full = means_of(truth, angle).full;
+        const double full = means_of(reference, angle).full;
         e.drawn += (m.drawn - full) * (m.drawn - full), e.footprint += (m.footprint - m.drawn) * (m.footprint - m.drawn);
         level += full;
-        std::printf("%s: ring at %2.0f degrees: %.4f, footprint %.4f, truth %.4f\n", name, angle, m.drawn, m.footprint, full);
+        std::printf("%s: ring at %2.0f degrees: %.4f, footprint %.4f, reference %.4f\n", name, angle, m.drawn, m.footprint, full);
     }
     return {std::sqrt(e.drawn / rings) * rings / level, std::sqrt(e.footprint / rings) * rings / level};
 }

@@ -45,21 +45,21 @@ std::string picture_graph(const std::string& nodes, const std::string& picture_i
            picture_inputs + "</image>" + nodes + "</nodegraph>";
 }
 
-struct Dressed {
+struct Loaded {
     Scene scene;
     std::string error;
     std::string warnings;
     const Material& material() const { return scene.materials.front(); }
 };
 
-Dressed dressed(const std::string& text, const Image& picture = {}, const char* scene = "sphere")
+Loaded loaded(const std::string& text, const Image& picture = {}, const char* scene = "sphere")
 {
     const TempFolder folder;
     folder.write("a.mtlx", text);
     if (!picture.empty()) {
         EXPECT_TRUE(write_image(folder.path("p.png"), picture));
     }
-    Dressed r;
+    Loaded r;
     r.scene = *make_builtin_scene(scene);
     r.scene.warnings.clear();
     if (const Status done = apply_mtlx(r.scene, folder.path("a.mtlx"), Limits()); !done)
@@ -91,29 +91,28 @@ TEST(mtlx, widths_are_those_of_each_surface)
         for (double a : {0.0, 0.2, 0.65, 0.9, 1.0}) {
             const std::string rough = std::to_string(r), stretched = std::to_string(a);
             // OpenPBR 1.1: alpha_t = r^2 sqrt(2 / (1 + (1 - a)^2)), alpha_b = (1 - a) alpha_t
-            const Dressed open = dressed(
+            const Loaded open = loaded(
                 document("open_pbr_surface", number("specular_roughness", rough) + number("specular_roughness_anisotropy", stretched)));
             const double along = r * r * std::sqrt(2.0 / (1.0 + (1.0 - a) * (1.0 - a)));
             EXPECT_NEAR(lobe_of(open.material()).along, std::min(along, 1.0), 2e-6) << r << ' ' << a << open.error;
             EXPECT_NEAR(lobe_of(open.material()).across, (1.0 - a) * along, 2e-6) << r << ' ' << a;
             // standard_surface: aspect = sqrt(1 - a), at most .98; r^2 / aspect and r^2 aspect
-            const Dressed standard =
-                dressed(document("standard_surface", number("specular_roughness", rough) + number("specular_anisotropy", stretched)));
+            const Loaded standard =
+                loaded(document("standard_surface", number("specular_roughness", rough) + number("specular_anisotropy", stretched)));
             const double aspect = std::sqrt(1.0 - std::min(a, 0.98));
             EXPECT_NEAR(lobe_of(standard.material()).along, std::min(r * r / aspect, 1.0), 2e-6) << r << ' ' << a;
             EXPECT_NEAR(lobe_of(standard.material()).across, r * r * aspect, 2e-6) << r << ' ' << a;
-            const Dressed own = dressed(document("gltf_pbr", number("roughness", rough) + number("anisotropy_strength", stretched)));
+            const Loaded own = loaded(document("gltf_pbr", number("roughness", rough) + number("anisotropy_strength", stretched)));
             EXPECT_NEAR(own.material().anisotropy_strength, r < 1.0 ? a : 0.0, 1e-5);
             EXPECT_NEAR(own.material().roughness, r, 1e-6);
         }
-    const Dressed turned =
-        dressed(document("standard_surface", number("specular_anisotropy", "0.5") + number("specular_rotation", "0.25")));
+    const Loaded turned = loaded(document("standard_surface", number("specular_anisotropy", "0.5") + number("specular_rotation", "0.25")));
     EXPECT_NEAR(turned.material().anisotropy_rotation, 0.5 * kPi, 1e-6);
 }
 
 TEST(mtlx, every_part_arrives)
 {
-    const Dressed open = dressed(document(
+    const Loaded open = loaded(document(
         "open_pbr_surface",
         number("base_weight", "0.5") + number("base_color", "0.8, 0.4, 0.2", "color3") + number("base_metalness", "0.25") +
             number("specular_weight", "0.75") + number("specular_color", "1, 0.5, 0.25", "color3") + number("specular_ior", "1.7") +
@@ -140,29 +139,29 @@ TEST(mtlx, every_part_arrives)
     EXPECT_EQ(m.alpha_mode, AlphaMode::blend);
     EXPECT_NE(open.warnings.find("specular_color of metal"), std::string::npos) << open.warnings;
     // Defaults of each kind
-    const Material plain = dressed(document("standard_surface", "")).material();
+    const Material plain = loaded(document("standard_surface", "")).material();
     EXPECT_EQ(plain.base_color, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
     EXPECT_NEAR(plain.roughness, 0.2f, 1e-6f);
     EXPECT_EQ(plain.iridescence, 0.0f);
-    EXPECT_NEAR(dressed(document("open_pbr_surface", "")).material().roughness, 0.3f, 1e-6f);
-    const Material khronos = dressed(document("gltf_pbr", "")).material();
+    EXPECT_NEAR(loaded(document("open_pbr_surface", "")).material().roughness, 0.3f, 1e-6f);
+    const Material khronos = loaded(document("gltf_pbr", "")).material();
     EXPECT_EQ(khronos.metallic, 1.0f);
     EXPECT_EQ(khronos.roughness, 1.0f);
     EXPECT_EQ(khronos.alpha_mode, AlphaMode::opaque);
     // Glass is tinted by the colour of its transmission; with a depth, that colour is what is left there
     const Material glass =
-        dressed(document("standard_surface", number("transmission", "1") + number("transmission_color", "0.5, 1, 1", "color3"))).material();
+        loaded(document("standard_surface", number("transmission", "1") + number("transmission_color", "0.5, 1, 1", "color3"))).material();
     EXPECT_EQ(glass.base_color, glm::vec4(0.5f, 1.0f, 1.0f, 1.0f));
     EXPECT_EQ(glass.transmission, 1.0f);
     const Material deep =
-        dressed(document("standard_surface", number("transmission", "1") + number("transmission_color", "0.5, 1, 1", "color3") +
-                                                 number("transmission_depth", "2")))
+        loaded(document("standard_surface", number("transmission", "1") + number("transmission_color", "0.5, 1, 1", "color3") +
+                                                number("transmission_depth", "2")))
             .material();
     EXPECT_EQ(deep.base_color, glm::vec4(1.0f));
     EXPECT_EQ(deep.dispersion, 0.0f);
     const Material prism =
-        dressed(document("open_pbr_surface", number("transmission_weight", "1") + number("transmission_dispersion_scale", "0.5") +
-                                                 number("transmission_dispersion_abbe_number", "40")))
+        loaded(document("open_pbr_surface", number("transmission_weight", "1") + number("transmission_dispersion_scale", "0.5") +
+                                                number("transmission_dispersion_abbe_number", "40")))
             .material();
     EXPECT_EQ(prism.dispersion, 0.25f);
     EXPECT_EQ(deep.attenuation_distance, 2.0f);
@@ -171,7 +170,7 @@ TEST(mtlx, every_part_arrives)
 
 TEST(mtlx, coats_roughen_the_lobe_below_as_openpbr_has_it)
 {
-    const Dressed coated = dressed(
+    const Loaded coated = loaded(
         document("open_pbr_surface", number("specular_roughness", "0.3") + number("coat_weight", "0.5") + number("coat_roughness", "0.6")));
     const double both = std::pow(2.0 * std::pow(0.6, 4.0) + std::pow(0.3, 4.0), 0.25);
     EXPECT_NEAR(coated.material().roughness, 0.3 + 0.5 * (both - 0.3), 1e-6);
@@ -182,15 +181,15 @@ TEST(mtlx, coats_roughen_the_lobe_below_as_openpbr_has_it)
 TEST(mtlx, colours_become_linear)
 {
     const Material encoded =
-        dressed(document("gltf_pbr", "<input name=\"base_color\" type=\"color3\" value=\"0.5, 0.5, 0.5\" colorspace=\"srgb_texture\"/>"))
+        loaded(document("gltf_pbr", "<input name=\"base_color\" type=\"color3\" value=\"0.5, 0.5, 0.5\" colorspace=\"srgb_texture\"/>"))
             .material();
     EXPECT_NEAR(encoded.base_color.r, 0.21404114f, 1e-6f);
     const Material wide =
-        dressed(document("gltf_pbr", number("base_color", "0.5, 0.5, 0.5", "color3"), "", "version=\"1.38\" colorspace=\"acescg\""))
+        loaded(document("gltf_pbr", number("base_color", "0.5, 0.5, 0.5", "color3"), "", "version=\"1.38\" colorspace=\"acescg\""))
             .material();
     EXPECT_NEAR(wide.base_color.r, 0.5f, 1e-3f);
     const Material red =
-        dressed(document("gltf_pbr", number("base_color", "0.3, 0.1, 0.1", "color3"), "", "version=\"1.38\" colorspace=\"acescg\""))
+        loaded(document("gltf_pbr", number("base_color", "0.3, 0.1, 0.1", "color3"), "", "version=\"1.38\" colorspace=\"acescg\""))
             .material();
     EXPECT_GT(red.base_color.r, 0.4f);
 }
@@ -198,11 +197,11 @@ TEST(mtlx, colours_become_linear)
 TEST(mtlx, pictures_are_read_by_channel)
 {
     const std::string nodes = "<output name=\"o\" type=\"vector3\" nodename=\"p\"/>";
-    const Dressed packed = dressed(document("gltf_pbr",
-                                            linked("metallic", "o", "channels=\"z\"") + linked("roughness", "o", "channels=\"y\"") +
-                                                linked("occlusion", "o", "channels=\"x\""),
-                                            picture_graph(nodes, number("uvtiling", "2, 3", "vector2"))),
-                                   picture_of(10, 128, 255));
+    const Loaded packed = loaded(document("gltf_pbr",
+                                          linked("metallic", "o", "channels=\"z\"") + linked("roughness", "o", "channels=\"y\"") +
+                                              linked("occlusion", "o", "channels=\"x\""),
+                                          picture_graph(nodes, number("uvtiling", "2, 3", "vector2"))),
+                                 picture_of(10, 128, 255));
     ASSERT_EQ(packed.error, "");
     const Material& m = packed.material();
     EXPECT_TRUE(m.metallic_roughness_tex.used() && m.occlusion_tex.used());
@@ -228,7 +227,7 @@ TEST(mtlx, pictures_are_read_by_channel)
           std::string(
               "<swizzle name=\"s\" type=\"float\"><input name=\"in\" type=\"vector3\" nodename=\"p\"/>"
               "<input name=\"channels\" type=\"string\" value=\"y\"/></swizzle><output name=\"o\" type=\"float\" nodename=\"s\"/>")}) {
-        const Dressed one = dressed(document("gltf_pbr", linked("roughness", "o"), picture_graph(node)), picture_of(10, 128, 255));
+        const Loaded one = loaded(document("gltf_pbr", linked("roughness", "o"), picture_graph(node)), picture_of(10, 128, 255));
         ASSERT_EQ(one.error, "");
         const TextureRef& ref = one.material().metallic_roughness_tex;
         EXPECT_EQ(one.scene.images[static_cast<std::size_t>(one.scene.textures[static_cast<std::size_t>(ref.texture)].image)].bytes[1],
@@ -239,10 +238,9 @@ TEST(mtlx, pictures_are_read_by_channel)
 TEST(mtlx, roughness_pictures_of_stretched_lobes_become_two_widths)
 {
     const std::string nodes = "<output name=\"o\" type=\"float\" nodename=\"p\"/>";
-    Dressed brushed =
-        dressed(document("open_pbr_surface", linked("specular_roughness", "o") + number("specular_roughness_anisotropy", "0.5"),
-                         picture_graph(nodes)),
-                picture_of(128, 0, 0));
+    Loaded brushed = loaded(document("open_pbr_surface", linked("specular_roughness", "o") + number("specular_roughness_anisotropy", "0.5"),
+                                     picture_graph(nodes)),
+                            picture_of(128, 0, 0));
     ASSERT_EQ(brushed.error, "");
     EXPECT_TRUE(brushed.material().directional_roughness_tex.used());
     ASSERT_TRUE(lay_directional_roughness(brushed.scene, Limits(), "a"));
@@ -263,19 +261,19 @@ TEST(mtlx, normal_maps_and_factors)
 {
     const std::string normal = "<normalmap name=\"n\" type=\"vector3\"><input name=\"in\" type=\"vector3\" nodename=\"p\"/>" +
                                number("scale", "0.5") + "</normalmap><output name=\"o\" type=\"vector3\" nodename=\"n\"/>";
-    const Dressed bumpy = dressed(document("standard_surface", linked("normal", "o"), picture_graph(normal)), picture_of(128, 128, 255));
+    const Loaded bumpy = loaded(document("standard_surface", linked("normal", "o"), picture_graph(normal)), picture_of(128, 128, 255));
     ASSERT_EQ(bumpy.error, "");
     EXPECT_TRUE(bumpy.material().normal_tex.used());
     EXPECT_EQ(bumpy.material().normal_scale, 0.5f);
     const std::string product = "<multiply name=\"m\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"p\"/>" +
                                 number("in2", "0.5, 0.25, 1", "color3") + "</multiply><output name=\"o\" type=\"color3\" nodename=\"m\"/>";
-    const Dressed tinted = dressed(document("standard_surface", linked("base_color", "o") + number("base", "0.5"), picture_graph(product)),
-                                   picture_of(200, 200, 200));
+    const Loaded tinted = loaded(document("standard_surface", linked("base_color", "o") + number("base", "0.5"), picture_graph(product)),
+                                 picture_of(200, 200, 200));
     ASSERT_EQ(tinted.error, "");
     EXPECT_EQ(tinted.material().base_color, glm::vec4(0.25f, 0.125f, 0.5f, 1.0f));
 }
 
-const Image& image_of(const Dressed& d, const TextureRef& ref)
+const Image& image_of(const Loaded& d, const TextureRef& ref)
 {
     return d.scene.images[static_cast<std::size_t>(d.scene.textures[static_cast<std::size_t>(ref.texture)].image)];
 }
@@ -298,7 +296,7 @@ TEST(mtlx, materials_share_a_picture_and_not_its_factor)
         text +=
             "<gltf_pbr name=\"" + std::string(name) + " s\" type=\"surfaceshader\">" + linked("roughness", output) + "</gltf_pbr>" + one;
     }
-    const Dressed d = dressed(text + "</materialx>", picture_of(255, 255, 255), "cloth");
+    const Loaded d = loaded(text + "</materialx>", picture_of(255, 255, 255), "cloth");
     ASSERT_EQ(d.error, "");
     for (const Material& m : d.scene.materials)
         if (m.name == "velvet" || m.name == "felt") {
@@ -319,17 +317,16 @@ TEST(mtlx, nodes_of_gltf_have_factors_and_places_of_their_own)
                              "type=\"float\" nodename=\"c\" "
                              "output=\"outa\"/>";
     const std::string inputs = "<input name=\"base_color\" type=\"color3\" nodegraph=\"G\" output=\"c\"/>";
-    const Dressed opaque =
-        dressed(document("gltf_pbr", inputs, "<nodegraph name=\"G\">" + node + "</nodegraph>"), picture_of(200, 200, 200));
+    const Loaded opaque = loaded(document("gltf_pbr", inputs, "<nodegraph name=\"G\">" + node + "</nodegraph>"), picture_of(200, 200, 200));
     ASSERT_EQ(opaque.error, "");
     EXPECT_EQ(opaque.material().base_color, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
     const glm::mat3x2 transform = opaque.material().base_color_tex.uv_transform; // KHR_texture_transform
     EXPECT_EQ(transform[0], glm::vec2(1.5f, 0.0f));
     EXPECT_EQ(transform[1], glm::vec2(0.0f, 2.0f));
     EXPECT_EQ(transform[2], glm::vec2(0.25f, 0.5f));
-    const Dressed cut = dressed(document("gltf_pbr", inputs + linked("alpha", "a") + number("alpha_mode", "1", "integer"),
-                                         "<nodegraph name=\"G\">" + node + "</nodegraph>"),
-                                picture_of(200, 200, 200));
+    const Loaded cut = loaded(document("gltf_pbr", inputs + linked("alpha", "a") + number("alpha_mode", "1", "integer"),
+                                       "<nodegraph name=\"G\">" + node + "</nodegraph>"),
+                              picture_of(200, 200, 200));
     ASSERT_EQ(cut.error, "");
     EXPECT_EQ(cut.material().alpha_mode, AlphaMode::mask);
     EXPECT_EQ(cut.material().base_color.a, 0.75f);
@@ -338,13 +335,13 @@ TEST(mtlx, nodes_of_gltf_have_factors_and_places_of_their_own)
 TEST(mtlx, colours_of_pictures_are_read_by_their_space)
 {
     const auto with = [](const std::string& space) {
-        return dressed(
+        return loaded(
             document("gltf_pbr", linked("base_color", "o"),
                      "<nodegraph name=\"G\"><image name=\"p\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"p.png\"" +
                          space + "/></image><output name=\"o\" type=\"color3\" nodename=\"p\"/></nodegraph>"),
             picture_of(128, 128, 128));
     };
-    const Dressed encoded = with(" colorspace=\"srgb_texture\""), linear = with(" colorspace=\"lin_rec709\"");
+    const Loaded encoded = with(" colorspace=\"srgb_texture\""), linear = with(" colorspace=\"lin_rec709\"");
     EXPECT_EQ(image_of(encoded, encoded.material().base_color_tex).type, PixelType::u8); // the slot decodes it
     const Image& floats = image_of(linear, linear.material().base_color_tex);
     ASSERT_EQ(floats.type, PixelType::f32);
@@ -356,16 +353,16 @@ TEST(mtlx, emission_keeps_its_tint_and_sides_stay_those_of_the_scene)
 {
     const std::string product = "<multiply name=\"m\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"p\"/>" +
                                 number("in2", "0, 2, 0", "color3") + "</multiply><output name=\"o\" type=\"color3\" nodename=\"m\"/>";
-    const Dressed green =
-        dressed(document("open_pbr_surface", linked("emission_color", "o") + number("emission_luminance", "3"), picture_graph(product)),
-                picture_of(255, 255, 255), "cloth");
+    const Loaded green =
+        loaded(document("open_pbr_surface", linked("emission_color", "o") + number("emission_luminance", "3"), picture_graph(product)),
+               picture_of(255, 255, 255), "cloth");
     ASSERT_EQ(green.error, "");
     for (const Material& m : green.scene.materials)
         if (m.name == "satin") {
             EXPECT_EQ(m.emissive * m.emissive_strength, glm::vec3(0.0f, 6.0f, 0.0f));
             EXPECT_TRUE(m.double_sided);
         }
-    EXPECT_NE(dressed(document("gltf_pbr", number("emissive", "3e38, 1, 1", "color3") + number("emissive_strength", "3e38")))
+    EXPECT_NE(loaded(document("gltf_pbr", number("emissive", "3e38, 1, 1", "color3") + number("emissive_strength", "3e38")))
                   .error.find("too large"),
               std::string::npos);
 }
@@ -375,9 +372,9 @@ TEST(mtlx, shares_of_pictures_stay_in_their_range)
     const auto with = [](const std::string& factor) {
         const std::string product = "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"p\"/>" +
                                     number("in2", factor) + "</multiply><output name=\"o\" type=\"float\" nodename=\"m\"/>";
-        return dressed(document("gltf_pbr", linked("transmission", "o"), picture_graph(product)), picture_of(255, 255, 255));
+        return loaded(document("gltf_pbr", linked("transmission", "o"), picture_graph(product)), picture_of(255, 255, 255));
     };
-    const Dressed high = with("3"), low = with("-2");
+    const Loaded high = with("3"), low = with("-2");
     EXPECT_EQ(image_of(high, high.material().transmission_tex).f32()[0], 1.0f);
     EXPECT_EQ(image_of(low, low.material().transmission_tex).f32()[0], 0.0f);
 }
@@ -386,9 +383,8 @@ TEST(mtlx, a_share_and_a_thickness_may_read_one_picture)
 {
     const std::string product = "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"p\"/>" +
                                 number("in2", "400") + "</multiply><output name=\"o\" type=\"float\" nodename=\"m\"/>";
-    const Dressed d =
-        dressed(document("gltf_pbr", linked("iridescence", "o") + linked("iridescence_thickness", "o"), picture_graph(product)),
-                picture_of(255, 255, 255));
+    const Loaded d = loaded(document("gltf_pbr", linked("iridescence", "o") + linked("iridescence_thickness", "o"), picture_graph(product)),
+                            picture_of(255, 255, 255));
     ASSERT_EQ(d.error, "");
     EXPECT_EQ(image_of(d, d.material().iridescence_tex).f32()[0], 1.0f);
     EXPECT_EQ(image_of(d, d.material().iridescence_thickness_tex).f32()[0], 400.0f);
@@ -406,7 +402,7 @@ TEST(mtlx, products_of_products_end)
                                "<input name=\"" + side + "\" type=\"float\" nodename=\"n" + std::to_string(i - 1) + "\"/>" +
                                (side == std::string("in2") ? "</multiply>" : "");
     nodes += "<constant name=\"n0\" type=\"float\">" + number("value", "1") + "</constant>";
-    const Dressed d = dressed(document(
+    const Loaded d = loaded(document(
         "gltf_pbr", "<input name=\"roughness\" type=\"float\" nodename=\"n14\"/><input name=\"metallic\" type=\"float\" nodename=\"n14\"/>",
         nodes));
     EXPECT_NE(d.error.find("comes from too many nodes"), std::string::npos) << d.error;
@@ -425,18 +421,18 @@ TEST(mtlx, names_choose_materials)
         std::string text = two;
         return text.replace(text.find("NAME"), 4, name);
     };
-    const auto roughness = [](const Dressed& d, const std::string& name) {
+    const auto roughness = [](const Loaded& d, const std::string& name) {
         for (const Material& m : d.scene.materials)
             if (m.name == name)
                 return m.roughness;
         return -1.0f;
     };
-    const Dressed both = dressed(with("felt"), {}, "cloth");
+    const Loaded both = loaded(with("felt"), {}, "cloth");
     ASSERT_EQ(both.error, "");
     EXPECT_EQ(roughness(both, "velvet"), 0.25f);
     EXPECT_EQ(roughness(both, "felt"), 0.75f);
     EXPECT_EQ(roughness(both, "satin"), 0.42f); // its own
-    const Dressed none = dressed(with("b"), {}, "sphere");
+    const Loaded none = loaded(with("b"), {}, "sphere");
     EXPECT_NE(none.error.find("no material of the scene has the name of one of these: velvet, b"), std::string::npos) << none.error;
 }
 
@@ -487,10 +483,10 @@ TEST(mtlx, faults_are_named)
                        picture_graph("<output name=\"o\" type=\"float\" nodename=\"p\"/>", number("uaddressmode", "constant", "string"))),
                    "address mode constant"},
          }) {
-        const Dressed d = dressed(fault.text);
+        const Loaded d = loaded(fault.text);
         EXPECT_NE(d.error.find(fault.needle), std::string::npos) << fault.needle << ": " << d.error;
     }
-    EXPECT_NE(dressed(document("standard_surface", number("subsurface", "0.5"))).warnings.find("nothing is made of subsurface"),
+    EXPECT_NE(loaded(document("standard_surface", number("subsurface", "0.5"))).warnings.find("nothing is made of subsurface"),
               std::string::npos);
 }
 

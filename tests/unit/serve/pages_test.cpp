@@ -99,7 +99,7 @@ TEST(serve, bands_of_several_renderers_are_the_picture_of_one)
             EXPECT_EQ(a[name], b[name]) << c.scene << " " << name;
         EXPECT_EQ(a["frame_ms"], 12.5);
         EXPECT_FALSE(a["stages"].empty());
-        // The picture is kept: neither asking for it nor comparing draws it again
+        // The picture is cached: neither asking for it nor comparing draws it again
         EXPECT_EQ(header_of(whole(first, picture))["frame_ms"], 12.5);
         HttpResponse difference;
         first.pages->answer(question("/difference", {{"reference", picture}, {"test", picture}}), difference);

@@ -284,9 +284,9 @@ TEST(session, takes_the_other_renderers)
         options.reference.samples = 64;
         Result<Session> reference = Session::make(tile->parts(), options);
         ASSERT_TRUE(reference) << reference.error().line();
-        const Result<Frame> truth = reference->render(small_frame(*reference, "mc"));
-        ASSERT_TRUE(truth) << truth.error().line();
-        EXPECT_FALSE(truth->variance.empty());
+        const Result<Frame> frame = reference->render(small_frame(*reference, "mc"));
+        ASSERT_TRUE(frame) << frame.error().line();
+        EXPECT_FALSE(frame->variance.empty());
     }
     SessionOptions options;
     options.backend = Backend::vulkan;

@@ -65,7 +65,7 @@ TEST(lobe_line, sums_to_the_density_of_slopes)
     const Line l = line_of(oracle_fns(), up, ax, ay);
     for (double x : {0.0, 0.1, 0.5, 1.2})
         for (double y : {0.0, 0.05, 0.3}) {
-            const double m = 1.0 + x * x / (ax * ax) + y * y / (ay * ay), truth = 1.0 / (pi * ax * ay * m * m);
+            const double m = 1.0 + x * x / (ax * ax) + y * y / (ay * ay), reference = 1.0 / (pi * ax * ay * m * m);
             double sum = 0.0;
             constexpr int kCount = 20000;
             for (int i = 0; i < kCount; ++i) {
@@ -73,7 +73,7 @@ TEST(lobe_line, sums_to_the_density_of_slopes)
                 const double dx = x - l.x * z, dy = y - l.y * z, r2 = (dx * dx + dy * dy) / w2;
                 sum += 3.0 / (2.0 * pi * w2) * std::pow(1.0 + r2, -2.5) / kCount;
             }
-            EXPECT_NEAR(sum, truth, 1e-3 * truth) << x << " " << y;
+            EXPECT_NEAR(sum, reference, 1e-3 * reference) << x << " " << y;
         }
 }
 

@@ -271,11 +271,11 @@ TEST(major_axis, extrema_as_printed_speckle_in_floats_beside_symmetry_planes_and
                                         1.0,
                                         2.3,
                                         16.0};
-        const double truth = call(oracle_fns(), "major_axis", in)[1];
-        const double off = turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, device_root)), truth);
-        by_exact_root = std::max(by_exact_root, turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, exact_root)), truth));
+        const double reference = call(oracle_fns(), "major_axis", in)[1];
+        const double off = turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, device_root)), reference);
+        by_exact_root = std::max(by_exact_root, turn_between(static_cast<double>(printed_t1(ox, oy, rx, ry, exact_root)), reference));
         printed_off += off > kSeen, printed_far += off > M_PI / 6.0;
-        worst = std::max(worst, turn_between(call(float_fns()[0], "major_axis", in)[1], truth));
+        worst = std::max(worst, turn_between(call(float_fns()[0], "major_axis", in)[1], reference));
     }
     std::printf(
         "as printed %.1f %% are off by more than %.2f radians, %.1f %% by more than 30 degrees (by an exact root %.1e at most), the "

@@ -48,7 +48,7 @@ class OffscreenRenderer:
             if name in keywords:
                 refuse(name, "the scene and the viewport decide it")
         self.viewport_width, self.viewport_height, self.point_size, self.keywords = viewport_width, viewport_height, point_size, keywords
-        self._kept = {}  # scenes opened last, for colours and for coverage: (bytes, environment), scene
+        self._cached = {}  # scenes opened last, for colours and for coverage: (bytes, environment), scene
 
     viewport_width = property(lambda self: self._width, lambda self, value: setattr(self, "_width", whole(value, "viewport_width", 1)))
     viewport_height = property(lambda self: self._height, lambda self, value: setattr(self, "_height", whole(value, "viewport_height", 1)))
@@ -94,7 +94,7 @@ class OffscreenRenderer:
 
     def delete(self):
         """Frees what the renderer keeps. It may draw again."""
-        self._kept.clear()
+        self._cached.clear()
 
     def _empty(self, scene, width, height, flags):
         """Returns the picture of a scene without meshes."""
@@ -112,7 +112,7 @@ class OffscreenRenderer:
         data, environment = scene.write(width, height, **ways), scene.environment
         given = {name: value for name, value in self.keywords.items() if _loads(name)}
         key = data, environment, tuple(scene.ambient_light)
-        if self._kept.get(role, (None,))[0] != key:
+        if self._cached.get(role, (None,))[0] != key:
             with tempfile.TemporaryDirectory(prefix="burnish") as folder:
                 path, light = os.path.join(folder, "scene.glb"), gltf.even_light(scene.ambient_light) if environment is None else environment
                 with open(path, "wb") as file:
@@ -120,8 +120,8 @@ class OffscreenRenderer:
                 # 6 calls up: the script's own line
                 opened = _load(path, light, None, {**given, **({} if environment else EVEN_LIGHT)}, 6,
                                lambda text: role == "colour" and MADE not in text)
-            self._kept[role] = key, opened
-        return self._kept[role][1]
+            self._cached[role] = key, opened
+        return self._cached[role][1]
 
 
 def _loads(keyword):
