@@ -264,7 +264,8 @@ int run_mip(const MipBake& bake)
     const bool is_folder = std::filesystem::is_directory(bake.material, none);
     if (is_folder)
         overrides.material = bake.material;
-    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, overrides, mips, {}, {});
+    const Jobs jobs(bake.threads);
+    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, overrides, mips, {}, {}, {}, &jobs);
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
@@ -280,7 +281,6 @@ int run_mip(const MipBake& bake)
     if (a.gains && !takes_gains(a.filter))
         report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_of(a.filter)));
     // List or make pieces, or filter the levels
-    const Jobs jobs(bake.threads);
     const double begin_ms = wall_ms();
     SceneMips scene_mips = (*data)->mips;
     if (any_pieces(bake.pieces)) {

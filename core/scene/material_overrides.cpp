@@ -15,6 +15,7 @@
 #include "core/image/io/stored_colour.h"
 #include "core/math/scalar_math.h"
 #include "core/scene/heights.h"
+#include "core/scene/pictures_ahead.h"
 #include "core/scene/texture.h"
 
 namespace burnish {
@@ -73,14 +74,20 @@ class MapWriter {
         return {};
     }
 
+    // Decodes pictures on all threads, for read().
+    void look_ahead(const std::vector<PicturesAhead::Wanted>& pictures, const Jobs* jobs)
+    {
+        if (check_coordinates(""))
+            ahead_ = PicturesAhead(pictures, limits_left(scene_, limits_), jobs);
+    }
+
     // colours: of the material; other maps hold data, whatever primaries their files name.
     Result<Image> read(const std::string& path, int channels, bool colours = false)
     {
         BN_TRY(check_coordinates(path));
-        Limits rest = limits_;
-        rest.texture_bytes = texture_bytes_left(scene_, limits_);
+        const Limits rest = limits_left(scene_, limits_);
         PictureNotes notes;
-        Result<Image> image = colours ? read_colours(path, rest, notes) : read_image(path, rest, &notes);
+        Result<Image> image = ahead_.read(path, colours, rest, notes);
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             scene_.warnings.push_back(path + ": " + warning);
@@ -142,6 +149,7 @@ class MapWriter {
   private:
     Scene& scene_;
     const Limits& limits_;
+    PicturesAhead ahead_;
     std::vector<bool> worn_; // by something with texture coordinates
 };
 
@@ -237,11 +245,21 @@ Status find_pictures(const std::string& folder, std::string (&found)[kRoles], st
     return {};
 }
 
-Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, const Limits& limits)
+// Returns the pictures that put_material() and put_maps() read.
+std::vector<PicturesAhead::Wanted> pictures_read(const std::string (&found)[kRoles], const MaterialOverrides& with)
 {
-    std::string found[kRoles];
-    if (Status pictures = find_pictures(with.material, found, scene.warnings); !pictures)
-        return pictures;
+    std::vector<PicturesAhead::Wanted> pictures;
+    for (int role = 0; role < kRoles; ++role)
+        pictures.push_back({found[role], role == kAlbedo});
+    for (const std::string* path : {&with.direction, &with.rotation, &with.roughness, &with.normal, &with.quaternion, &with.height})
+        pictures.push_back({*path, false});
+    std::erase_if(pictures, [](const PicturesAhead::Wanted& picture) { return picture.path.empty(); });
+    return pictures;
+}
+
+// Puts the folder's pictures. found: by role.
+Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, const std::string (&found)[kRoles], const Limits& limits)
+{
     if (Status worn = on.check_coordinates(with.material); !worn)
         return worn;
     on.each([](Material& m) {
@@ -314,7 +332,7 @@ bool MaterialOverrides::names(const std::string& path) const
                              path == roughness || path == material || (!material.empty() && path.starts_with(material)));
 }
 
-Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, const Limits& limits)
+Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, const Limits& limits, const Jobs* jobs)
 {
     if (!with.direction.empty() && !with.rotation.empty())
         return Error{ExitCode::usage, "", "",
@@ -324,8 +342,13 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
         !with.direction.empty()) // else the folder says it
         BN_TRY(check_strokes(with));
     MapWriter on(scene, limits);
-    if (!with.material.empty() && !with.material_is_document())
-        if (Status put = put_material(on, scene, with, limits); !put)
+    std::string found[kRoles];
+    const bool has_folder = !with.material.empty() && !with.material_is_document();
+    if (has_folder)
+        BN_TRY(find_pictures(with.material, found, scene.warnings));
+    on.look_ahead(pictures_read(found, with), jobs);
+    if (has_folder)
+        if (Status put = put_material(on, scene, with, found, limits); !put)
             return put;
     if (Status put = put_maps(on, with); !put)
         return put;

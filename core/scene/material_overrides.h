@@ -12,6 +12,8 @@
 
 namespace burnish {
 
+class Jobs;
+
 struct MaterialOverrides {  // empty: left as it is
     std::string material;   // MaterialX file, or folder of pictures, whose names end in what they are: see apps/manual/materials.md
     std::string direction;  // an anisotropy texture; materials without strength of anisotropy get 1, which its blue scales
@@ -34,6 +36,7 @@ struct MaterialOverrides {  // empty: left as it is
 // of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part, or
 // grooves where no map holds strokes: RotationEncoding::direction is that of highlights.
 // Leaves a MaterialX file to apply_mtlx(), which goes first.
-Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits);
+// jobs: threads that decode pictures; null: the calling thread alone. The materials are the same.
+Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits, const Jobs* jobs = nullptr);
 
 } // namespace burnish

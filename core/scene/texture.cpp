@@ -31,6 +31,13 @@ std::uint64_t texture_bytes_left(const Scene& scene, const Limits& limits)
     return left;
 }
 
+Limits limits_left(const Scene& scene, const Limits& limits)
+{
+    Limits left = limits;
+    left.texture_bytes = texture_bytes_left(scene, limits);
+    return left;
+}
+
 Error textures_too_large(const std::string& path, const Limits& limits)
 {
     return {ExitCode::bad_input, path, "",

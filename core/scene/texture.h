@@ -20,6 +20,9 @@ std::int32_t add_texture(Scene& scene, const char* name, Image image, Texture li
 // Returns how much of Limits::texture_bytes the scene's images leave.
 std::uint64_t texture_bytes_left(const Scene& scene, const Limits& limits);
 
+// Returns the limits on a further picture: texture_bytes is what the images leave.
+Limits limits_left(const Scene& scene, const Limits& limits);
+
 // Returns the error of a file whose texture needs more.
 Error textures_too_large(const std::string& path, const Limits& limits);
 

@@ -207,8 +207,8 @@ Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec
         Result<Scene> scene = load_scene(spec, limits, moment, jobs);
         BN_TRY(scene);
         if (overrides.material_is_document())
-            BN_TRY(apply_mtlx(*scene, overrides.material, limits));
-        BN_TRY(apply_material_overrides(*scene, overrides, limits));
+            BN_TRY(apply_mtlx(*scene, overrides.material, limits, jobs));
+        BN_TRY(apply_material_overrides(*scene, overrides, limits, jobs));
         for (AreaLight light : lights) {
             BN_TRY(read_area_texture(*scene, light, limits));
             add_area_light(*scene, light);

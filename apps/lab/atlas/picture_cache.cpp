@@ -75,7 +75,8 @@ Result<const SessionParts*> PictureCache::parts_of(const AtlasSetting& setting)
         return &found->second;
     if (!scenes_.count(setting.scene_key)) {
         make_room(scenes_);
-        Result<std::shared_ptr<const SceneData>> scene = open_scene(o.scene, o.limits, o.overrides, o.mips, o.moment, o.lights);
+        Result<std::shared_ptr<const SceneData>> scene =
+            open_scene(o.scene, o.limits, o.overrides, o.mips, o.moment, o.lights, {}, machine_.jobs.get());
         BN_TRY(scene);
         scenes_[setting.scene_key] = std::move(*scene);
     }

@@ -58,7 +58,8 @@ Result<ConformDrawer> ConformDrawer::open(const ConformFolder& folder, const Lim
         std::vector<AreaLight> lights;
         if (scene.area_light)
             lights.push_back(conform_area_light());
-        Result<std::shared_ptr<const SceneData>> data = load_scene_data(folder.path + "/" + scene.file, limits, {}, {}, {}, lights);
+        Result<std::shared_ptr<const SceneData>> data =
+            load_scene_data(folder.path + "/" + scene.file, limits, {}, {}, {}, lights, {}, drawer.jobs_.get());
         BN_TRY(data);
         if ((*data)->scene.cameras.empty())
             return Error{ExitCode::bad_input, folder.path + "/" + scene.file, "/cameras", "there is no camera"};

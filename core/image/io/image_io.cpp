@@ -175,6 +175,9 @@ Status read_pixels(const ImageBytes& file, const ImageProbe& probe, const PlaceP
 Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, const HasRoom& room, PictureNotes& notes)
 {
     const bool exr = std::strcmp(probe.format, "openexr") == 0;
+    // Only OpenEXR windows place the image: in other formats, offsets are page layout. A cube's faces fill the data
+    // window.
+    const bool in_display = exr && !probe.cube_faces;
     StoredHeader header;
     Selection selection;
     Image image;
@@ -189,13 +192,17 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         selection = *selected;
         const int first = selection.first();
         const int end = selection.end();
-        const std::uint64_t bytes = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) *
-                                    static_cast<std::uint64_t>(end - first) * pixel_type_bytes(header.type);
+        const auto bytes_of = [&](int width, int height, int channels) {
+            return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(channels) *
+                   pixel_type_bytes(header.type);
+        };
+        const std::uint64_t bytes = bytes_of(header.width, header.height, end - first);
+        const std::uint64_t placed = in_display ? bytes_of(header.full_width, header.full_height, selection.count) : 0;
         if (bytes > limits.texture_bytes)
             return file.error(fmt::format("header: {} x {} pixels", header.width, header.height),
                               fmt::format("{} bytes of pixels are more than the limit of {}", bytes, limits.texture_bytes));
-        if (room && !room(bytes))
-            return file.error("", fmt::format("no room for {} bytes of pixels", bytes));
+        if (room && !room(std::max(bytes, placed)))
+            return file.error("", fmt::format("no room for {} bytes of pixels", std::max(bytes, placed)));
         image = make_image(header.width, header.height, end - first, header.type);
         return PixelRequest{first, end, image.bytes.data()};
     };
@@ -206,9 +213,7 @@ Result<Image> decode(const ImageBytes& file, const ImageProbe& probe, const Limi
         decode_luminance_chroma(image, luminance_weights(probe.colour.primaries.value_or(kRec709Primaries)));
     apply_gain(image, probe.colour.gain);
     notes.cube_faces = probe.cube_faces;
-    // Only OpenEXR windows place the image: in other formats, offsets are page layout. A cube's faces fill the data
-    // window.
-    if (exr && !probe.cube_faces)
+    if (in_display)
         image = place_in_display(std::move(image), header);
     return orient(std::move(image), probe.radiance);
 }
@@ -222,8 +227,7 @@ Result<ImageProbe> probe_bytes(const ImageBytes& file, const Limits& limits)
     return probe_image(file, limits);
 }
 
-Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes,
-                            const HasRoom& room = {})
+Result<Image> decode_probed(const ImageBytes& file, const ImageProbe& probe, const Limits& limits, PictureNotes& notes, const HasRoom& room)
 {
     try {
         Result<Image> image = decode(file, probe, limits, room, notes);
@@ -262,12 +266,12 @@ Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std
 }
 
 Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
-                             PictureNotes& notes)
+                             PictureNotes& notes, const HasRoom& room)
 {
     const ImageBytes file{data, size, label};
     const Result<ImageProbe> probe = probe_bytes(file, limits);
     BN_TRY(probe);
-    Result<Image> image = decode_probed(file, *probe, limits, notes);
+    Result<Image> image = decode_probed(file, *probe, limits, notes, room);
     if (!image)
         return image;
     const StoredColour& colour = probe->colour;
@@ -285,18 +289,18 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
     return image;
 }
 
-Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes)
+Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes, const HasRoom& room)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
     BN_TRY(bytes);
-    return decode_image(bytes->data(), bytes->size(), path, limits, notes);
+    return decode_image(bytes->data(), bytes->size(), path, limits, notes, room);
 }
 
-Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes)
+Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes, const HasRoom& room)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
     BN_TRY(bytes);
-    return decode_colours(bytes->data(), bytes->size(), path, limits, notes);
+    return decode_colours(bytes->data(), bytes->size(), path, limits, notes, room);
 }
 
 } // namespace burnish

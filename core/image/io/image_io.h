@@ -20,6 +20,10 @@ struct PictureNotes {
     std::vector<std::string> warnings; // one line each, without the file name
 };
 
+// Returns true if there is room for the bytes that one image takes while it is decoded. Where a second decoder takes over, it asks again,
+// for all bytes.
+using HasRoom = std::function<bool(std::uint64_t bytes)>;
+
 // Reads PNG, JPEG, WebP, OpenEXR, Radiance RGBE, TIFF, PNM/PFM and BMP. The first bytes tell the format, whatever the
 // extension. Checks sizes against the limits before reading pixels. 8-bit files give u8, 16-bit files u16, float and
 // half files f32.
@@ -31,21 +35,18 @@ struct PictureNotes {
 // Returns original values: luminance and chroma become RGB, EXPOSURE and COLORCORR of Radiance files are divided out,
 // and the scale of PFM files multiplies. Leaves primaries alone: for directions, heights and other data, and for
 // burnish's own files.
-Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes = nullptr);
+// Fails without allocating pixels if `room` returns false.
+Result<Image> read_image(const std::string& path, const Limits& limits, PictureNotes* notes = nullptr, const HasRoom& room = {});
 
-// Returns true if there is room for an image's decoded bytes.
-using HasRoom = std::function<bool(std::uint64_t bytes)>;
-
-// Decodes an image in memory like read_image(). `label` names the image in errors ("scene.glb: /images/3"). Fails without
-// allocating pixels if `room` returns false.
+// Decodes an image in memory like read_image(). `label` names the image in errors ("scene.glb: /images/3").
 Result<Image> decode_image(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
                            PictureNotes* notes = nullptr, const HasRoom& room = {});
 
 // Reads a colour image. Float formats become linear Rec.709 by the file's chromaticities or PRIMARIES, with Bradford
 // white adaptation. Files that name Rec.709 or nothing keep their bits.
-Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes);
+Result<Image> read_colours(const std::string& path, const Limits& limits, PictureNotes& notes, const HasRoom& room = {});
 Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const std::string& label, const Limits& limits,
-                             PictureNotes& notes);
+                             PictureNotes& notes, const HasRoom& room = {});
 
 // Writes .exr (linear Rec.709, 32-bit float, ZIP), .hdr, .pfm; or .png .jpg .tif from u8 pixels. Stores nothing
 // volatile (no date, host, or arguments). The file appears under its name only when complete. On failure leaves no

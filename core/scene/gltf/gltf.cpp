@@ -158,7 +158,7 @@ Result<Scene> load_scene(const std::string& spec, const Limits& limits, const Mo
     if (spec.compare(0, kBuiltin.size(), kBuiltin) == 0)
         return make_builtin_scene(spec.substr(kBuiltin.size()));
     if (is_obj(spec))
-        return guarded(spec, [&]() -> Result<Scene> { return load_obj(spec, limits); });
+        return guarded(spec, [&]() -> Result<Scene> { return load_obj(spec, limits, jobs); });
     return load_gltf(spec, limits, moment, jobs); // checks the content, not the name
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/base/file.h"
@@ -15,6 +16,7 @@
 #include "core/scene/mtlx/channels.h"
 #include "core/scene/mtlx/surfaces.h"
 #include "core/scene/picture_beside.h"
+#include "core/scene/pictures_ahead.h"
 #include "core/scene/surface_maps.h"
 #include "core/scene/texture.h"
 
@@ -53,6 +55,30 @@ bool is_finite(const Material& m)
 class Wardrobe {
   public:
     Wardrobe(Scene& scene, std::string path, const Limits& limits) : scene_(scene), path_(std::move(path)), limits_(limits) {}
+
+    // Decodes the pictures of surfaces on all threads, for make().
+    void look_ahead(const std::set<const SurfaceMaterial*>& surfaces, const Jobs* jobs)
+    {
+        if (!jobs)
+            return;
+        std::set<std::pair<std::string, bool>> names;
+        for (const SurfaceMaterial* surface : surfaces) {
+            std::vector<std::string> unread;
+            const Parts parts = mtlx::parts_of(*surface, unread);
+            if (!check_pictures(*surface, parts))
+                continue;
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                const Part part = static_cast<Part>(i);
+                if (parts[i].picture && part != Part::opacity) // which comes with the base colour
+                    names.emplace(parts[i].picture->file, part == Part::base_color || part == Part::emission_color);
+            }
+        }
+        std::vector<PicturesAhead::Wanted> wanted;
+        for (const auto& [name, colours] : names)
+            if (const auto path = picture_beside(fs::path(path_).parent_path(), name, limits_))
+                wanted.push_back({*path, colours});
+        ahead_ = PicturesAhead(wanted, limits_left(scene_, limits_), jobs);
+    }
 
     Result<Material> make(const SurfaceMaterial& surface)
     {
@@ -114,10 +140,8 @@ class Wardrobe {
         const auto key = std::pair(*path, colours);
         if (const auto known = pictures_.find(key); known != pictures_.end())
             return &known->second;
-        Limits rest = limits_;
-        rest.texture_bytes = texture_bytes_left(scene_, limits_);
         PictureNotes notes;
-        Result<Image> image = colours ? read_colours(*path, rest, notes) : read_image(*path, rest, &notes);
+        Result<Image> image = ahead_.read(*path, colours, limits_left(scene_, limits_), notes);
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             scene_.warnings.push_back(*path + ": " + warning);
@@ -316,6 +340,7 @@ class Wardrobe {
     Scene& scene_;
     const std::string path_;
     const Limits& limits_;
+    PicturesAhead ahead_;
     std::map<std::pair<std::string, bool>, Image> pictures_; // by path, and whether colours were read
     std::map<std::tuple<std::string, std::string, WrapMode, WrapMode, bool>, std::int32_t> textures_;
 };
@@ -343,7 +368,7 @@ Error nothing_named(const std::string& path, const std::vector<SurfaceMaterial>&
 
 } // namespace
 
-Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits)
+Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits, const Jobs* jobs)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, std::min(kMostBytes, limits.file_bytes));
     BN_TRY(bytes);
@@ -364,13 +389,19 @@ Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits)
         return nothing_named(path, *all);
     if (!named)
         std::fill(wears.begin(), wears.end(), &all->front());
+    for (std::size_t i = 0; i < wears.size(); ++i)
+        if (scene.materials[i].emitter != kNoEmitter)
+            wears[i] = nullptr;
     // Put it on
     Wardrobe wardrobe(scene, path, limits);
+    std::set<const SurfaceMaterial*> surfaces(wears.begin(), wears.end());
+    surfaces.erase(nullptr);
+    wardrobe.look_ahead(surfaces, jobs);
     std::map<const SurfaceMaterial*, Material> made;
     const std::vector<bool> worn = worn_with_coordinates(scene);
     for (std::size_t i = 0; i < wears.size(); ++i) {
         Material& m = scene.materials[i];
-        if (!wears[i] || m.emitter != kNoEmitter)
+        if (!wears[i])
             continue;
         auto known = made.find(wears[i]);
         if (known == made.end()) {

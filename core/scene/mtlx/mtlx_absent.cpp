@@ -3,7 +3,7 @@
 
 namespace burnish {
 
-Status apply_mtlx(Scene&, const std::string& path, const Limits&)
+Status apply_mtlx(Scene&, const std::string& path, const Limits&, const Jobs*)
 {
     return Error{ExitCode::bad_input, path, "", "this program was built without pugixml, which reads MaterialX"};
 }

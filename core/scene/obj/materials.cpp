@@ -18,6 +18,7 @@
 #include "core/scene/obj/lines.h"
 #include "core/scene/obj/mtl.h"
 #include "core/scene/picture_beside.h"
+#include "core/scene/pictures_ahead.h"
 #include "core/scene/surface_maps.h"
 #include "core/scene/texture.h"
 
@@ -74,7 +75,27 @@ struct Picture {
 
 class MaterialMaker {
   public:
-    MaterialMaker(Scene& scene, fs::path folder, const Limits& limits) : scene_(scene), folder_(std::move(folder)), limits_(limits) {}
+    MaterialMaker(Scene& scene, fs::path folder, const Limits& limits, const Jobs* jobs)
+        : scene_(scene), folder_(std::move(folder)), limits_(limits), jobs_(jobs)
+    {
+    }
+
+    // Decodes the pictures of materials on all threads, for add().
+    void look_ahead(const std::vector<const MtlMaterial*>& materials)
+    {
+        if (!jobs_)
+            return;
+        std::set<std::pair<std::string, bool>> names;
+        for (const MtlMaterial* material : materials)
+            for (const auto& [map, colours] : maps_read(*material))
+                if (!map->file.empty())
+                    names.emplace(map->file, colours);
+        std::vector<PicturesAhead::Wanted> wanted;
+        for (const auto& [name, colours] : names)
+            if (const auto path = picture_beside(folder_, name, limits_); path && !pictures_.count({*path, colours}))
+                wanted.push_back({*path, colours});
+        ahead_ = PicturesAhead(wanted, limits_left(scene_, limits_), jobs_);
+    }
 
     Status add(const MtlMaterial& from)
     {
@@ -126,6 +147,25 @@ class MaterialMaker {
         return out;
     }
 
+    // Returns true where roughness comes from a picture of exponents.
+    static bool is_by_exponents(const MtlMaterial& m)
+    {
+        return m.roughness_map.file.empty() && !m.roughness && !m.exponent_map.file.empty();
+    }
+
+    // Returns the maps whose pictures put_maps() reads, and whether as colours. A bump map is read, whatever it holds.
+    static std::vector<std::pair<const MtlMap*, bool>> maps_read(const MtlMaterial& m)
+    {
+        const MtlMap& normals = m.normal_map.file.empty() ? m.bump_map : m.normal_map;
+        return {{&m.diffuse_map, true},
+                {&m.emission_map, true},
+                {&m.specular_map, true},
+                {&normals, false},
+                {&m.sheen_map, false},
+                {&m.metallic_map, false},
+                {is_by_exponents(m) ? &m.exponent_map : &m.roughness_map, false}};
+    }
+
     static void emit(const glm::vec3& light, Material& m)
     {
         const float most = std::max({light.r, light.g, light.b, 1.0f});
@@ -149,10 +189,9 @@ class MaterialMaker {
         const auto key = std::pair(*path, colours);
         if (const auto known = pictures_.find(key); known != pictures_.end())
             return &known->second;
-        Limits rest = limits_;
-        rest.texture_bytes = texture_bytes_left(scene_, limits_);
+        const Limits rest = limits_left(scene_, limits_);
         PictureNotes notes;
-        Result<Image> image = colours ? read_colours(*path, rest, notes) : read_image(*path, rest, &notes);
+        Result<Image> image = ahead_.read(*path, colours, rest, notes);
         BN_TRY(image);
         for (const std::string& warning : notes.warnings)
             warn(*path + ": " + warning);
@@ -221,7 +260,7 @@ class MaterialMaker {
     }
 
     // Returns the map of normals: `norm`, or a bump map that holds normals.
-    const MtlMap* normals_of(const MtlMaterial& from)
+    Result<const MtlMap*> normals_of(const MtlMaterial& from)
     {
         if (from.bump_map.file.empty())
             return &from.normal_map;
@@ -230,6 +269,8 @@ class MaterialMaker {
             return &from.normal_map;
         }
         const Result<const Picture*> read = picture(from.bump_map.file, false);
+        if (!read && read.error().code == ExitCode::stopped)
+            return read.error();
         if (!read) // it may hold heights, which need not be read
             warn(fmt::format("material \"{}\": its bump map is left out: {}", printable(from.name), read.error().line()));
         else if (holds_normals((*read)->image))
@@ -249,9 +290,10 @@ class MaterialMaker {
         BN_TRY(put_map(from.specular_map, Content::colours, m.specular_color_tex));
         if (m.specular_color_tex.used() && !from.specular)
             m.specular_color = glm::vec3(2.0f); // Ks 1
-        const MtlMap& normals = *normals_of(from);
-        BN_TRY(put_map(normals, Content::normals, m.normal_tex));
-        m.normal_scale = normals.strength;
+        const Result<const MtlMap*> normals = normals_of(from);
+        BN_TRY(normals);
+        BN_TRY(put_map(**normals, Content::normals, m.normal_tex));
+        m.normal_scale = (*normals)->strength;
         BN_TRY(put_map(from.sheen_map, Content::amounts, m.sheen_color_tex));
         if (m.sheen_color_tex.used() && !from.sheen)
             m.sheen_color = glm::vec3(1.0f), m.sheen_roughness = 0.5f;
@@ -267,7 +309,7 @@ class MaterialMaker {
     Status put_metal_rough(const MtlMaterial& from, Material& m)
     {
         const Picture* parts[2] = {&none_, &none_};
-        const bool by_exponents = from.roughness_map.file.empty() && !from.roughness && !from.exponent_map.file.empty();
+        const bool by_exponents = is_by_exponents(from);
         if (!by_exponents && !from.exponent_map.file.empty())
             warn(fmt::format("material \"{}\": map_Ns is not read beside Pr or map_Pr", printable(from.name)));
         const MtlMap* const maps[2] = {&from.metallic_map, by_exponents ? &from.exponent_map : &from.roughness_map};
@@ -306,6 +348,8 @@ class MaterialMaker {
     Scene& scene_;
     fs::path folder_;
     const Limits& limits_;
+    const Jobs* jobs_;
+    PicturesAhead ahead_;
     const Picture none_;
     std::map<std::pair<std::string, bool>, Picture> pictures_; // by path, and whether colours were read
     std::map<Key, std::int32_t> textures_;
@@ -326,12 +370,12 @@ std::vector<std::string> files_of(std::string_view statement, const fs::path& fo
 } // namespace
 
 Result<std::map<std::string, std::int32_t>> read_materials(Scene& scene, const std::string& obj, const std::vector<std::string>& libraries,
-                                                           const Limits& limits)
+                                                           const Limits& limits, const Jobs* jobs)
 {
     const fs::path folder = fs::path(obj).parent_path();
     std::map<std::string, std::int32_t> indices;
     std::set<std::string> seen;
-    MaterialMaker maker(scene, folder, limits);
+    MaterialMaker maker(scene, folder, limits, jobs);
     for (const std::string& statement : libraries)
         for (const std::string& name : files_of(statement, folder, limits)) {
             const std::optional<std::string> path = picture_beside(folder, name, limits);
@@ -350,9 +394,13 @@ Result<std::map<std::string, std::int32_t>> read_materials(Scene& scene, const s
             if (library.wrong)
                 return *library.wrong;
             scene.warnings.insert(scene.warnings.end(), library.warnings.begin(), library.warnings.end());
+            std::vector<const MtlMaterial*> added;
             for (const MtlMaterial& material : library.materials)
-                if (indices.emplace(material.name, static_cast<std::int32_t>(scene.materials.size())).second)
-                    BN_TRY(maker.add(material));
+                if (indices.emplace(material.name, static_cast<std::int32_t>(scene.materials.size() + added.size())).second)
+                    added.push_back(&material);
+            maker.look_ahead(added);
+            for (const MtlMaterial* material : added)
+                BN_TRY(maker.add(*material));
         }
     return indices;
 }

@@ -237,7 +237,7 @@ void warn_of_missing_uvs(Scene& scene, const obj::Parsed& parsed)
 
 // Returns each group's material. Reads the libraries that the file names.
 Result<std::vector<std::int32_t>> materials_of_groups(Scene& scene, const obj::Parsed& parsed, const std::string& path,
-                                                      const Limits& limits, bool in_folder)
+                                                      const Limits& limits, bool in_folder, const Jobs* jobs)
 {
     std::vector<std::int32_t> worn(parsed.groups.size(), 0);
     const bool wears =
@@ -249,7 +249,7 @@ Result<std::vector<std::int32_t>> materials_of_groups(Scene& scene, const obj::P
                                            : "its materials (MTL) are read from files alone: they are white");
         return worn;
     }
-    const Result<std::map<std::string, std::int32_t>> indices = obj::read_materials(scene, path, parsed.libraries, limits);
+    const Result<std::map<std::string, std::int32_t>> indices = obj::read_materials(scene, path, parsed.libraries, limits, jobs);
     BN_TRY(indices);
     std::set<std::string> missing;
     for (std::size_t g = 0; g < worn.size(); ++g) {
@@ -263,7 +263,7 @@ Result<std::vector<std::int32_t>> materials_of_groups(Scene& scene, const obj::P
 }
 
 // in_folder: the path is a file's, whose folder holds its materials.
-Result<Scene> load_text(const std::string& text, const std::string& path, const Limits& limits, bool in_folder)
+Result<Scene> load_text(const std::string& text, const std::string& path, const Limits& limits, bool in_folder, const Jobs* jobs)
 {
     if (text.find('\0') != std::string::npos)
         return Error{ExitCode::bad_input, path, "", "holds bytes of 0: no text in UTF-8, perhaps UTF-16"};
@@ -283,7 +283,7 @@ Result<Scene> load_text(const std::string& text, const std::string& path, const 
     white.metallic = 0.0f, white.roughness = 0.4f;
     scene.materials.push_back(white);
     scene.warnings = parsed.warnings;
-    const Result<std::vector<std::int32_t>> wears = materials_of_groups(scene, parsed, path, limits, in_folder);
+    const Result<std::vector<std::int32_t>> wears = materials_of_groups(scene, parsed, path, limits, in_folder, jobs);
     BN_TRY(wears);
     const std::vector<std::int32_t>& worn = *wears;
     // Make a mesh and a node for each group
@@ -314,16 +314,16 @@ bool is_obj(const std::string& path)
            });
 }
 
-Result<Scene> load_obj(const std::string& path, const Limits& limits)
+Result<Scene> load_obj(const std::string& path, const Limits& limits, const Jobs* jobs)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
     BN_TRY(bytes);
-    return load_text(std::string(bytes->begin(), bytes->end()), path, limits, true);
+    return load_text(std::string(bytes->begin(), bytes->end()), path, limits, true, jobs);
 }
 
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits)
 {
-    return load_text(text, path, limits, false);
+    return load_text(text, path, limits, false, nullptr);
 }
 
 } // namespace burnish

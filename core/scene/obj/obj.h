@@ -8,6 +8,8 @@
 
 namespace burnish {
 
+class Jobs;
+
 bool is_obj(const std::string& path); // checks the name only
 
 // Reads polygons with any number of corners, groups and objects as meshes, and indices from either end. Makes missing
@@ -18,7 +20,8 @@ bool is_obj(const std::string& path); // checks the name only
 // Leaves out with a warning: points and lines, curves and surfaces, unknown statements. Errors: invalid
 // numbers, numbers beyond the range of floats, statements with a wrong count of numbers, indices without a vertex,
 // files without faces, and exceeded limits.
-Result<Scene> load_obj(const std::string& path, const Limits& limits);
+// jobs: threads that decode pictures; null: the calling thread alone. The scene is the same.
+Result<Scene> load_obj(const std::string& path, const Limits& limits, const Jobs* jobs = nullptr);
 // Reads a file's text, without libraries. `path` names the file in messages.
 Result<Scene> load_obj_text(const std::string& text, const std::string& path, const Limits& limits);
 
