@@ -57,6 +57,11 @@ def lines_of(file, macro):
     return [arguments for arguments in split if len(arguments) > 2]
 
 
+def reference_reads(readers=""):
+    """Returns True if the readers of a BN_PARAMETER line include the reference."""
+    return not readers or readers.startswith("all but ") != ("reference" in readers.split())
+
+
 def parameters():
     """Returns {option: (type, default, functions, range)} of the parameters of techniques."""
     ways = [name for _, _, name, *_ in lines_of("shading/models.def", "BN_AREA_LIGHTS")]
@@ -69,7 +74,7 @@ def parameters():
         plain = {"flag": str(fallback != "0"), "angles": "(0.0, 0.0)", "number": fallback}.get(kind, fallback)
         default = f'"{choices[int(fallback)]}"' if choices else plain
         bounds = f"{least} to {most}" if kind in ("number", "whole") else ""
-        functions = EVERY if readers in ([], [""]) or "reference" in readers[0].split() else DRAWS
+        functions = EVERY if reference_reads(*readers) else DRAWS
         table[name] = shown, default, functions, bounds
     return table
 

@@ -389,11 +389,14 @@ const std::vector<ParameterInfo>& parameters()
 
 bool reads(const std::string& technique, const ParameterInfo& p)
 {
-    const std::string readers = std::string(p.readers) + " ";
-    for (std::size_t at = 0, end; (end = readers.find(' ', at)) != std::string::npos; at = end + 1)
-        if (technique.compare(0, end - at, readers, at, end - at) == 0)
-            return true;
-    return false;
+    constexpr std::string_view kAllBut = "all but ";
+    std::string names = p.readers;
+    const bool all_but = names.starts_with(kAllBut);
+    names = names.substr(all_but ? kAllBut.size() : 0) + " ";
+    for (std::size_t at = 0, end; (end = names.find(' ', at)) != std::string::npos; at = end + 1)
+        if (technique.compare(0, end - at, names, at, end - at) == 0)
+            return !all_but;
+    return all_but;
 }
 
 glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& p)

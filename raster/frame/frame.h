@@ -230,7 +230,7 @@ struct ParameterInfo {            // a technique parameter
     double fallback, least, most; // angles in degrees
     const char* unit;             // a choice lists its names here
     const char* summary;
-    const char* readers;      // name prefixes for techniques that read it, and "reference"
+    const char* readers;      // techniques that read it, and "reference", as in shading/models.def
     float FrameDesc::*number; // exactly one of these members is not null
     std::uint32_t FrameDesc::*whole;
     bool FrameDesc::*flag;

@@ -1,5 +1,6 @@
 """The Vulkan renderer against the tile renderer, bit by bit; `burnish parity` detects planted defects."""
 
+import collections
 import json
 import pathlib
 import re
@@ -13,6 +14,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COARSE = ("--env-size", "64", "--env-samples", "32")  # a bake of a second
 STAGES = ["clip positions", "visibility", "depth", "interpolants", "material inputs", "shaded colour", "resolved colour"]
 OF_IDS = [*STAGES, "layers"]  # of --pipeline ids
+MODELS = (ROOT / "shading/models.def").read_text()
+TECHNIQUES = re.findall(r"^BN_TECHNIQUE\((\w+)", MODELS, re.MULTILINE)  # without auto
+# Techniques whose pixels share samples. auto shares them on brushed metal. A fragment of a forward pipeline sees no neighbour's samples.
+SHARING = re.findall(r"^BN_SHARING\((\w+)", MODELS, re.MULTILINE)
+ALONE = [name for name in TECHNIQUES if name not in SHARING]
 
 
 def parity(bench, *arguments, also=(), code=0, timeout=540.0, device="lavapipe", optimised=False):
@@ -41,6 +47,11 @@ def check_equal(report):
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
         for stage in row["stages"] if row["scene"].startswith("builtin:") else ():
             check(stage["values"] > 0, f"{name}: nothing was compared in {stage['name']}")
+
+
+def check_every_technique(rows, count):
+    found = collections.Counter(row["technique"] for row in rows)
+    check(found == dict.fromkeys(["auto", *TECHNIQUES], count), f"not {count} rows of each technique: {dict(found)}")
 
 
 def packages_are_there():
@@ -85,8 +96,7 @@ def render_gives_the_same_hash(bench):
 def every_technique(bench):
     report = parity(bench, "--suite", "default", "--size", "96x64", "--msaa", "1,4", "--junit", "parity.xml", "--html", "parity.html", optimised=True)
     check_equal(report)
-    techniques = {row["technique"] for row in report["rows"]}
-    check(len(techniques) == 11 and len(report["rows"]) == 5 * 11 * 2, f"{len(report['rows'])} rows of {techniques}")
+    check_every_technique(report["rows"], 5 * 2)
     suite = tree.parse(bench.folder / "parity.xml").getroot()
     check(suite.get("failures") == "0" and int(suite.get("tests")) == len(report["rows"]) + 1, "the JUnit report counts otherwise")
     check("<table>" in (bench.folder / "parity.html").read_text(), "no table in the page")
@@ -137,7 +147,7 @@ def options_agree(bench, *sets):
     lights = bench.data_file("models/Lights.glb")
     report = parity(bench, lights, "builtin:plate", "--size", "48x32", "--msaa", "1", also=sets)
     check_equal(report)
-    check(len(report["rows"]) == 2 * 11 * (1 + len(sets)), f"{len(report['rows'])} rows")
+    check_every_technique(report["rows"], 2 * (1 + len(sets)))
 
 
 # Tests each option once.
@@ -193,19 +203,15 @@ def forward_looks_the_same(bench):
     check("pixels differ first by" in (bench.folder / "parity.html").read_text(), "the page does not say why pixels differ")
 
 
-# A fragment of this pipeline does not see its neighbours' samples. lobe_line and as_mc share them, and auto does on brushed metal.
-ALONE = "split_isotropic,bent_normal,major_axis,major_axis_adaptive,major_axis_weighted,filtered_is,filtered_is_ggx,mc"
-
-
 @case("parity.forward_of_every_technique_looks_the_same", tier="nightly")
 def forward_of_every_technique(bench):
-    for more in (("--sampler", "native", "--technique", ALONE), ("--sampler", "exact", "--technique", "split_isotropic")):
+    for more in (("--sampler", "native", "--technique", ",".join(ALONE)), ("--sampler", "exact", "--technique", "split_isotropic")):
         check_looks_the_same(parity(bench, "--suite", "default", "--msaa", "1,4", "--pipeline", "forward", *more, timeout=590.0))
 
 
 @case("parity.forward_says_where_samples_that_are_shared_are_missed", tier="nightly")
 def forward_without_neighbours(bench):
-    report = parity(bench, "builtin:plate", "--size", "96x64", "--technique", "lobe_line,as_mc", "--msaa", "1", "--pipeline", "forward", code=1)
+    report = parity(bench, "builtin:plate", "--size", "96x64", "--technique", ",".join(SHARING), "--msaa", "1", "--pipeline", "forward", code=1)
     for row in report["rows"]:
         flip = {cause["stage"]: cause["flip"] for cause in row["causes"]}
         check(max(flip, key=flip.get) == "shaded colour" and 0.002 < row["flip_mean"] < 0.1, f"{row['technique']}: {flip}")
@@ -278,7 +284,7 @@ def validation_layer_is_silent(bench):
         report = parity(bench, *VALIDATED, *extra)
         check(report["rows"] and all(row["error"] is None for row in report["rows"]), f"{report['rows']}")
         techniques |= {row["technique"] for row in report["rows"]}
-    check(len(techniques) == 11, f"techniques: {techniques}")
+    check(techniques == {"auto", *TECHNIQUES}, f"techniques: {techniques}")
     forward_is_valid(bench, "lobe_line", 1)
 
 

@@ -220,9 +220,9 @@ TEST_P(float_models, stay_close_to_the_double_oracle)
     for (const Bound& b : kBounds)
         if (GetParam().name == std::string(b.model))
             bound = &b;
-    ASSERT_NE(bound, nullptr) << "a new model needs its bounds";
+    EXPECT_NE(bound, nullptr) << "a new model needs a line of kBounds: twice the second pair of each line that follows";
     for (std::size_t f = 0; f < kKinds; ++f)
-        of[f].expect_within(bound->of[f], GetParam().name, kKindNames[f]);
+        of[f].expect_within(bound ? bound->of[f] : Extent{0, 0}, GetParam().name, kKindNames[f]);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Interpolated values at visible points against double precision, and recorded values against a list written by hand.
+// Interpolated values at visible points against double precision, and recorded values against numbers in order.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,6 +19,20 @@ struct Words {
 void put_real(Words& w, real x)
 {
     w.at.push_back(x);
+}
+
+// Fill values with the numbers after `last`.
+void number(real& to, float& last)
+{
+    to = ++last;
+}
+void number(real2& to, float& last)
+{
+    to.x = ++last, to.y = ++last;
+}
+void number(real3& to, float& last)
+{
+    to.x = ++last, to.y = ++last, to.z = ++last;
 }
 
 struct WholeTriangle : triangle_setup {
@@ -169,11 +183,9 @@ TEST(visible_point, words_are_recorded_in_order_and_what_is_not_asked_for_as_zer
     EXPECT_EQ(few.at, (std::vector<float>{1, 2, 3, 4, 5, 6, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 23, 24, 25, 0, 0, 0}));
     EXPECT_EQ(static_cast<int>(all.at.size()), kInterpolantWords);
     material_inputs at = {};
-    at.base = {1, 2, 3}, at.alpha = 4, at.metallic = 5, at.roughness = 6, at.occlusion = 7, at.normal_map = {8, 9, 10};
-    at.emissive = {11, 12, 13}, at.dielectric_f0 = {14, 15, 16}, at.dielectric_f90 = 17, at.tensor2 = {18, 19, 20},
-    at.tensor4 = {21, 22, 23}, at.slope = {24, 25}, at.slope_moments = {26, 27, 28}, at.transmission = 29, at.own_roughness = 30,
-    at.kept = 31, at.film = 32, at.film_thickness = 33, at.sheen_color = {34, 35, 36}, at.sheen_roughness = 37, at.coat = 38;
-    at.coat_roughness = 39, at.coat_normal_map = {40, 41, 42};
+    float last = 0.0f;
+#define BN_INPUT(type, words, name) number(at.name, last);
+#include "shading/material.def"
     Words material;
     record_material(material, at);
     ASSERT_EQ(static_cast<int>(material.at.size()), kMaterialWords);

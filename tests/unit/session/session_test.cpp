@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string>
 #include <thread>
 #include <tuple>
+#include <vector>
 
 #include "core/base/check.h"
 #include "core/image/metrics/flip.h"
@@ -223,14 +225,18 @@ TEST(session, numbers_of_choices_have_the_names_of_options)
     }
 }
 
+const ParameterInfo& parameter_with(const std::string& option)
+{
+    return *std::find_if(parameters().begin(), parameters().end(), [&](const ParameterInfo& p) { return p.option == option; });
+}
+
 TEST(session, options_of_techniques_go_by_name)
 {
     Result<Session> session = Session::open("builtin:plate", "builtin:studio", small_open());
     ASSERT_TRUE(session);
     FrameDesc desc = small_frame(*session, "mc"), named = desc;
     desc.brdf = 1, desc.energy_compensation = true, desc.seed = 7;
-    const std::string model = choices_of(
-        *std::find_if(parameters().begin(), parameters().end(), [](const ParameterInfo& p) { return p.option == std::string("brdf"); }))[1];
+    const std::string model = choices_of(parameter_with("brdf"))[1];
     for (const auto& [name, value] : {std::pair<std::string, std::string>{"brdf", model}, {"energy-compensation", "true"}, {"seed", "7"}})
         ASSERT_TRUE(set_parameter(named, name, value)) << name;
     EXPECT_EQ(named.brdf, desc.brdf);
@@ -253,6 +259,19 @@ TEST(session, options_of_techniques_go_by_name)
         ASSERT_FALSE(refused) << name << " " << value;
         EXPECT_EQ(refused.error().place, name);
         EXPECT_EQ(refused.error().code, ExitCode::usage);
+    }
+}
+
+TEST(session, parameters_name_their_readers)
+{
+    std::vector<std::string> names = {"auto", "reference"};
+    for (const TechniqueInfo& technique : techniques())
+        names.emplace_back(technique.name);
+    for (const std::string& name : names) {
+        EXPECT_TRUE(reads(name, parameter_with("horizon"))) << name;
+        EXPECT_EQ(reads(name, parameter_with("specular-aa")), name != "reference") << name;
+        EXPECT_EQ(reads(name, parameter_with("glass")), name != "reference" && !name.starts_with("mc")) << name;
+        EXPECT_EQ(reads(name, parameter_with("axis-k")), name.starts_with("major_axis")) << name;
     }
 }
 
