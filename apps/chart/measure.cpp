@@ -50,7 +50,7 @@ std::string error_text(double relative_error)
 Status Chart::load_all()
 {
     for (const std::string& name : options_.scenes) {
-        Result<SceneWithView> scene = load_scene_with_view(name, options_.base, report_);
+        Result<SceneWithView> scene = load_scene_with_view(name, options_.base, report_, *jobs_);
         BN_TRY(scene);
         scenes_.push_back(std::move(*scene));
     }

@@ -6,10 +6,10 @@
 
 namespace burnish {
 
-Result<SceneWithView> load_scene_with_view(const std::string& name, const RenderOptions& base, Report& report)
+Result<SceneWithView> load_scene_with_view(const std::string& name, const RenderOptions& base, Report& report, const Jobs& jobs)
 {
     const Result<std::shared_ptr<const SceneData>> data =
-        open_scene(name, base.limits, base.overrides, base.mips, base.moment, base.lights);
+        open_scene(name, base.limits, base.overrides, base.mips, base.moment, base.lights, {}, &jobs);
     BN_TRY(data);
     for (const std::string& warning : (*data)->scene.warnings)
         report.warning(warning);

@@ -15,8 +15,8 @@ struct SceneWithView {
     View view;
 };
 
-// Loads a scene with the limits, camera and picture size of `base`.
-Result<SceneWithView> load_scene_with_view(const std::string& name, const RenderOptions& base, Report& report);
+// Loads a scene with the limits, camera and picture size of `base`. Its pictures are decoded on all threads of `jobs`.
+Result<SceneWithView> load_scene_with_view(const std::string& name, const RenderOptions& base, Report& report, const Jobs& jobs);
 
 // Warns of each transmissive material with a volume whose mesh is open, and of blended surfaces, which glass does not show.
 void warn_of_glass(const SceneData& data, Report& report);

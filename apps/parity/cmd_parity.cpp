@@ -116,7 +116,7 @@ Status compare_place(const Bench& bench, const ParityPlace& place, const ParityS
     RenderOptions base = set.frames.front();
     if (place.eye)
         base.eye = place.eye, base.target = place.target;
-    const Result<SceneWithView> scene = load_scene_with_view(place.scene, base, bench.report);
+    const Result<SceneWithView> scene = load_scene_with_view(place.scene, base, bench.report, *bench.jobs);
     BN_TRY(scene);
     SessionOptions of_tile, of_device;
     of_tile.isa = base.isa;

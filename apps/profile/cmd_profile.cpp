@@ -125,7 +125,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 
     // Load the scene and the environment, and make the session
     const auto jobs = std::make_shared<const Jobs>(options.threads);
-    const Result<SceneWithView> seen = load_scene_with_view(options.scene, options, report);
+    const Result<SceneWithView> seen = load_scene_with_view(options.scene, options, report, *jobs);
     if (!seen)
         return fail(seen.error());
     const Scene& scene = seen->data->scene;

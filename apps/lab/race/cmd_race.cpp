@@ -198,7 +198,7 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
 // Loads a scene and its view. Leaves out what the lean shader's pass does not draw, and adds a note. Errors: nothing is left.
 Result<SceneWithView> load_raced_scene(Race& bench, const RenderOptions& base)
 {
-    Result<SceneWithView> scene = load_scene_with_view(base.scene, base, bench.report);
+    Result<SceneWithView> scene = load_scene_with_view(base.scene, base, bench.report, *bench.jobs);
     if (!scene || !bench.plan.lean)
         return scene;
     const Result<OpaqueScene> opaque = opaque_scene(scene->data);
