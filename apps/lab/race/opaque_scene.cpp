@@ -37,11 +37,17 @@ Result<OpaqueScene> opaque_scene(const std::shared_ptr<const SceneData>& whole)
         }
         if (made.left_out == 0)
             return made;
-        // Empty their primitives, and place the rest
+        // Empty their primitives, make them plain, and place the rest
         const auto data = std::make_shared<SceneData>(*whole);
         for (Primitive& primitive : data->scene.primitives)
             if (!is_opaque(data->scene.materials[static_cast<std::size_t>(primitive.material)]))
                 primitive.index_count = 0;
+        for (Material& m : data->scene.materials)
+            if (!is_opaque(m)) {
+                Material plain;
+                plain.name = m.name;
+                m = plain;
+            }
         data->tables = make_draw_tables(data->scene);
         data->tables.bounds_min = whole->tables.bounds_min, data->tables.bounds_max = whole->tables.bounds_max;
         made.data = data;

@@ -13,7 +13,7 @@ void expect_padded(const Column<int>& column)
         EXPECT_EQ(column.data()[column.size() + i], 0) << "size " << column.size() << ", past the end by " << i;
 }
 
-TEST(Column, ReadsZeroesPastItsEnd)
+TEST(column, reads_zeroes_past_its_end)
 {
     Column<int> column;
     for (int i = 1; i <= 300; ++i) {
@@ -34,7 +34,7 @@ TEST(Column, ReadsZeroesPastItsEnd)
     expect_padded(copy);
 }
 
-TEST(Column, KeepsNoElementOfALongerTime)
+TEST(column, keeps_no_element_of_a_longer_time)
 {
     Column<int> column(100);
     for (std::size_t i = 0; i < column.size(); ++i)
@@ -57,7 +57,7 @@ std::size_t resident_bytes()
     return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-TEST(Column, OwnsNoPagesForSpareRoom)
+TEST(column, owns_no_pages_for_spare_room)
 {
     const std::size_t before = resident_bytes();
     if (before == 0)
