@@ -66,9 +66,9 @@ def seeds(bench):
     check(not set(keys) & {key for key, _, _ in pieces_of(bench, (*three, "--light", "1", "-o", "a.mipnet"))}, "another loss has the same pieces")
     bench.run(*three, "-o", "a.mipnet", "--pieces", "--checkpoint", "c.part").expect(2).expect_one_line("--checkpoint")
     # A killed maker's checkpoint is used by the next: it ends at the same bytes
-    long = (*words, "--steps", "800", "-o", "long.mipnet")
+    long = (*words, "--steps", "240", "-o", "long.mipnet")
     maker = subprocess.Popen([bench.program, *long, "--take", "--work", "k"], cwd=bench.folder, env=bench.environment({}))
-    time.sleep(1.0)
+    time.sleep(0.6)
     maker.send_signal(signal.SIGTERM)
     code = maker.wait()
     check(code in (0, 128 + signal.SIGTERM, -signal.SIGTERM), f"it ended with {code}")
