@@ -259,11 +259,27 @@ MipPoint point_of(const MipTexel& t)
     return {vec3_of(t.nx, t.ny, std::sqrt(std::max(z2, 0.0f))), covariance_of_tensor({t.a, t.b, t.c})};
 }
 
+// Finds mean_alpha() of one lobe after another; equal lobes often follow each other.
+class MeanAlphas {
+  public:
+    float of(const slope_covariance& lobe)
+    {
+        if (!(lobe.xx == last_.xx && lobe.yy == last_.yy && lobe.xy == last_.xy))
+            last_ = lobe, alpha_ = mean_alpha(lobe);
+        return alpha_;
+    }
+
+  private:
+    slope_covariance last_{};
+    float alpha_ = mean_alpha({});
+};
+
 // Returns, by level from 1 on and then texel, the root mean square width of the underlying lobes, as perceptual roughness.
 std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
 {
-    std::vector<std::vector<float>> levels = mean_levels(source, [](const MipPoint& p) {
-        const float alpha = mean_alpha(p.s);
+    MeanAlphas alphas;
+    std::vector<std::vector<float>> levels = mean_levels(source, [&](const MipPoint& p) {
+        const float alpha = alphas.of(p.s);
         return alpha * alpha;
     });
     for (std::vector<float>& level : levels)
@@ -301,6 +317,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const SceneMips& all, const 
         means = own_roughness_levels(source);
     // Write texels: level 0 from the maps, others from the filter's levels
     std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
+    MeanAlphas alphas;
     return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
         if (level == 0)
             source.row(y, points.data());
@@ -314,7 +331,7 @@ TexturePyramid filtered_pyramid(const Scene& scene, const SceneMips& all, const 
             if (!normals) {
                 const float own_roughness = gains  ? 1.0f
                                             : made ? mean
-                                                   : std::sqrt(mean_alpha(p.s)); // gains already include the lobe's width
+                                                   : std::sqrt(alphas.of(p.s)); // gains already include the lobe's width
                 put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, own_roughness, p.n, p.s, rgba);
                 continue;
             }

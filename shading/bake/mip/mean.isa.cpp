@@ -64,6 +64,25 @@ void codes(const work::CodeWork& w)
             w.to[k * w.stride + at] = static_cast<float>(w.codes[channels * at + first + k]) / 255.0f;
 }
 
+// Interpolates along both rows, then between them. A share of 0 takes the first value, whatever the second is.
+void blend(const work::BlendWork& w)
+{
+    const real of_high = splat(w.of_high), zero = lit(0.0);
+    for (std::size_t at = 0; at < w.count; at += kLane) {
+        const integer left = load_int(w.left + at), right = load_int(w.right + at);
+        const real share = load(w.share + at);
+        const mask alone = share == zero;
+        const auto along = [&](const float* row) {
+            const real first = gather(row, left);
+            return select(alone, first, first + share * (gather(row, right) - first));
+        };
+        real value = along(w.low);
+        if (w.of_high != 0.0f)
+            value = value + of_high * (along(w.high) - value);
+        store(w.to + at, value);
+    }
+}
+
 // Moves a normal that lies flatter than the disc's edge onto that edge. A normal without length points up.
 void normals(const work::NormalWork& w)
 {
@@ -292,9 +311,15 @@ void hash(const work::HashWork& w)
     }
 }
 
-constexpr work::Fns kMipFns = {
-    codes,   normals, covariances, by_mean<States, work::StateWork>, by_mean<Merge, work::MergeWork>, by_mean<Texels, work::TexelWork>,
-    tensors, hash};
+constexpr work::Fns kMipFns = {codes,
+                               blend,
+                               normals,
+                               covariances,
+                               by_mean<States, work::StateWork>,
+                               by_mean<Merge, work::MergeWork>,
+                               by_mean<Texels, work::TexelWork>,
+                               tensors,
+                               hash};
 
 } // namespace
 

@@ -34,6 +34,15 @@ struct CodeWork { // converts 8-bit codes to numbers in [0,1]
     float* to;
 };
 
+struct BlendWork {     // interpolates between two rows of a map, at the places of a wider or narrower row
+    std::size_t count; // written in whole slots
+    const float *low, *high;
+    const std::int32_t *left, *right; // the columns beside each place, in whole slots
+    const float* share;               // the right column's share
+    float of_high;                    // the high row's share
+    float* to;
+};
+
 struct NormalWork { // converts a normal map's red, green, blue in place to unit normals; any length
     std::size_t count, stride;
     float scale; // factor on x and y
@@ -90,6 +99,7 @@ struct HashWork { // hashes a point row; numbers kRowSlots apart in a plane are 
 
 struct Fns {
     void (*codes)(const CodeWork& work);
+    void (*blend)(const BlendWork& work);
     void (*normals)(const NormalWork& work);
     void (*covariances)(const CovarianceWork& work);
     void (*states)(const StateWork& work);

@@ -41,45 +41,6 @@ void put_channel(const Image& map, int y, std::size_t channel, float other, floa
             to[x] = finite_or(map.f32()[(first + x) * channels + of], other);
 }
 
-float between(float low, float high, float share)
-{
-    return share == 0.0f ? low : low + share * (high - low);
-}
-
-// Writes channels `first` ... of a grid row, `count` of them. others[k] replaces values of the k-th that are not finite.
-void put_row(const Image& map, const Grid& grid, int y, int first, int count, const float* others, std::size_t stride, float* to)
-{
-    const std::size_t texels = static_cast<std::size_t>(grid.width), at = static_cast<std::size_t>(y) * texels;
-    const bool same = map.width == grid.width && map.height == grid.height;
-    if (same && map.type == PixelType::u8 && map.channels >= 3) {
-        const auto* codes = reinterpret_cast<const std::uint8_t*>(map.bytes.data()) + at * static_cast<std::size_t>(map.channels);
-        pick<mip::Fns>().codes({codes, map.channels, first, count, texels, stride, to});
-        return;
-    }
-    if (same) {
-        for (int k = 0; k < count; ++k, to += stride)
-            put_channel(map, y, static_cast<std::size_t>(first + k), others[k], to);
-        return;
-    }
-    // Interpolate between the map's two rows and columns
-    const Neighbours v = neighbours(y, grid.height, map.height, grid.wrap_t, grid.nearest);
-    std::vector<Neighbours> columns(texels);
-    for (int x = 0; x < grid.width; ++x)
-        columns[static_cast<std::size_t>(x)] = neighbours(x, grid.width, map.width, grid.wrap_s, grid.nearest);
-    std::vector<float> low(static_cast<std::size_t>(map.width)), high(low.size());
-    for (int k = 0; k < count; ++k, to += stride) {
-        put_channel(map, v.low, static_cast<std::size_t>(first + k), others[k], low.data());
-        put_channel(map, v.high, static_cast<std::size_t>(first + k), others[k], high.data());
-        for (std::size_t x = 0; x < texels; ++x) {
-            const Neighbours& u = columns[x];
-            const auto in_row = [&](const std::vector<float>& row) {
-                return between(row[static_cast<std::size_t>(u.low)], row[static_cast<std::size_t>(u.high)], u.share);
-            };
-            to[x] = between(in_row(low), in_row(high), v.share);
-        }
-    }
-}
-
 } // namespace
 
 Grid grid_of(const MipMaps& maps)
@@ -99,6 +60,49 @@ MipSource::MipSource(const MipMaps& maps) : maps_(maps), grid_(grid_of(maps))
     const float roughness = std::clamp(maps.roughness_factor, 0.0f, 1.0f);
     const real3 along = vec3_of(1.0f, 0.0f, 0.0f);
     only_ = covariance_from_tensors(roughness * roughness, maps.anisotropy_strength, rotation_, along, along);
+    find_columns(maps.normal), find_columns(maps.roughness), find_columns(maps.direction);
+}
+
+void MipSource::find_columns(const Image* map)
+{
+    const auto has_width = [&](const Columns& columns) { return columns.map_width == map->width; };
+    if (!map || (map->width == grid_.width && map->height == grid_.height) || std::any_of(columns_.begin(), columns_.end(), has_width))
+        return;
+    const std::size_t slots = mip::row_stride(static_cast<std::size_t>(grid_.width));
+    Columns found{map->width, std::vector<std::int32_t>(slots), std::vector<std::int32_t>(slots), std::vector<float>(slots)};
+    for (int x = 0; x < grid_.width; ++x) {
+        const Neighbours u = neighbours(x, grid_.width, map->width, grid_.wrap_s, grid_.nearest);
+        const std::size_t at = static_cast<std::size_t>(x);
+        found.left[at] = u.low, found.right[at] = u.high, found.share[at] = u.share;
+    }
+    columns_.push_back(std::move(found));
+}
+
+// Writes channels `first` ... of a grid row, `count` of them. others[k] replaces values of the k-th that are not finite.
+void MipSource::put_row(const Image& map, int y, int first, int count, const float* others, std::size_t stride, float* to) const
+{
+    const mip::Fns& fns = pick<mip::Fns>();
+    const std::size_t texels = static_cast<std::size_t>(grid_.width), at = static_cast<std::size_t>(y) * texels;
+    const bool same = map.width == grid_.width && map.height == grid_.height;
+    if (same && map.type == PixelType::u8 && map.channels >= 3) {
+        const auto* codes = reinterpret_cast<const std::uint8_t*>(map.bytes.data()) + at * static_cast<std::size_t>(map.channels);
+        fns.codes({codes, map.channels, first, count, texels, stride, to});
+        return;
+    }
+    if (same) {
+        for (int k = 0; k < count; ++k, to += stride)
+            put_channel(map, y, static_cast<std::size_t>(first + k), others[k], to);
+        return;
+    }
+    // Interpolate between the map's two rows and columns
+    const auto columns = std::find_if(columns_.begin(), columns_.end(), [&](const Columns& found) { return found.map_width == map.width; });
+    const Neighbours v = neighbours(y, grid_.height, map.height, grid_.wrap_t, grid_.nearest);
+    std::vector<float> low(static_cast<std::size_t>(map.width)), high(low.size());
+    for (int k = 0; k < count; ++k, to += stride) {
+        put_channel(map, v.low, static_cast<std::size_t>(first + k), others[k], low.data());
+        put_channel(map, v.high, static_cast<std::size_t>(first + k), others[k], high.data());
+        fns.blend({texels, low.data(), high.data(), columns->left.data(), columns->right.data(), columns->share.data(), v.share, to});
+    }
 }
 
 namespace {
@@ -176,7 +180,7 @@ void MipSource::planes(int y, float* to) const
     put(
         static_cast<std::size_t>(grid_.width),
         [&](const Image& map, int first, int channels, const float* others, std::size_t stride, float* out) {
-            put_row(map, grid_, y, first, channels, others, stride, out);
+            put_row(map, y, first, channels, others, stride, out);
         },
         to);
 }

@@ -50,8 +50,18 @@ class MipSource {
     // read: (map, first channel, number of channels, substitutes for values that are not finite, stride, to)
     template <class Read> void put(std::size_t count, const Read& read, float* to) const;
 
+    // The columns of a map beside each place of a grid row, in whole slots.
+    struct Columns {
+        int map_width;
+        std::vector<std::int32_t> left, right;
+        std::vector<float> share; // the right one's
+    };
+    void find_columns(const Image* map);
+    void put_row(const Image& map, int y, int first, int count, const float* others, std::size_t stride, float* to) const;
+
     MipMaps maps_;
     Grid grid_;
+    std::vector<Columns> columns_; // by width of those maps that have another size than the grid
     Image tensors_[2];
     real2 rotation_;
     slope_covariance only_; // the lobe if only factors define it
