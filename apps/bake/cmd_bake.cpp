@@ -46,7 +46,8 @@ half-vectors: half vectors that an Ashikhmin-Shirley lobe samples, over both ran
 brdf-lut: directional albedo of that lobe, f0 red + green, over the eye's azimuth and the square root of its cosine. render --as-table reads
 both tables; exponents count to five digits.
 environment: a baked environment in a folder. render --env FOLDER reads it. --format adds files for engines: prefiltered levels (specular),
-box-filtered levels (box), irradiance, the environment with its key lights (whole), the DFG table, and the key lights as JSON and GLSL.
+box-filtered levels (box), irradiance, the environment with its extracted lights (whole), the DFG table, and the extracted lights as JSON
+and GLSL.
 mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
 render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
 half floats with mip levels, or one picture a level. The program prints their error against the levels, at texels and between four texels.
@@ -168,7 +169,7 @@ OptionTable bake_option_table(BakeArguments& to)
              .is_output(),
          {"--format", "NAME",
           "Of mip: pyramid (a file for render --mip-pyramid), exr-mip or png-levels (a folder of textures for other programs). Of "
-          "environment, also textures for engines: ktx2, dds or exr (cubes with all levels, the DFG table, key lights), or none",
+          "environment, also textures for engines: ktx2, dds or exr (cubes with all levels, the DFG table, extracted lights), or none",
           choice(to.format, {"none", "pyramid", "exr-mip", "png-levels", "ktx2", "dds", "exr"}), "mip pyramid, environment none"},
          Option("--preview", "FOLDER", "Folder for .png pictures of the result, to look at", folder(to.preview)).is_output(),
          quiet_option(to.quiet),

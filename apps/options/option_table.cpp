@@ -52,7 +52,8 @@ std::vector<Option> output_rows(RenderArguments& to)
          "Mean of a pixel's samples in 8-bit pictures: linear (before tonemapping), display (after tonemapping) or "
          "weighted (by 1 / (1 + luminance))",
          choice(to.plain.resolve, {"linear", "display", "weighted"})},
-        {"--shadows", "NAME", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)",
+        {"--shadows", "NAME",
+         "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and extracted lights too)",
          choice(to.plain.shadows, {"off", "ratio", "on"})},
         {"--shadow-samples", "N", "Samples a pixel for --shadows, rounded up to steps of 16", integer(to.plain.shadow_samples, 1, 1 << 20)},
         {"--aov", "NAMES", "Layers of .exr outputs, separated by commas: {}", choices(to.plain.aov, layer_names()), ""},

@@ -433,10 +433,13 @@ std::vector<std::string> choices_of(const ParameterInfo& p)
 
 Status set_parameter(FrameDesc& desc, const ParameterInfo& p, double value)
 {
+    const auto wrong = [&](std::string reason) {
+        return Error{ExitCode::usage, "", "", std::move(reason), std::string("FrameDesc::") + p.name};
+    };
     if (!(value >= p.least && value <= p.most))
-        return Error{ExitCode::usage, "", p.option, fmt::format("{} is out of range, {} to {}", value, p.least, p.most)};
+        return wrong(fmt::format("{} is out of range, {} to {}", value, p.least, p.most));
     if (!p.number && !p.angles && value != std::floor(value))
-        return Error{ExitCode::usage, "", p.option, fmt::format("{} is no whole number", value)};
+        return wrong(fmt::format("{} is no whole number", value));
     if (p.number)
         desc.*p.number = static_cast<float>(value);
     else if (p.flag)

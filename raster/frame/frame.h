@@ -242,10 +242,10 @@ const std::vector<ParameterInfo>& parameters();                                 
 bool reads(const std::string& technique, const ParameterInfo& parameter);       // true if a technique, or "reference", reads it
 glm::dvec2 parameter_of(const FrameDesc& desc, const ParameterInfo& parameter); // angles: both, in degrees; else the value twice
 std::vector<std::string> choices_of(const ParameterInfo& parameter);            // names by number; empty unless a choice
-// Sets a number, a choice by its place, or both angles, degrees. Errors: ExitCode::usage outside [least, most].
+// Sets a number, a choice by its place, or both angles, degrees. Errors: ExitCode::usage outside [least, most], with the field.
 Status set_parameter(FrameDesc& desc, const ParameterInfo& parameter, double value);
 // Sets a parameter by its option's name and a text: set_parameter(desc, "brdf", "beckmann"), "tilt" to "10,0" (degrees), flags to "true".
-// Errors: ExitCode::usage with the name as place.
+// Errors: ExitCode::usage with the field, or with an unknown name as place.
 Status set_parameter(FrameDesc& desc, const std::string& name, const std::string& value);
 
 struct AreaWayInfo { // a method for area lights

@@ -1,4 +1,4 @@
-// Inputs of mip filters besides maps: levels from `burnish bake mip` and nets. Warnings for maps that a filter leaves alone.
+// Inputs of mip filters besides maps: files of levels and nets. Warnings for maps that a filter leaves alone.
 #pragma once
 #include <string>
 #include <vector>

@@ -19,11 +19,13 @@ std::optional<double> flag_of(const std::string& text)
 
 Status set_parameter(FrameDesc& desc, const std::string& name, const std::string& value)
 {
-    const auto wrong = [&](const std::string& reason) { return Error{ExitCode::usage, "", name, reason}; };
     const auto known = std::find_if(parameters().begin(), parameters().end(), [&](const ParameterInfo& p) { return p.option == name; });
     if (known == parameters().end())
-        return wrong("is no parameter of frames");
+        return Error{ExitCode::usage, "", name, "is no parameter of frames"};
     const ParameterInfo& p = *known;
+    const auto wrong = [&](const std::string& reason) {
+        return Error{ExitCode::usage, "", "", reason, std::string("FrameDesc::") + p.name};
+    };
     // A choice, by its name
     if (const std::vector<std::string> names = choices_of(p); !names.empty()) {
         const auto at = std::find(names.begin(), names.end(), value);

@@ -209,7 +209,7 @@ std::vector<Row> picture_rows()
               to.camera = text;
               return {};
           }}},
-        {"shadows", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too)", "off",
+        {"shadows", "Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and extracted lights too)", "off",
          BURNISH_RENDER, name({"off", "ratio", "on"}, [](CSettings& to, std::size_t i) { to.shadows.of = static_cast<Shadows>(i); })},
         {"shadow_samples", "Samples a pixel for shadows, rounded up to steps of 16", "16", BURNISH_RENDER,
          whole(1, 1 << 20, [](CSettings& to) -> int& { return to.shadows.samples; })},

@@ -38,6 +38,11 @@ def reference(bench):
         made = bench.run("manual", "markdown", name, program=program).expect(0).out
         if not page.exists() or page.read_text() != made:
             wrong.append(f"apps/manual/reference/{name}.md differs from burnish manual markdown {name}")
+    index = (MANUAL / "reference/README.md").read_text()
+    for lab, name in names:
+        row = re.search(rf"^\| \[{name}\]\({name}\.md\) \| .*$", index, re.M)
+        if not row or row[0].endswith("(laboratory) |") != bool(lab):
+            wrong.append(f"apps/manual/reference/README.md: no row of {name}, or the laboratory is not named rightly")
     check(not wrong, "\n".join(wrong))
     known = {f"{name}.md" for _, name in names} | {"README.md"}
     left = sorted(path.name for path in (MANUAL / "reference").iterdir() if path.name not in known)
@@ -119,9 +124,12 @@ def library_page(bench):
 
 @case("manual.pages_hold_no_dates_and_no_times")
 def no_dates(bench):
-    """Dates and times belong in bench/lab."""
+    """Dates and times belong in bench/lab, and times also between the marks of bench/README.md."""
     dated = re.compile(r"\b20\d\d-\d\d-\d\d\b|\b\d+(\.\d+)? (ms|µs|CPU seconds|CPU minutes)\b")
-    wrong = [f"{page.relative_to(ROOT)}: {found[0]}" for page in pages.pages() for found in dated.finditer(page.read_text())]
+    speed = re.compile(r"<!-- speed: .*?<!-- end of speed -->", re.S)
+    folders = [ROOT / name / "README.md" for name in ("core", "shading", "raster", "apps", "tests", "bench")]
+    wrong = [f"{page.relative_to(ROOT)}: {found[0]}" for page in [*pages.pages(), *folders, ROOT / "apps/promises.md"]
+             for found in dated.finditer(speed.sub("", page.read_text()))]
     check(not wrong, "\n".join(wrong))
 
 

@@ -1,20 +1,18 @@
 #include "apps/lab/atlas/judge.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 
 namespace burnish {
 namespace {
 
-constexpr double kNear = 0.05;   // relative to worst: a smaller change counts as held
-constexpr double kUnsure = 0.05; // distance from kGone within which `remedy` is undecided: references are noisy
+constexpr double kNear = 0.05; // relative to worst: a smaller change counts as held
 constexpr const char* kNothing = "-";
 
 constexpr const char* kHead = R"(# Where methods break
 
 Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.txt`. `burnish atlas` holds
-what it measures to them: the onset within a step, the kind, and the largest error, which may fall.
+what it measures to two of them: the onset, which may come later, and the largest error, which may fall.
 
 - onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.
 - worst: the largest error.
@@ -77,8 +75,6 @@ Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* 
         return {Verdict::better, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
     if (m.kind == "none" && row->kind != "none")
         return {Verdict::better, fmt::format("breaks no more, blessed is a failure of {}", row->kind)};
-    if (m.kind != row->kind && std::abs(m.remedy - kGone) > kUnsure)
-        return {Verdict::worse, fmt::format("is a failure of {}, blessed is {}", m.kind, row->kind)};
     return {};
 }
 

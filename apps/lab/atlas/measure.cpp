@@ -14,6 +14,7 @@
 namespace burnish {
 namespace {
 
+constexpr double kGone = 0.5;                          // an error is gone if less than this share remains
 constexpr int kMoreSamples = 64, kMostSamples = 65536; // for find_kind(): factor and limit for technique and light samples
 constexpr int kVerdictSide = 32;                       // pixels of pictures in find_kind(), unless textures matter
 
@@ -185,13 +186,8 @@ Result<double> Walker::error_of(const Picture& now, const AtlasEntry& reference_
 Status Walker::find_kind()
 {
     MeasuredEntry& m = out_.measured;
-    m.kind = "none", m.remedy = 1.0;
-    const auto gone = [&](double left, double whole) {
-        const double share = left / std::max(whole, 1e-9);
-        if (std::abs(share - kGone) < std::abs(m.remedy - kGone))
-            m.remedy = share;
-        return share < kGone;
-    };
+    m.kind = "none";
+    const auto gone = [](double left, double whole) { return left < kGone * std::max(whole, 1e-9); };
     // Draw the worst step in double precision
     bool precision = false;
     const auto worst =

@@ -9,8 +9,6 @@
 
 namespace burnish {
 
-inline constexpr double kGone = 0.5; // an error is gone if less than this share remains
-
 struct AtlasStep {
     double s = 0.0; // [0,1]
     std::string values;
@@ -30,12 +28,9 @@ struct MeasuredEntry {
     double cure_worst = 0.0;         // the cure's largest error; 0 without a cure
     double noise = 0.0;              // the largest noise
     std::optional<double> in_double; // the error at the worst step, in double precision; none if the program has no such lanes
-    // Share of the worst step's error that remains in double precision, with 64 times the samples, or against a reference with the same
-    // filter. Holds the tried variant nearest to kGone.
-    double remedy = 0.0;
 };
 
-// Computes all figures from the steps, except kind and remedy.
+// Computes all figures from the steps, except the kind.
 void summarise(const AtlasEntry& entry, MeasuredEntry& measured);
 
 // Rows in the entry's picture strip, one column a step; 8-bit sRGB.

@@ -25,7 +25,6 @@ Json measured_json(const MeasuredEntry& m, bool cured)
                  {"double", m.in_double ? Json(*m.in_double) : Json()},
                  {"cure_worst", cured ? Json(m.cure_worst) : Json()},
                  {"kind", m.kind},
-                 {"remedy", m.remedy},
                  {"noise", m.noise},
                  {"steps", Json::array()}};
     for (const AtlasStep& s : m.steps)
@@ -72,7 +71,6 @@ std::optional<MeasuredEntry> parse_cached_entry(const std::string& text, const s
             m.steps.push_back({s.at("s").get<double>(), s.at("values").get<std::string>(), s.at("error").get<double>(),
                                number_or_none(s.at("cure_error")), number_or_zero(s.at("noise")), s.at("change").get<double>()});
         m.kind = json.at("kind").get<std::string>();
-        m.remedy = json.at("remedy").get<double>();
         if (!json.at("double").is_null())
             m.in_double = json.at("double").get<double>();
         const AtlasEntry* entry = find_entry(m.id);

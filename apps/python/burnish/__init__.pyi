@@ -166,7 +166,7 @@ class Scene:
         fov: Vertical field of view in degrees; unset: the camera's, else 45.
         zoom: Magnification: shows the scene so many times as large.
         camera: Camera of the scene, by index or name; unset: the first, else the whole scene is shown.
-        shadows: Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and key lights too).
+        shadows: Shadows by rays, which scale the lights: off, ratio (of area lights) or on (of lamps and extracted lights too).
         shadow_samples: Samples a pixel for shadows, rounded up to steps of 16.
         layers: Layers of the picture, with commas between: depth, normal, albedo.
         aov: Another name of layers.

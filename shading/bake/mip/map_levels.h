@@ -1,4 +1,4 @@
-// Mip levels for base colours, metalness and heights, in files by `burnish bake mip` and in textures.
+// Mip levels for base colours, metalness and heights, in files of levels and in textures.
 #pragma once
 #include <cstdint>
 

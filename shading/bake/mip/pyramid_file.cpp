@@ -230,7 +230,7 @@ Result<MipFile> parse_mip_file(const std::vector<std::uint8_t>& bytes, const std
     std::uint64_t hash = 0;
     Reader whole(bytes.data(), bytes.size());
     if (bytes.size() < sizeof head + sizeof hash || !whole.read(&head, 1) || std::memcmp(head.magic, kMipMagic, sizeof kMipMagic) != 0)
-        return refused("is no file of burnish bake mip");
+        return refused("is no file of mip levels");
     if (head.version != kMipVersion)
         return refused(fmt::format("is of version {}, not {}", head.version, kMipVersion));
     std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);

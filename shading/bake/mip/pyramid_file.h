@@ -1,4 +1,4 @@
-// File format for materials' mip levels, written by `burnish bake mip`: normals and lobes, base colours, metalness and heights.
+// File format for materials' mip levels: normals and lobes, base colours, metalness and heights.
 // Level 0 is not in the file: it follows from the material's maps. Little-endian:
 //
 //   bytes     content

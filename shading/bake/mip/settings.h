@@ -18,14 +18,14 @@ inline constexpr float kDefaultMipKappa =
 struct MipSettings {             // of all materials
     MipFilter filter{};          // the first: the level file's filter, where there is a file
     std::optional<float> kappa;  // for filters kappa and mipnet; none: kDefaultMipKappa
-    std::string net;             // weights from `burnish train mip` for filter mipnet; empty: the program's
-    int brdf = 0;                // lobe model that the program's weights and gains are for, a place in BN_LOBE
+    std::string net;             // file of weights for filter mipnet; empty: those in the library
+    int brdf = 0;                // lobe model that the library's weights and gains are for, a place in BN_LOBE
     MipFallback fallback{};      // of filter mipnet
     bool gains = false;          // levels' reflectances are multiplied by their gains
     bool couple_albedo = false;  // levels' base colours and metalness weigh as their texels face light and eye
     bool kaiser_colours = false; // and are averaged by ColourKernel::kaiser
     bool facets = true;          // false: strong normal maps are drawn by their levels from afar too, as in engines
-    std::string pyramid;         // levels from `burnish bake mip`
+    std::string pyramid;         // file of levels, as in pyramid_file.h
     int threads = 0;             // that make levels; 0: all cores
     bool use_cache = false;      // levels that take long are looked for in the cache, and stored there
     bool frames_override = true; // false: no frame sets roughness, anisotropy or FrameDesc::frame_map off; its textures are not made
