@@ -7,6 +7,7 @@ import collections
 import concurrent.futures
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -36,12 +37,14 @@ def run(test):
     environment = {**os.environ, **dict(entry.split("=", 1) for entry in properties.get("ENVIRONMENT", []))}
     begin = time.monotonic()
     with tempfile.TemporaryFile("w+", errors="replace") as output:
+        # A job in the background ignores Ctrl-C, and so would its children
         child = subprocess.Popen(test["command"], cwd=properties.get("WORKING_DIRECTORY"), env=environment, stdin=subprocess.DEVNULL,
-                                 stdout=output, stderr=subprocess.STDOUT)
+                                 stdout=output, stderr=subprocess.STDOUT, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)
-        return usage.ru_utime + usage.ru_stime, time.monotonic() - begin, child.returncode, output.read()
+        code = child.returncode if not properties.get("WILL_FAIL") else int(child.returncode == 0)
+        return usage.ru_utime + usage.ru_stime, time.monotonic() - begin, code, output.read()
 
 
 def main():

@@ -28,7 +28,7 @@ def check_same(bench, name, *words, rows=48, aov=()):
         same_bytes(bench, f"{name}_whole.{ending}", f"{name}_bands.{ending}")
 
 
-@case("band.pictures_have_the_bytes_of_whole_ones", budget=20)
+@case("band.pictures_have_the_bytes_of_whole_ones", budget=19)
 def same(bench):
     """By a technique that shares samples, with lights and their shadows, blended and masked surfaces, layers, and without a background."""
     check_same(bench, "teapot", "builtin:teapot", *SMALL, "--msaa", "4")
@@ -68,7 +68,7 @@ def rgb_of(file):
     return width, height, out
 
 
-@case("band.no_line_shows_where_cells_meet", budget=30)
+@case("band.no_line_shows_where_cells_meet", budget=7)
 def shared(bench):
     """At the cells' borders the picture changes no more than elsewhere, by a technique that shares samples."""
     look = ("--env-size", "32", "--env-samples", "64", "--no-cache", "-q", "--msaa", "1", "--technique", "lobe_line", "--eye", "0,0.2,0.6",

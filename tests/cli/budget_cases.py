@@ -22,7 +22,7 @@ def flip(bench, reference, test):
     return float(re.search(r"flip-hdr +mean ([\d.]+)", done.out)[1])
 
 
-@case("budget.holds_and_saves", budget=20)
+@case("budget.holds_and_saves", budget=4)
 def holds(bench):
     """The error stays below the budget, at the cost of fewer instructions; materials get settings of their own."""
     bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "reference.pfm").expect(0)
@@ -39,7 +39,7 @@ def holds(bench):
     check(len(set(settings_of(bench, "plan.json"))) > 1, "all materials have one setting")
 
 
-@case("budget.plans_are_drawn_again_with_the_same_pixels", budget=10)
+@case("budget.plans_are_drawn_again_with_the_same_pixels", budget=3)
 def replayed(bench):
     bench.run(*POT, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)
     for i, words in enumerate((("--threads", "1"), ("--isa", "scalar"), ("--tile-size", "32"))):
@@ -62,7 +62,7 @@ def on_device(bench):
         check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the device draws other pixels")
 
 
-@case("budget.plan_of_something_else_is_refused_by_name", budget=10)
+@case("budget.plan_of_something_else_is_refused_by_name", budget=3)
 def other(bench):
     bench.run(*POT, "--budget", "0.1", "--plan-out", "plan.json").expect(0)
     for words, place in ((("--size", "320x200"), "/size"), (("--env", "builtin:sky"), "/environment"), (("--zoom", "2"), "/view"),
@@ -81,7 +81,7 @@ def other(bench):
     bench.run(*POT, "--plan", "absent.json").expect(4).expect_one_line("absent.json")
 
 
-@case("budget.wrong_options_say_one_line_and_exit_2", budget=10)
+@case("budget.wrong_options_say_one_line_and_exit_2")
 def wrong(bench):
     for words, needle in (
             (("--budget", "0"), "no technique is exact"), (("--budget", "-1"), "--budget"), (("--budget", "nan"), "--budget"),
@@ -115,7 +115,7 @@ def time(bench):
         bench.run(*POT, "--budget-ms", "10", *words).expect(2).expect_one_line(needle)
 
 
-@case("budget.keeps_what_is_fixed", budget=10)
+@case("budget.keeps_what_is_fixed")
 def fixed(bench):
     done = bench.run(*POT, "--budget", "0.1", "--technique", "lobe_line", "--plan-out", "plan.json").expect(0)
     check({t for t, _ in settings_of(bench, "plan.json")} <= {"lobe_line", "auto"} and "samples of lobe_line alone" in done.err, done.err)
@@ -128,7 +128,7 @@ def fixed(bench):
     check("alone" not in done.err and "no effect" not in done.err, done.err)
 
 
-@case("budget.stands_aside_where_a_plan_costs_more_than_it_saves", budget=10)
+@case("budget.stands_aside_where_a_plan_costs_more_than_it_saves")
 def aside(bench):
     empty = ("--eye", "0,5,0", "--target", "0,9,0.1", "--floor", "off", "--size", "320x180")
     for words in (("--size", "96x64"), empty):
@@ -139,7 +139,7 @@ def aside(bench):
         check(stats_of(bench, "a.json")["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], "the picture changed")
 
 
-@case("budget.verify_measures_the_picture", budget=30)
+@case("budget.verify_measures_the_picture", budget=5)
 def verify(bench):
     done = bench.run("render", "builtin:plate", "--size", "200x160", "--msaa", "4", *SMALL, "--budget", "0.1", "--verify").expect(0)
     found = re.search(r"verified +mean HDR-FLIP ([\d.]+), p99 [\d.]+, against 1024 samples of the reference; predicted ([\d.]+)", done.out)

@@ -104,7 +104,7 @@ def devices(bench):
     check(bench.figures(dense, *CLOSE)["pixel_hash"] != bench.figures(scene(bench, "usual", textures=("clearcoatNormal",)), *CLOSE)["pixel_hash"], "the index is not seen")
     check_equal(parity(bench, dense, *small, "--msaa", "1", "--technique", "auto", "--mip-filter", "kappa", also=[(*light, "--mip-filter", "box")]))
 
-@case("coat.mip_filters_widen_it_by_its_normals", budget=30)
+@case("coat.mip_filters_widen_it_by_its_normals", budget=4)
 def widened(bench):
     """A grained coat on a black floor, seen from afar: filters come nearer to the reference, whose rays read the map's own texels."""
     needs_embree(bench)

@@ -139,7 +139,7 @@ def limits(bench):
     check(figures(bench, "a.png", "b.png", "--fail-flip", "0", code=1)["flip_mean"] > 0, "a failing run writes its figures too")
 
 
-@case("compare.patterns_are_measured_without_the_references_noise", budget=8)
+@case("compare.patterns_are_measured_without_the_references_noise", budget=7)
 def patterns(bench):
     """A comb of 2 % under references with noise of 5 %; the noise is a fixed hash of the pixel."""
     noisy = lambda seed: pfm(64, 48, lambda x, y: (1.0 + 0.05 * ((x * 7919 + y * 104729 + seed * 1299709) ** 3 % 1009 / 504 - 1),) * 3)

@@ -80,7 +80,7 @@ def folders(bench):
     bench.run("compare", "none", "none").expect(4).expect_one_line("holds no picture")
 
 
-@case("compare.sequences_have_a_page_of_their_worst_frame", budget=4)
+@case("compare.sequences_have_a_page_of_their_worst_frame", budget=3)
 def sequence_page(bench):
     for frame in range(1, 6):
         scratch(bench, f"r{frame}.pfm", pfm(24, 16, bright))

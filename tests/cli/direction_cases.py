@@ -61,7 +61,7 @@ def luminances(bench):
     check(all(abs(a - b) < 0.6 for a, b in zip(found, (0, 36, 180 * 128 / 255, 180 * code(0.7152), 180 * code(0.0722)))), f"{found}")
 
 
-@case("bake.highlights_run_across_the_strokes_of_a_picture")
+@case("bake.highlights_run_across_the_strokes_of_a_picture", budget=4)
 def strokes(bench):
     """Red is a stroke along the tangent, cyan one across it."""
     colours = [(255, 0, 0), (255, 255, 0), (0, 255, 255)]

@@ -71,7 +71,7 @@ def cache_of(bench, *words):
     return {"XDG_CACHE_HOME": str(cache)}, files[0]
 
 
-@case("file.leftovers_in_the_cache_count_and_go", budget=5)
+@case("file.leftovers_in_the_cache_count_and_go", budget=4)
 def cache_leftovers(bench):
     env, kept = cache_of(bench, *SMALL)
     for name in (f".{kept.name}.77.0.tmp", f".{kept.name}.00112233445566ff.bntmp"):

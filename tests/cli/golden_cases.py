@@ -38,7 +38,7 @@ def program(bench, name, text):
     return f"./{name}"
 
 
-@case("golden.goes_from_nothing_to_a_blessed_change", budget=20)
+@case("golden.goes_from_nothing_to_a_blessed_change", budget=3)
 def whole_way(bench):
     write(bench, ROWS)
     bench.run("golden", "check", "m.json").expect(5)
@@ -64,7 +64,7 @@ def whole_way(bench):
     check(verdicts(bench) == {"pot": "passed", "plate": "passed", "ball": "differs"}, verdicts(bench))
 
 
-@case("golden.bless_writes_where_the_manifest_says", budget=10)
+@case("golden.bless_writes_where_the_manifest_says", budget=3)
 def tampered(bench):
     """Results may come from somebody else's machine."""
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
@@ -84,7 +84,7 @@ def tampered(bench):
     check((bench.folder / "goldens/a.ppm").exists(), "no golden")
 
 
-@case("golden.bless_refuses_results_of_other_rows", budget=10)
+@case("golden.bless_refuses_results_of_other_rows")
 def stale(bench):
     """A picture of an earlier manifest never becomes golden. A row whose bits depend on the machine is told."""
     write(bench, ROWS[:1])
@@ -100,7 +100,7 @@ def stale(bench):
         check(("other bits on another machine" in done.err) == told, f"{options} {held}: {done.err}")
 
 
-@case("golden.makes_the_rows_that_are_named", budget=10)
+@case("golden.makes_the_rows_that_are_named")
 def named_rows(bench):
     write(bench, ROWS)
     bench.run("golden", "check", "m.json", "--row", "plate", "--row", "ball").expect(5)
@@ -112,7 +112,7 @@ def named_rows(bench):
     bench.run("golden", "bless", "m.json", "--row", "ball").expect(2).expect_one_line("--row", "golden check")
 
 
-@case("golden.draws_with_any_program", budget=10)
+@case("golden.draws_with_any_program", budget=3)
 def commands(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 2 1 255\n" + bytes([255, 0, 0, 0, 255, 0]))
     copy = program(bench, "copy.sh", 'cp "$FROM" "$1"; echo made "$1"')
@@ -152,7 +152,7 @@ def failing(bench):
     bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(4).expect_one_line("ends", "no new picture")
 
 
-@case("golden.long_outputs_are_kept_in_part", budget=10)
+@case("golden.long_outputs_are_kept_in_part", budget=3)
 def outputs(bench):
     write(bench, [{"name": "floods", "command": ["sh", "-c", "echo first; exec yes"], "picture": "1.png", "seconds": 1},
                   {"name": "counts", "command": ["sh", "-c", "seq 1000000; echo last >&2; exit 3"], "picture": "2.png"},
@@ -179,7 +179,7 @@ def memory_of_programs(bench):
     check(said.count(f"memory {before}") == 4, said)
 
 
-@case("golden.shards_merge_to_the_files_of_one_run", budget=20)
+@case("golden.shards_merge_to_the_files_of_one_run", budget=3)
 def shards(bench):
     write(bench, [*ROWS, {"name": "late <b>|", "scene": "builtin:plate"}])
     bench.run("golden", "check", "m.json", "-o", "whole").expect(5)
@@ -202,7 +202,7 @@ def shards(bench):
         bench.run("golden", "check", "m.json", "--shard", bad).expect(2).expect_one_line("--shard")
 
 
-@case("golden.folders_need_no_manifest", budget=10)
+@case("golden.folders_need_no_manifest", budget=6)
 def folders(bench):
     for folder in ("e/sub", "a/sub"):
         (bench.folder / folder).mkdir(parents=True)
@@ -234,7 +234,7 @@ def folders(bench):
     bench.run("golden", "check", "e", "a", "--mask", "absent.ppm").expect(4)
 
 
-@case("golden.patterns_pair_files", budget=10)
+@case("golden.patterns_pair_files", budget=4)
 def patterns(bench):
     pixel = lambda value: b"P6 1 1 255\n" + bytes([value, 0, 0])
     for name, value in (("a_golden.ppm", 9), ("a_now.ppm", 9), ("b_golden.ppm", 9), ("b_now.ppm", 200), ("gone_golden.ppm", 9), ("new_now.ppm", 9), ("other.ppm", 1),
@@ -260,7 +260,7 @@ def patterns(bench):
         bench.run("golden", "check", "m.json", option, "0.1").expect(2).expect_one_line(option)
 
 
-@case("golden.limits_and_masks_decide", budget=8)
+@case("golden.limits_and_masks_decide", budget=5)
 def limits(bench):
     def draw(*words):
         bench.run("render", "builtin:teapot", *SMALL, *words, "-q", "-o", "pot.exr").expect(0)
@@ -296,7 +296,7 @@ def limits(bench):
     check("32x32" in reason and "64x48" in reason, reason)
 
 
-@case("golden.noise_is_judged_by_variance", budget=20)
+@case("golden.noise_is_judged_by_variance", budget=4)
 def noise(bench):
     row = {"name": "noisy", "scene": "builtin:sphere", "format": "exr", "hold": {"z": 0.02},
            "options": ["--backend", "reference", "--samples", "256", "--size", "32x32", "--no-background"]}
@@ -311,7 +311,7 @@ def noise(bench):
     check("z-test" in results(bench)["noisy"]["reason"], results(bench))
 
 
-@case("golden.mistakes_of_a_manifest_have_their_place", budget=10)
+@case("golden.mistakes_of_a_manifest_have_their_place")
 def mistakes(bench):
     pot = {"name": "pot", "scene": "builtin:teapot"}
     for rows, place in (([], "/rows"), ([1], "/rows/0"), ([{"scene": "builtin:teapot"}], "/rows/0/name"), ([pot, pot], "/rows/1/name"),
@@ -368,7 +368,7 @@ def mistakes(bench):
     bench.run("golden", "check", "m.json", "m.json", "m.json").expect(2).expect_one_line("PATH")
 
 
-@case("golden.hostile_names_stay_text", budget=10)
+@case("golden.hostile_names_stay_text")
 def hostile(bench):
     """Names are text in HTML, Markdown, annotations and file names."""
     names = ["<!--<script>", "\u4e16" * 40, "<script>alert(1)</script>", "a|b`c*", "../up", "::error::x%0A", "a,b:c", "\u00e4 \u2603", '"q"', ".",
@@ -430,7 +430,7 @@ def page(bench):
     check("1 picture blessed" in bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0).out, names)
 
 
-@case("golden.the_page_orders_and_links_rows", budget=10)
+@case("golden.the_page_orders_and_links_rows")
 def order(bench):
     """Failed rows come first; each row that did not pass links its golden, with or without a slider."""
     nan = float("nan")

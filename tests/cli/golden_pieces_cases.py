@@ -23,7 +23,7 @@ def sky(red):
     return hdr(32, 16, lambda y: 32 * rgbe((red, 0.5, 0.5)))
 
 
-@case("golden.pieces_merge_to_the_files_of_one_run", budget=20)
+@case("golden.pieces_merge_to_the_files_of_one_run", budget=6)
 def pieces(bench):
     """Drawn rows, a program's, one that is there, one that fails and one without a golden, by processes that share a folder."""
     (bench.folder / "there.ppm").write_bytes(pixel(5))
@@ -52,7 +52,7 @@ def pieces(bench):
         bench.run("golden", *wrong).expect(2)
 
 
-@case("golden.pieces_have_keys_by_content", budget=20)
+@case("golden.pieces_have_keys_by_content", budget=11)
 def keys(bench):
     """Each file that decides a row changes its key, and no other row's. A folder of pieces thus serves the next commit."""
     scene = gltf_files.textured("colour.png")
@@ -106,7 +106,7 @@ def keys(bench):
     check(not (bench.folder / "none").exists(), "a worker without the scene made a piece")
 
 
-@case("golden.pieces_of_machines_that_fail_are_made_elsewhere", budget=20)
+@case("golden.pieces_of_machines_that_fail_are_made_elsewhere")
 def machines_that_fail(bench):
     """A killed program, one that takes too long, one that is not there, and a full disk leave no piece. A program that fails by itself does."""
     for command, reason in ((["sh", "-c", "kill -9 $$"], "signal 9"), (["sleep", "9"], "stopped after 0.5 s"), (["./none"], "cannot be started")):
@@ -161,7 +161,7 @@ def killed(bench):
             path.unlink()
 
 
-@case("golden.merges_of_scripts_end_with_the_verdict", budget=20)
+@case("golden.merges_of_scripts_end_with_the_verdict", budget=3)
 def merges_of_scripts(bench):
     """A merge makes what is missing, and its exit code is that of one process: 0, or the verdict of golden pictures. No word of a picture's
     name is run. A merge of k8s takes what no pod makes."""

@@ -11,7 +11,7 @@ from golden_cases import program, results, verdicts, write
 from harness import case, check
 
 
-@case("golden.merge_takes_shards_of_one_manifest_alone", budget=10)
+@case("golden.merge_takes_shards_of_one_manifest_alone", budget=4)
 def foreign_shards(bench):
     (bench.folder / "a.ppm").write_bytes(b"P6 1 1 255\n\0\0\0")
     rows = [{"name": name, "picture": "a.ppm"} for name in "ab"]
@@ -39,7 +39,7 @@ def foreign_shards(bench):
     check(len(results(bench, "merged")) == 2, "the earlier results are gone")
 
 
-@case("golden.two_checks_do_not_share_a_folder", budget=10)
+@case("golden.two_checks_do_not_share_a_folder")
 def shared_folder(bench):
     begun = bench.folder / "begun"
     wait = program(bench, "wait.sh", f"touch {begun}; sleep 2; printf 'P6 1 1 255\\n\\0\\0\\0' > out.ppm")
@@ -121,7 +121,7 @@ def not_finite(bench):
     bench.run("golden", "check", "e", "a").expect(0)
 
 
-@case("golden.a_stopped_check_keeps_the_earlier_results", budget=10)
+@case("golden.a_stopped_check_keeps_the_earlier_results", budget=4)
 def interrupted(bench):
     for name in "ab":
         (bench.folder / f"{name}.ppm").write_bytes(b"P6 1 1 255\n" + bytes([ord(name), 0, 0]))

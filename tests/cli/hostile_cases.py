@@ -66,12 +66,12 @@ def run_degenerate(bench, options):
     return refused
 
 
-@case("hostile.degenerate_scenes", "program", "input")
+@case("hostile.degenerate_scenes", "program", "input", budget=12)
 def degenerate(bench):
     run_degenerate(bench, TILE)
 
 
-@case("hostile.degenerate_scenes_by_the_reference", "program", "input")
+@case("hostile.degenerate_scenes_by_the_reference", "program", "input", budget=11)
 def degenerate_reference(bench):
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
@@ -246,7 +246,7 @@ def offsets(bench):
         check(place and int(place.group(1)) <= len(whole), f"no place in the file\n{done.describe()}")
 
 
-@case("hostile.headers_that_scale_by_nothing", "input", budget=5)
+@case("hostile.headers_that_scale_by_nothing", "input", budget=4)
 def scales(bench):
     """Images whose samples are divided by 0, or multiplied by 0 or by NaN."""
     pixels = struct.pack("<48f", *[0.5] * 48)

@@ -47,7 +47,7 @@ def near(found, wanted):
     return all(abs(f - w) < 0.02 for f, w in zip(found, wanted))
 
 
-@case("image_light.lights_the_scene_that_brings_it", "input")
+@case("image_light.lights_the_scene_that_brings_it", "input", budget=5)
 def lights(bench):
     model = bench.data_file("models/ibl_six_colours.glb")
     for towards, colour in COLOURS.items():

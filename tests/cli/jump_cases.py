@@ -251,7 +251,7 @@ def area_jumps(bench):
     held(bench, by_way(bench, AREA_PATHS))
 
 
-@case("laws.lamps_go_through_the_horizon_without_a_jump")
+@case("laws.lamps_go_through_the_horizon_without_a_jump", budget=11)
 def sinking_lamps(bench):
     held(bench, by_way(bench, [path for path in AREA_PATHS if "lamp that" in path]))
 

@@ -214,7 +214,7 @@ def shadows(bench):
     bench.run("compare", "reference.png", "open.png", "--fail-flip", "0.03").expect(1)
 
 
-@case("lights.shadows_of_lamps_are_the_reference_s", budget=8)
+@case("lights.shadows_of_lamps_are_the_reference_s", budget=4)
 def all_shadows(bench):
     """--shadows on: a lamp over a ball on a floor, against the reference's shadowed mode. The sun of the built-in sky casts a shadow, too."""
     needs_embree(bench)

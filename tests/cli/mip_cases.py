@@ -89,7 +89,7 @@ def tilted(bench):
         check(off < 0.05 * turned, f"{name} turns a lobe: {off}, another frame {turned}")
 
 
-@case("mip.lobes_keep_what_a_level_loses", budget=6)
+@case("mip.lobes_keep_what_a_level_loses", budget=4)
 def keeps(bench):
     needs_embree(bench)
     scratch(bench, "fine.png", grain(256, 0.15))

@@ -303,7 +303,7 @@ def cache(bench):
     check(len(hashes) == 1, f"the cache changes the picture: {hashes}")
 
 
-@case("output.contact_shadows_are_kept_between_runs")
+@case("output.contact_shadows_are_kept_between_runs", budget=6)
 def contact_shadows(bench):
     own = {"XDG_CACHE_HOME": str(bench.folder / "cache")}
     words = ("builtin:plate", "--size", "64x36", "--env-size", "16", "--env-samples", "16")

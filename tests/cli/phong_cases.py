@@ -65,7 +65,7 @@ def tables(bench, given_of):
         bench.run("bake", "half-vectors", "--nu=" + value, "--nv", "1", "-o", "t.exr").expect(2).expect_one_line("--nu")
 
 
-@case("phong.tables_from_files_are_those_that_frames_make", "input", budget=14)
+@case("phong.tables_from_files_are_those_that_frames_make", "input", budget=13)
 def some_tables(bench):
     tables(bench, {"16": (("both",),), "60": (("large.exr", "a.pfm"),), "64": (("across.exr",),)})
 
@@ -87,7 +87,7 @@ def devices(bench):
                        also=[("--technique", "bent_normal", "--diffuse", "ashikhmin-shirley")]))
 
 
-@case("phong.baked_environments_are_read_back", "input", budget=4)
+@case("phong.baked_environments_are_read_back", "input", budget=3)
 def environments(bench):
     words = ("builtin:sphere", "--size", "40x30", "--msaa", "1", "--floor", "off")
     bake = ("--env-size", "64", "--env-samples", "32")

@@ -71,7 +71,7 @@ def one_and_pieces(bench, words, outputs, option="-o", machine=("--threads", "1"
     return words
 
 
-@case("pieces.of_a_reference_make_its_bytes", budget=20)
+@case("pieces.of_a_reference_make_its_bytes", budget=13)
 def reference(bench):
     needs_embree(bench)
     one_and_pieces(bench, PICTURE, ("o.exr", "o.png"))
@@ -88,18 +88,18 @@ def passes(bench):
     one_and_pieces(bench, (*words, "--samples", "196608"), ("o.exr",))
 
 
-@case("pieces.of_a_row_make_its_bytes")
+@case("pieces.of_a_row_make_its_bytes", budget=5)
 def row(bench):
     one_and_pieces(bench, ROW, ("o_%d.png", "o.exr".replace("o.", "o_%d."), "o.apng"))
 
 
-@case("pieces.of_a_chart_make_its_bytes", budget=20)
+@case("pieces.of_a_chart_make_its_bytes", budget=6)
 def chart(bench):
     needs_embree(bench)
     one_and_pieces(bench, CHART, ("report",))
 
 
-@case("pieces.of_baked_levels_make_their_bytes")
+@case("pieces.of_baked_levels_make_their_bytes", budget=5)
 def levels(bench):
     """Levels of each material, with colours and heights that the merge makes. Changed maps and options have other pieces."""
     words = ("bake", "mip", "builtin:bumps", "-q")
@@ -228,7 +228,7 @@ def taken_and_killed(bench, words, output, kills, seed):
     check(not list((bench.folder / "w").glob("*.lease")), "a lease is left")
 
 
-@case("pieces.survive_killed_workers", budget=60)
+@case("pieces.survive_killed_workers", budget=37)
 def killed(bench):
     needs_embree(bench)
     taken_and_killed(bench, (*PICTURE, "--samples", "65536"), "exr", 3, 5)
@@ -324,7 +324,7 @@ def keys(bench, *words):
     return [key for key, _, _ in pieces_of(bench, words)]
 
 
-@case("pieces.have_keys_by_content")
+@case("pieces.have_keys_by_content", budget=6)
 def content(bench):
     """Names of outputs, threads and messages change no key. Options and the content of files do, also where a path stays."""
     own = keys(bench, *ROW, "-o", "o_%d.png")
@@ -371,7 +371,7 @@ def renderer(bench):
     check(not set(keys(bench, *row, "--backend", "reference")) & set(own), "the reference's pictures have the keys of the tile renderer's")
 
 
-@case("pieces.of_one_kind_are_made_twice_at_once", budget=20)
+@case("pieces.of_one_kind_are_made_twice_at_once", budget=15)
 def at_once(bench):
     needs_embree(bench)
     for words in ((*ROW[:4], "--steps", "20", *ROW[6:], "-o", "a_%d.png", "-o", "a_%d.exr"), (*CHART, "-o", "report")):

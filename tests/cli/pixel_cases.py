@@ -121,7 +121,7 @@ def other_build(bench):
     print(f"{len(scenes)} scenes, equal pixels from {' and '.join(builds.values())}")
 
 
-@case("pixels.brushing_sets_in_without_a_step", budget=5)
+@case("pixels.brushing_sets_in_without_a_step", budget=3)
 def brushing_sets_in(bench):
     """Brushed surfaces share their samples and others do not. The transition must not show."""
     rows = (("builtin:spheres", "1", ("0.15", "0.4", "0.7")), ("builtin:spheres", "8", ("0.4",)), ("builtin:plate", "1", ("0.15", "0.4", "0.7")))

@@ -31,7 +31,7 @@ def check_told(bench, rows):
         check(bench.run(*words, "-q", env=OFTEN).expect(0).err == "", f"{words} says something with -q")
 
 
-@case("progress.of_everything_that_takes_long_is_told", budget=10)
+@case("progress.of_everything_that_takes_long_is_told", budget=8)
 def everything(bench):
     check_told(bench, TOLD)
 

@@ -45,7 +45,7 @@ def drawn(bench, env):
     return found["pixel_hash"], found["warnings"]
 
 
-@case("reading.environments_have_the_light_that_their_files_say", "input", budget=5)
+@case("reading.environments_have_the_light_that_their_files_say", "input", budget=4)
 def environments(bench):
     scratch(bench, "right.exr", exr(WIDTH, HEIGHT, sky))
     scratch(bench, "acescg.exr", exr(WIDTH, HEIGHT, to_acescg, attributes=said(ACESCG)))

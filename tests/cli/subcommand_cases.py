@@ -82,7 +82,7 @@ def check_whats(bench, name, runs, left=0):
     check(len(without) == left, f"{name} {sorted(without)}: in the help, and without a run; {left} may be")
 
 
-@case("subcommand.each_runs_small", "input", budget=15)
+@case("subcommand.each_runs_small", "input", budget=11)
 def each(bench):
     check_named(bench, False, RUNS)
     (bench.folder / "goldens.json").write_text('{"rows": [{"name": "a", "picture": "a.png"}]}')

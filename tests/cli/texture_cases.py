@@ -127,7 +127,7 @@ def textures(bench):
     check(not (bench.folder / "k/whole.ktx2").exists(), "whole.ktx2 of an earlier bake")
 
 
-@case("bake.key_lights_compile_as_glsl", budget=5)
+@case("bake.key_lights_compile_as_glsl", budget=4)
 def lights(bench):
     for name, words, count in (("sun", (), 1), ("none", ("--key-lights", "off"), 0)):
         bench.run(*BAKE, *words, "--textures", "ktx2", "-o", name).expect(0)

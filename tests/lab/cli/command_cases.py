@@ -34,7 +34,7 @@ def long(bench):
         run_each(bench, name, runs, timeout=400.0)
 
 
-@case("subcommand.each_of_the_laboratory_runs_small", "input", budget=15)
+@case("subcommand.each_of_the_laboratory_runs_small", "input", budget=4)
 def each(bench):
     check_named(bench, True, RUNS)
     scratch(bench, "maps/waves/a_normal.png", png(64, 64, bumps))

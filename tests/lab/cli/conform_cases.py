@@ -147,7 +147,7 @@ def named(bench, folder, *mistakes, kept=SCENES):
     return [m["name"] for m in result["mistakes"]]
 
 
-@case("conform.names_a_mistake_and_two", budget=65)
+@case("conform.names_a_mistake_and_two", budget=55)
 def names(bench):
     """Names one mistake, made in the files, then one that few scenes show, then two, made by kernels and pictures, then an exposure."""
     written(bench)

@@ -9,7 +9,7 @@ from pieces_cases import files_of, have_scripts, one_and_pieces
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
-@case("pieces.of_an_atlas_make_its_bytes", budget=30)
+@case("pieces.of_an_atlas_make_its_bytes", budget=8)
 def atlas(bench):
     needs_embree(bench)
     one_and_pieces(bench, ("atlas", "albedo_by_a_fit", "bent_normal_bends_too_far", "area_lights_left_out", "--quick", "-q"), ("atlas",))
@@ -28,13 +28,13 @@ def conform(bench):
     check(files_of(bench.folder / "one") == files_of(bench.folder / "two"), "other files")
 
 
-@case("pieces.of_a_table_make_its_bytes", budget=20)
+@case("pieces.of_a_table_make_its_bytes", budget=10)
 def table(bench):
     one_and_pieces(bench, ("bake", "ltc", "--resolution", "4", "--steps", "2", "-q"), ("a.ltc",), machine=("--threads", "1"))
     bench.run("bake", "ltc", "--table", "two/a.ltc", "--pieces").expect(2).expect_one_line("--table")
 
 
-@case("pieces.of_measured_nets_make_their_figures", budget=20)
+@case("pieces.of_measured_nets_make_their_figures", budget=14)
 def nets(bench):
     net = str(ROOT / "shading/bake/mipnet/ggx_aniso.mipnet")
     one_and_pieces(bench, ("train", "mip", "--evaluate", net, "--validation", "-q"), ("figures.json",), option="--json", machine=("--threads", "1"))

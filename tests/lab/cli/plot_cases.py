@@ -268,7 +268,7 @@ def page(bench):
     check(bench.left_behind() == [], f"left {bench.left_behind()}")
 
 
-@case("progress.of_plots_is_told", budget=10)
+@case("progress.of_plots_is_told")
 def progress(bench):
     check_told(bench, ((r"^plot, drawing side: ", "plot", "side", "-o", "a.svg"),))
 

@@ -96,7 +96,7 @@ def models_match_their_references_on_one_sheet(bench):
     check(sheet("0.12").returncode == 1, "another picture than the model's is close to its reference too")
 
 
-@case("pixels.lines_that_turn_fast_leave_no_dots", budget=4)
+@case("pixels.lines_that_turn_fast_leave_no_dots", budget=3)
 def no_dots(bench):
     """If a quad's fragments share too few of their samples, quads show: their error correlates more at two pixels than at one."""
     needs_embree(bench)

@@ -28,7 +28,7 @@ def threads(bench):
     check(bench.left_behind() == ["w1.mipnet", "w3.mipnet", "ws.mipnet"], f"left {bench.left_behind()}")
 
 
-@case("train.killed_goes_on_to_the_same_bytes")
+@case("train.killed_goes_on_to_the_same_bytes", budget=5)
 def killed(bench):
     bench.run(*SMALL, "-o", "straight.mipnet", "-q").expect(0)
     part = bench.folder / "kept.part"
@@ -44,7 +44,7 @@ def killed(bench):
     check(bench.left_behind() == ["straight.mipnet", "w.mipnet"], f"left {bench.left_behind()}")
 
 
-@case("train.pieces_of_seeds_make_the_best_weights", budget=20)
+@case("train.pieces_of_seeds_make_the_best_weights", tier="nightly")
 def seeds(bench):
     """One seed is a piece: more seeds share the pieces of fewer, and the best weights are those of its seed alone."""
     words = ("train", "mip", "--steps", "40", "--size", "1x8", "--seed", "5", "-q")
@@ -128,7 +128,7 @@ def choices(bench, *few):
         bench.run("bake", "mip", "maps/waves", "--mip-filter", "mipnet", "--mip-net", "w.mipnet", "-q", "-o", "a.mip").expect(0)
 
 
-@case("train.each_choice_makes_other_weights_and_says_how", budget=5)
+@case("train.each_choice_makes_other_weights_and_says_how", budget=4)
 def choices_for_one_map(bench):
     choices(bench, "--only-maps", bench.folder / "maps/")
 
