@@ -14,6 +14,7 @@ import argparse
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -56,8 +57,7 @@ def races_of(data):
             continue
         measured = {} if row["error"] else {"ratio": float(f"{row['ratio']:.4g}"), "flip": float(f"{row['flip_mean']:.2g}"),
                                             "same_picture": row["same_picture"]}
-        rows.append({**{key: row[key] for key in keep}, "scene": pathlib.PurePath(row["scene"]).stem.removeprefix("builtin:"),
-                     "isa": data["machine"]["isa"], **measured})
+        rows.append({**{key: row[key] for key in keep}, "scene": pathlib.PurePath(row["scene"]).name, "isa": data["machine"]["isa"], **measured})
     return rows
 
 
@@ -77,7 +77,7 @@ def collect(frames_path, race_paths):
                         "load": [round(machine["load_average"], 2), round(frames["load_average_end"], 2)]},
             "frames": frames_of(frames),
             "race_size": [races[0]["width"], races[0]["height"]] if races else None,
-            "race_notes": sorted({note for race in races for note in race["notes"]}),
+            "race_notes": sorted({re.sub(r"^\S*/", "", note) for race in races for note in race["notes"]}),  # without folders
             "races": [row for race in races for row in races_of(race)],
         }
     except (KeyError, TypeError) as error:

@@ -56,17 +56,17 @@ class SpeedPageTest(unittest.TestCase):
     def test_tables_hold_the_figures(self):
         one = self.file("frames.json", frames(frame_row("a million triangles", "avx2", 5.5), frame_row("a million triangles", "avx512", 3.25)))
         two = self.file("a.json", race(race_row("builtin:teapot", "bent_normal", 1, 2.0), race_row("builtin:teapot", "major_axis", 1, 8.0),
-                                       notes=["two materials are left out"]))
+                                       notes=["/a/b/lamp.glb: two materials are left out"]))
         three = self.file("b.json", race(race_row("x/lamp.glb", "bent_normal", 1, 4.0), race_row("x/lamp.glb", "mc", 1, 99.0, flip=0.5)))
         code, _, page = self.run_with("--frames", one, "--races", two, three)
         self.assertEqual(code, 0)
         self.assertTrue(page.startswith("# Benchmarks\n\nbefore\n") and page.endswith("\nafter\n"))
         self.assertNotIn("old", page)
         self.assertIn("| a million triangles | <= 4 ms | 5.5 ms (missed) | 3.25 ms |", page)
-        self.assertIn("| teapot | 4.0 (least 2.0) |", page)
-        self.assertIn("| lamp | 4.0 (least 4.0), 1 not counted |", page)
+        self.assertIn("| builtin:teapot | 4.0 (least 2.0) |", page)
+        self.assertIn("| lamp.glb | 4.0 (least 4.0), 1 not counted |", page)
         self.assertIn("| **all, lavapipe** | 4.0 (least 2.0), 1 not counted |", page)
-        self.assertIn("- two materials are left out", page)
+        self.assertIn("- lamp.glb: two materials are left out", page)
         self.assertEqual(self.run_with("--check")[0], 0)
 
     def test_a_page_edited_by_hand_fails(self):
