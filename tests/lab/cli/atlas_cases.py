@@ -209,9 +209,10 @@ SEEDED = {
     "--area-lights ltc-isotropic": "cosines_of_thin_lobes cosines_of_sharp_lobes cosines_at_grazing_angles sphere_for_a_polygon cosines_for_ward "
                                    "lamps_below_the_horizon cosines_are_no_lunes cosines_through_the_horizon cosines_across_the_grain cosines_unaligned cosines_unsymmetric cosines_inverse",
     "--frame-map off": "tangents_left slopes_in_a_frame_left frames_turned_around mip_box_of_sharp_lobes "
-                       "mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes mip_ssgt_of_sharp_lobes "
+                       "mip_baseline_of_sharp_lobes mip_covariance_of_sharp_lobes "
                        "mip_kappa_of_sharp_lobes",
     "--normal-y down": "mip_net_at_first_levels",
+    "--env-rotation 40": "mip_ssgt_of_sharp_lobes",
     "--height-scale 0": "steps_of_relief relief_at_80_degrees depths_by_stretched_coordinates",
     "--anisotropy -0.9": "cores_of_few_texels mip_lean_of_sharp_lobes mip_leadr_of_sharp_lobes",
     "--msaa 2": "edges_of_bright_things",
