@@ -36,14 +36,6 @@ void push_vertex(VertexTable& v, const SurfacePoint& p)
     put(v.ca, 1.0);
 }
 
-// Columns that grow leave holes in memory.
-void reserve_vertices(VertexTable& v, std::size_t count)
-{
-    for (Column<float>* column :
-         {&v.px, &v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz, &v.tw, &v.u0, &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca})
-        column->reserve(count);
-}
-
 void push_triangle(Scene& scene, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
     const VertexTable& v = scene.vertices;
@@ -72,9 +64,6 @@ void add_grid(Scene& scene, int columns, int rows, const Surface& surface)
     BN_CHECK(!scene.primitives.empty());
     Primitive& primitive = scene.primitives.back();
     const auto base = static_cast<std::uint32_t>(scene.vertices.size());
-    const auto count = [](int x, int y) { return static_cast<std::size_t>(x) * static_cast<std::size_t>(y); };
-    reserve_vertices(scene.vertices, base + count(columns + 1, rows + 1));
-    scene.indices.reserve(scene.indices.size() + 6 * count(columns, rows));
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column) {
             const SurfacePoint p = surface(column, row);

@@ -197,9 +197,6 @@ void append_welded(Document& doc, const Corners& corners, Primitive& primitive, 
     primitive.first_index = static_cast<std::uint32_t>(indices.size());
     primitive.first_vertex = static_cast<std::uint32_t>(table.size());
     Welder welder(table);
-    const std::size_t vertices = std::min<std::size_t>(corners.attributes.position.count(), corners.vertices.size());
-    for (Column<float>* column : columns_of(table))
-        column->reserve(table.size() + vertices); // columns that grow leave holes in memory
     indices.reserve(indices.size() + corners.vertices.size());
     for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
         bool added = false;
