@@ -20,7 +20,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- speed: written by bench/speed_page.py -->", "<!-- end of speed -->"
-ISA_NAMES = {"avx2": "AVX2", "avx512": "AVX-512", "scalar": "scalar", "sse": "SSE", "neon": "NEON"}
+ISA_NAMES = {"avx2": "AVX2", "avx512": "AVX-512", "scalar": "scalar"}
 
 
 class Unusable(Exception):
@@ -147,7 +147,7 @@ def block(speed):
                   f"least over {techniques}. Rows whose pictures differ, or that the lean shader cannot draw, are not counted.", "",
                   *race_table(speed["races"])]
         if speed["race_notes"]:
-            lines += ["", *(f"- {note}" for note in speed["race_notes"])]
+            lines += ["", *(f"- {note}." for note in speed["race_notes"])]
     return lines
 
 
