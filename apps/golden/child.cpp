@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <optional>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -159,7 +160,7 @@ bool read_part(Descriptor& output, Log& log)
 }
 
 // Keeps the child's output until the child ends. Kills its group at the limit or when stopped, and returns false then.
-bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, Descriptor& output, Log& log, int& status)
+bool wait_for(pid_t child, pid_t group, double seconds, const std::atomic<bool>* stop, Descriptor& output, Log& log, int& status)
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -175,16 +176,17 @@ bool wait_for(pid_t child, double seconds, const std::atomic<bool>* stop, Descri
         if (poll(&waiting, 1, pause) > 0)
             read_part(output, log);
     }
-    kill(-child, SIGKILL);
+    kill(-group, SIGKILL);
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     return false;
 }
 
-// A process that waits for the end of this one, even by signal 9, and kills a group of processes then.
+// A process group, led by a process that waits for the end of this one, even by signal 9, and kills the group then. The group exists before
+// its program starts, so no signal finds the program without a guard.
 class Guard {
   public:
-    explicit Guard(pid_t group)
+    Guard()
     {
         int ends[2];
         if (pipe2(ends, O_CLOEXEC) != 0)
@@ -193,7 +195,9 @@ class Guard {
         here_.reset(ends[1]);
         pid_ = fork();
         if (pid_ == 0)
-            watch(watched.get(), group);
+            watch(watched.get());
+        if (pid_ > 0)
+            setpgid(pid_, pid_); // the guard does the same: one of the two comes first
     }
     Guard(const Guard&) = delete;
     Guard& operator=(const Guard&) = delete;
@@ -201,17 +205,19 @@ class Guard {
     {
         if (pid_ <= 0)
             return;
-        kill(pid_, SIGKILL);
+        kill(-pid_, SIGKILL); // the guard, and all that the program left running
         while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
         }
     }
 
+    pid_t group() const { return std::max(pid_, 0); } // 0: a program starts a group of its own
+
   private:
     // Calls only what is safe in the child of a process with threads. Leaves the parent's group, which a signal may end as a whole. Closes
     // other descriptors: among them are this pipe's other end, and those of other guards.
-    [[noreturn]] static void watch(int watched, pid_t group)
+    [[noreturn]] static void watch(int watched)
     {
-        setsid();
+        setpgid(0, 0);
         const long most = sysconf(_SC_OPEN_MAX);
         if ((watched > 0 && close_range(0, static_cast<unsigned>(watched) - 1, 0) != 0) ||
             close_range(static_cast<unsigned>(watched) + 1, ~0u, 0) != 0)
@@ -221,7 +227,7 @@ class Guard {
         char byte;
         while (read(watched, &byte, 1) < 0 && errno == EINTR) {
         }
-        kill(-group, SIGKILL);
+        kill(-getpid(), SIGKILL);
         _exit(0);
     }
 
@@ -245,6 +251,7 @@ Status run_child(const ChildRun& run)
     Log log(run.output);
     if (!log)
         return not_here(fmt::format("{} cannot be started: {}", run.output, std::strerror(errno)));
+    std::optional<Guard> guard(std::in_place);
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&actions);
@@ -254,7 +261,7 @@ Status run_child(const ChildRun& run)
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addchdir_np(&actions, run.folder.c_str());
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setpgroup(&attributes, guard->group());
     pid_t child = 0;
     const int error = [&] {
         const UnboundMemory unbound;
@@ -266,12 +273,10 @@ Status run_child(const ChildRun& run)
         return not_here(fmt::format("{} cannot be started: {}", name, std::strerror(error)));
     int status = 0;
     input.reset();
-    const bool in_time = [&] {
-        const Guard guard(child);
-        const bool ended = wait_for(child, run.seconds, run.stop, output, log, status);
-        kill(-child, SIGKILL); // whatever it left running
-        return ended;
-    }();
+    const pid_t group = guard->group() > 0 ? guard->group() : child;
+    const bool in_time = wait_for(child, group, run.seconds, run.stop, output, log, status);
+    kill(-group, SIGKILL); // whatever it left running
+    guard.reset();
     for (int part = 0; part < kMostLastParts && read_part(output, log); ++part) {
     }
     log.end();
