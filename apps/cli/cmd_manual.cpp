@@ -44,10 +44,11 @@ struct ManualArguments {
 Status print_markdown(const std::string& name)
 {
     bool found = false;
-    for (const Command& command : all_commands()) {
+    const std::vector<Command> commands = all_commands();
+    for (const Command& command : commands) {
         if (name.empty() ? !command.run : command.name != name)
             continue; // burnish-lab prints the laboratory's
-        std::fputs(((found ? "\n" : "") + markdown_page(command)).c_str(), stdout);
+        std::fputs(((found ? "\n" : "") + markdown_page(command, commands)).c_str(), stdout);
         found = true;
     }
     return found ? Status() : usage_error("SUBCOMMAND", "there is no subcommand '" + name + "'");

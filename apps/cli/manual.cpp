@@ -117,6 +117,17 @@ std::string markdown_code(const std::string& text)
     return text.empty() ? "" : fmt::format("`{}`", replaced(text, "|", "\\|"));
 }
 
+// Returns the subcommand whose pictures stand beside an option: the option's own, or render where both mean the same.
+std::string pictured_command(const Command& command, const Option& option, const std::vector<Command>& commands)
+{
+    for (const Command& render : commands)
+        if (render.name == "render")
+            for (const Option& same : render.options.options())
+                if (same.name == option.name && same.help == option.help && same.value_name == option.value_name)
+                    return render.name;
+    return command.name;
+}
+
 // Returns the pictures beside an option, as a cell's further lines.
 std::string markdown_pictures(const std::string& command, const std::string& option)
 {
@@ -134,7 +145,7 @@ std::string markdown_pictures(const std::string& command, const std::string& opt
     return out;
 }
 
-std::string markdown_option(const std::string& command, const Option& option)
+std::string markdown_option(const Command& command, const Option& option, const std::vector<Command>& commands)
 {
     std::string names = markdown_code(option.name);
     if (option.letter)
@@ -143,16 +154,16 @@ std::string markdown_option(const std::string& command, const Option& option)
     const std::string at_first = option.required ? "must be given" : markdown_cell(option.default_text());
     const char* again = option.value.repeated && option.takes_value() ? "; may be given several times" : "";
     const std::string meaning = markdown_cell(option.meaning()) + (option.help.find("several times") == std::string::npos ? again : "") +
-                                markdown_pictures(command, option.name);
+                                markdown_pictures(pictured_command(command, option, commands), option.name);
     return fmt::format("| {} | {} | {} | {} |\n", names, value, at_first, meaning);
 }
 
 // Writes one table under each option heading, in table order.
-std::string markdown_options(const std::string& command, const OptionTable& table)
+std::string markdown_options(const Command& command, const std::vector<Command>& commands)
 {
     std::string out, heading;
     bool begun = false, places = false;
-    for (const Option& option : table.options()) {
+    for (const Option& option : command.options.options()) {
         if (!begun || option.group != heading || option.positional() != places) {
             places = option.positional(), heading = option.group;
             const std::string title = places ? "Arguments" : heading.empty() ? "Options" : heading;
@@ -160,7 +171,7 @@ std::string markdown_options(const std::string& command, const OptionTable& tabl
                                places ? "argument" : "option");
             begun = true;
         }
-        out += markdown_option(command, option);
+        out += markdown_option(command, option, commands);
     }
     return out;
 }
@@ -183,11 +194,11 @@ std::string markdown_footer(const std::string& footer)
 
 } // namespace
 
-std::string markdown_page(const Command& command)
+std::string markdown_page(const Command& command, const std::vector<Command>& commands)
 {
     std::string out = fmt::format("# burnish {}\n\n{}.\n\n", command.name, markdown_cell(command.summary));
     out += fmt::format("    burnish {} {}\n", command.name, replaced(usage_of(command.options), "[OPTIONS]", "[options]"));
-    return out + markdown_options(command.name, command.options) + markdown_footer(command.footer);
+    return out + markdown_options(command, commands) + markdown_footer(command.footer);
 }
 
 std::string man_page(const std::vector<Command>& commands)

@@ -88,6 +88,10 @@ def option_pictures(bench):
             given = dict(re.findall(r"(--[a-z-]+) (\S+)", words))
             wrong = [f"{name} {value}" for name, value in given.items() if name in drawn[file] and drawn[file][drawn[file].index(name) + 1] != value]
             check(not wrong, f"{file} was not drawn by {wrong}")
+    # Another subcommand's option shows them where it means the same
+    row_of = lambda command, option: re.search(rf"^\| `{option}` \|.*$", bench.run("manual", "markdown", command).expect(0).out, re.M)[0]
+    check("![" in row_of("chart", "--fov") and "![" in row_of("profile", "--tilt"), "options of render have pictures on render's page alone")
+    check("![" not in row_of("bake", "--samples") and "![" not in row_of("golden", "--flip"), "an option has another one's pictures")
 
 
 @case("manual.links_and_pictures_are_there")
