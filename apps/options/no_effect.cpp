@@ -19,7 +19,7 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         if (given.given(option))
             out.warnings.push_back(fmt::format("{} has no effect with {}", option, other));
     };
-    const bool planned = out.budget || out.budget_ms || !out.plan_file.empty(); // several techniques
+    const bool planned = out.plans() || !out.plan_file.empty(); // several techniques
     for (const ParameterInfo& p : parameters())
         if (!planned && !reads(reference ? "reference" : technique.name, p))
             warn(std::string("--") + p.option, reference ? of_backend : of_technique);

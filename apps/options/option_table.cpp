@@ -125,8 +125,12 @@ std::vector<Option> budget_rows(RenderOptions& to)
     return {
         {"--budget", "E", "Largest mean HDR-FLIP of the picture: chooses technique and samples of each material, as cheap as possible; {}",
          number(to.budget, 0.0, 1.0), ""},
+        {"--budget-p99", "E",
+         "Largest 99th percentile of the pixels' HDR-FLIP, alone or beside --budget: at most one pixel in a hundred errs more; {}",
+         number(to.budget_p99, 0.0, 1.0), ""},
         {"--budget-ms", "T",
-         "Largest processor time of the frame in milliseconds, on this machine: chooses the least error within it. --budget goes first",
+         "Largest processor time of the frame in milliseconds, on this machine: chooses the least error within it. Budgets of errors go "
+         "first",
          number(to.budget_ms, 0.001, 1e9), ""},
         Option("--plan-out", "FILE", "JSON file with the choices of a budget, their predicted errors and costs; - for standard output",
                file(to.plan_out))

@@ -77,7 +77,8 @@ Status choose_bands(const RenderArguments& in, const OptionTable& given, bool la
     const std::string why = in.band_rows ? "" : fmt::format("of {}x{} is drawn in bands, and ", in.size.width, in.size.height);
     if (out.backend != "tile")
         return usage_error(option, why + "is for --backend tile alone");
-    for (const char* other : {"--risks", "--budget", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
+    for (const char* other :
+         {"--risks", "--budget", "--budget-p99", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
         if (given.given(other))
             return usage_error(option, fmt::format("{}cannot be combined with {}", why, other));
     if (out.frames > 1 || out.show != Shown::light)
@@ -170,7 +171,7 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
     std::int64_t samples = technique.default_samples;
     if (in.samples && out.backend != "reference") // whose samples are of a pixel
         samples = *in.samples;
-    const bool planned = (out.budget || out.budget_ms) && &technique == &automatic_technique(); // then the plan judges the samples
+    const bool planned = out.plans() && &technique == &automatic_technique(); // then the plan judges the samples
     if (planned && in.samples) {
         out.fixed_samples = static_cast<int>(std::min(samples, std::int64_t{65536}));
         return {};
@@ -186,16 +187,17 @@ Status check_technique(const RenderArguments& in, RenderOptions& out)
 
 Status check_budget(const OptionTable& given, RenderOptions& out)
 {
-    if (out.budget && !(*out.budget > 0.0))
-        return usage_error("--budget", "0: no technique is exact; mc comes near with many samples");
-    const bool planned = out.budget || out.budget_ms;
+    for (const auto& [option, error] : {std::pair{"--budget", out.budget}, {"--budget-p99", out.budget_p99}})
+        if (error && !(*error > 0.0))
+            return usage_error(option, "0: no technique is exact; mc comes near with many samples");
+    const bool planned = out.plans();
     if (planned && out.frame.brdf != FrameDesc().brdf)
         return usage_error("--brdf", "budgets are for the default model");
     if (planned && !out.plan_file.empty())
         return usage_error("--plan", "cannot be combined with a budget");
     if (out.budget_ms && out.backend == "vulkan")
         return usage_error("--budget-ms", "only the tile renderer's time is known");
-    for (const char* option : {"--budget", "--budget-ms", "--plan"})
+    for (const char* option : {"--budget", "--budget-p99", "--budget-ms", "--plan"})
         if (given.given(option) && out.backend == "reference")
             return usage_error(option, "the reference has no technique");
     for (const char* option : {"--technique", "--samples"})
@@ -213,7 +215,7 @@ Status check_budget(const OptionTable& given, RenderOptions& out)
     if (out.fixes_technique && given.given("--samples"))
         out.fixed_samples = out.frame.samples;
     if (planned && out.fixes_technique && out.fixed_samples)
-        return usage_error(out.budget ? "--budget" : "--budget-ms", "leaves nothing to choose beside --technique and --samples");
+        return usage_error(out.first_budget(), "leaves nothing to choose beside --technique and --samples");
     return {};
 }
 

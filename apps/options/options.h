@@ -49,11 +49,14 @@ struct RenderOptions {
     bool counts_operations = false;     // in a frame, for stats_file
     std::string trace_file;             // empty: none
     std::optional<double> budget;       // largest mean HDR-FLIP: the plan chooses each material's technique and samples
+    std::optional<double> budget_p99;   // largest 99th percentile of its pixels' HDR-FLIP
     std::optional<double> budget_ms;    // the frame's largest processor time, milliseconds
     bool fixes_technique = false;       // given beside a budget
     int fixed_samples = 0;              // given beside a budget; 0: none
     std::string plan_file, plan_out;    // plan to draw by, and plan to write; empty: none
     bool verify = false;                // compares the planned picture with the reference
+    bool plans() const { return budget || budget_p99 || budget_ms; }
+    const char* first_budget() const { return budget ? "--budget" : budget_p99 ? "--budget-p99" : "--budget-ms"; }
 
     std::string env = "builtin:studio";
     bool env_given = false; // otherwise the scene's own light, if any

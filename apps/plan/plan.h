@@ -11,7 +11,8 @@ namespace burnish {
 
 struct PlanBudget {               // at least one
     std::optional<double> error;  // the picture's largest mean HDR-FLIP, above 0
-    std::optional<double> cpu_ms; // the frame's largest processor time on this machine; the error goes first
+    std::optional<double> p99;    // the largest 99th percentile of its pixels' HDR-FLIP, above 0
+    std::optional<double> cpu_ms; // the frame's largest processor time on this machine; errors go first
 };
 
 struct PlanStep { // one material's setting
@@ -30,6 +31,7 @@ struct PlannedMaterial {
 struct Plan {
     std::vector<PlannedMaterial> materials; // by index in the scene
     double error = 0.0;                     // the picture's predicted mean HDR-FLIP
+    std::optional<double> p99;              // predicted; only for a budget of it
     double cost = 0.0, default_cost = 0.0;  // instructions for shading, and the default technique's instructions
     std::optional<double> default_error;    // predicted for the default technique; none: the probe has it not
     int probe_width = 0, probe_height = 0;
@@ -40,10 +42,11 @@ struct Plan {
 
 // Factor on predictions before they are held to a budget; the notebook has errors over predictions.
 inline constexpr double kPlanSafety = 1.3;
+inline constexpr double kTailSafety = 1.3;  // the same for the 99th percentile
 inline constexpr double kTimeSafety = 1.05; // the same for times
 
 // A time budget draws the cheapest plan once, to measure. technique, samples: fixed by the user, or empty and 0. Errors: ExitCode::usage
-// for a budget that no setting reaches.
+// for a budget that no setting reaches; Error::field names the option if it is not the first of those given.
 Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const std::string& technique, int samples);
 
 // Returns a plan in words: a line for the picture, then one for each visible material.

@@ -41,6 +41,8 @@ std::string plan_json(const Plan& plan, const PlanSubject& subject)
     for (const auto& [name, value] : members(subject))
         json[name] = value;
     json["predicted_flip"] = plan.error;
+    if (plan.p99)
+        json["predicted_p99"] = *plan.p99;
     json["instructions"] = plan.cost, json["usual_instructions"] = plan.default_cost;
     if (plan.default_error)
         json["usual_predicted_flip"] = *plan.default_error;

@@ -140,6 +140,12 @@ bool prefiltered(const MaterialTechnique& m)
     return !(find_technique(m.technique)->traits & kSamplesLobe);
 }
 
+// Returns the error of mc with a setting's samples, relative to one noisy picture's.
+double random_share(const MaterialTechnique& s)
+{
+    return flip_of(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
+}
+
 // Returns the best prefiltered setting's mean error on a material. The measured error without its noise counts as far as this error exceeds
 // its deviation. A guess by the distance to a single fetch counts for the rest.
 double own_error(const Moments& m, double fetch)
@@ -186,7 +192,7 @@ std::vector<MaterialTechnique> plannable_settings()
     return list;
 }
 
-Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings)
+Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings, bool by_pixel)
 {
     const Jobs& jobs = *session.parts().jobs;
     const std::size_t count = session.scene().materials.size();
@@ -225,10 +231,13 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         n *= filtered * flip_of(0.5);
     // Find each setting's distance to the best one
     std::vector<std::vector<double>> distances;
-    std::vector<double> fetch(count, 1.0); // the better single fetch's
+    std::vector<Image> maps;                               // of the distances
+    std::vector<double> fetch(count, 1.0);                 // the better single fetch's
+    std::vector<std::size_t> fetch_map(count, all.size()); // its index
     double fetch_ms = noisy_ms;
     for (const MaterialTechnique& s : all) {
         distances.emplace_back(count, 0.0);
+        maps.emplace_back();
         if (!prefiltered(s) || (s.technique == best.technique && s.samples == best.samples))
             continue;
         const double before = process_cpu_ms();
@@ -236,9 +245,11 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         BN_TRY(frame);
         if (s.samples == 1)
             fetch_ms = std::min(fetch_ms, process_cpu_ms() - before);
-        distances.back() = mean_errors(error_of(first->color, frame->color), materials);
+        maps.back() = error_of(first->color, frame->color);
+        distances.back() = mean_errors(maps.back(), materials);
         for (std::size_t m = 0; m < count && s.samples == 1; ++m)
-            fetch[m] = std::min(fetch[m], distances.back()[m]);
+            if (distances.back()[m] < fetch[m])
+                fetch[m] = distances.back()[m], fetch_map[m] = maps.size() - 1;
     }
     // Find the best setting's own error
     std::vector<double> own(count, 0.0);
@@ -266,11 +277,27 @@ Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::ve
         for (std::size_t m = 0; m < count; ++m) {
             if (materials.pixels[m] == 0.0)
                 continue;
-            const double random = noise[m] * flip_of(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
+            const double random = noise[m] * random_share(s);
             const double error = prefiltered(s) ? flip_of(squared(distances[at][m]) + squared(own[m])) : random;
             probe.materials[m].settings.push_back({s, error, costs[m]});
         }
+        if (!by_pixel)
+            continue;
+        probe.pixels.error.emplace_back(materials.of.size(), 0.0f);
+        for (std::size_t p = 0; p < materials.of.size(); ++p) {
+            if (materials.of[p] == kUnseen)
+                continue;
+            const std::size_t m = static_cast<std::size_t>(materials.of[p]);
+            const double distance = maps[at].bytes.empty() ? 0.0 : static_cast<double>(maps[at].f32()[p]);
+            const double part =
+                fetch_map[m] < all.size() ? static_cast<double>(maps[fetch_map[m]].f32()[p]) / std::max(1e-30, fetch[m]) : 1.0;
+            const double random = static_cast<double>(of_noise.f32()[p]) * filtered * flip_of(0.5) * random_share(s);
+            probe.pixels.error.back()[p] =
+                static_cast<float>(prefiltered(s) ? flip_of(squared(distance) + squared(own[m] * part)) : random);
+        }
     }
+    if (by_pixel)
+        probe.pixels.material = materials.of;
     return probe;
 }
 

@@ -20,8 +20,15 @@ struct ProbedMaterial {
     std::vector<ProbedSetting> settings; // empty where the share is 0
 };
 
+// Predicted errors of single pixels, HDR-FLIP, for the tail of the picture's errors.
+struct PixelErrors {
+    std::vector<int> material;             // of each probe pixel; below 0: none, and no error
+    std::vector<std::vector<float>> error; // [setting][pixel]; settings as in ProbedMaterial
+};
+
 struct Probe {
     std::vector<ProbedMaterial> materials; // by index in the scene
+    PixelErrors pixels;
     int width = 0, height = 0;
     double ms_per_instruction = 0.0; // processor time on this machine; plans by error leave this out
 };
@@ -30,9 +37,10 @@ struct Probe {
 std::vector<MaterialTechnique> plannable_settings();
 
 // Draws the view at a quarter to an eighth of the frame's sides, with one sample a pixel, by each setting. A prefiltered setting's
-// error is its distance to the best one, plus the best one's own error. Two noisy pictures by mc tell that error, and mc's noise.
+// error is its distance to the best one, plus the best one's own error. Two noisy pictures by mc tell that error, and mc's noise. A
+// pixel's part of the own error follows the pixel's distance to a single fetch.
 // The same frame gives the same probe on every machine and with any thread count, apart from times. settings: the allowed ones of
-// plannable_settings(). Expects a tile renderer's session.
-Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings);
+// plannable_settings(). by_pixel: fills Probe::pixels. Expects a tile renderer's session.
+Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings, bool by_pixel);
 
 } // namespace burnish

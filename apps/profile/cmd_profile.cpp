@@ -113,8 +113,8 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(usage_error("--backend", "only the tile renderer is profiled"));
     if (!options.stats_file.empty())
         return fail(usage_error("--stats", "belongs to burnish render; here figures go to --json"));
-    for (const char* option : {"--aov", "--risks", "--animate", "--turntable", "--shadows", "--floor", "--budget", "--budget-ms", "--plan",
-                               "--plan-out", "--verify"})
+    for (const char* option : {"--aov", "--risks", "--animate", "--turntable", "--shadows", "--floor", "--budget", "--budget-p99",
+                               "--budget-ms", "--plan", "--plan-out", "--verify"})
         if (given.given(option))
             return fail(usage_error(option, "belongs to burnish render; here one picture is drawn, over and over"));
     if (Status files = check_files(options, arguments, {options.scene, options.env}); !files)

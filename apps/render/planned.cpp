@@ -34,10 +34,15 @@ PlanSubject subject_of(const RenderOptions& options, const FrameDesc& desc, cons
             hash_text(hash_bytes(others.data(), others.size(), key))};
 }
 
+PlanBudget budget_of(const RenderOptions& options)
+{
+    return {options.budget, options.budget_p99, options.budget_ms};
+}
+
 // Plans with the tile renderer, whatever the frame is drawn with.
 Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
-    const PlanBudget budget = {options.budget, options.budget_ms};
+    const PlanBudget budget = budget_of(options);
     const std::string technique = options.fixes_technique ? desc.technique : "";
     const int samples = options.fixed_samples;
     if (options.backend == "tile")
@@ -62,19 +67,19 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
             return Error{ExitCode::bad_input, options.plan_file, "/materials", ok.error().line()};
         return std::optional<Plan>();
     }
-    if (!options.budget && !options.budget_ms)
+    if (!options.plans())
         return std::optional<Plan>();
     const TraceSpan span("plan");
     const auto begin = std::chrono::steady_clock::now();
     Result<Plan> plan = plan_by_tiles(options, desc, session);
-    if (!plan)
-        return plan.error().code == ExitCode::usage ? usage_error(options.budget ? "--budget" : "--budget-ms", plan.error().line())
-                                                    : plan.error();
+    if (!plan && plan.error().code == ExitCode::usage)
+        return usage_error(plan.error().field.empty() ? options.first_budget() : plan.error().field, plan.error().reason);
+    BN_TRY(plan);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     if (options.fixes_technique || options.fixed_samples)
         report.event("budget", options.fixes_technique ? fmt::format("chooses samples of {} alone", desc.technique)
                                                        : fmt::format("chooses techniques with {} samples alone", options.fixed_samples));
-    for (const std::string& line : plan_lines(*plan, {options.budget, options.budget_ms}))
+    for (const std::string& line : plan_lines(*plan, budget_of(options)))
         report.event("budget", line);
     if (plan->cpu_ms && *plan->cpu_ms > *options.budget_ms) {
         report.release();
@@ -99,7 +104,8 @@ void note_plan(const RenderOptions& options, const FrameDesc& desc, const std::o
 {
     figures.planned = !desc.by_material.empty();
     if (plan && plan->aside.empty())
-        figures.plan = PlanFigures{options.budget, options.budget_ms, plan->error, plan->cost, plan->default_cost, plan->cpu_ms};
+        figures.plan = PlanFigures{options.budget, options.budget_p99, options.budget_ms,  plan->error,
+                                   plan->p99,      plan->cost,         plan->default_cost, plan->cpu_ms};
 }
 
 Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Session& session, const Image& color,
@@ -118,7 +124,7 @@ Status verify_plan(const RenderOptions& options, const FrameDesc& desc, const Se
     std::string text = fmt::format("mean HDR-FLIP {:.4f}, p99 {:.4f}, against {} samples of the reference", errors.mean, errors.p99,
                                    reference->stats.sampling.samples);
     if (plan && plan->aside.empty())
-        text += fmt::format("; predicted {:.4f}", plan->error);
+        text += fmt::format("; predicted {:.4f}{}", plan->error, plan->p99 ? fmt::format(", p99 {:.4f}", *plan->p99) : "");
     report.figure("verified", text);
     return {};
 }

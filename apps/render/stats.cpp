@@ -55,9 +55,14 @@ Json stats_json(const RenderOptions& options, const RenderFigures& figures)
     json["samples"] = figures.planned ? Json() : Json(frame.samples);
     if (const std::optional<PlanFigures>& plan = figures.plan) {
         const auto value = [](const std::optional<double>& number) { return number ? Json(*number) : Json(); };
-        json["plan"] = {{"budget", value(plan->budget)},      {"budget_ms", value(plan->budget_ms)},
-                        {"predicted_flip", plan->predicted},  {"predicted_ms", value(plan->predicted_ms)},
-                        {"instructions", plan->instructions}, {"usual_instructions", plan->default_instructions}};
+        json["plan"] = {{"budget", value(plan->budget)},
+                        {"budget_p99", value(plan->budget_p99)},
+                        {"budget_ms", value(plan->budget_ms)},
+                        {"predicted_flip", plan->predicted},
+                        {"predicted_p99", value(plan->predicted_p99)},
+                        {"predicted_ms", value(plan->predicted_ms)},
+                        {"instructions", plan->instructions},
+                        {"usual_instructions", plan->default_instructions}};
     }
     json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();

@@ -13,8 +13,9 @@
 namespace burnish {
 
 struct PlanFigures {
-    std::optional<double> budget, budget_ms;               // mean HDR-FLIP; milliseconds of processor time
-    double predicted = 0.0;                                // mean HDR-FLIP
+    std::optional<double> budget, budget_p99, budget_ms; // mean HDR-FLIP; its 99th percentile; milliseconds of processor time
+    double predicted = 0.0;                              // mean HDR-FLIP
+    std::optional<double> predicted_p99;
     double instructions = 0.0, default_instructions = 0.0; // for shading, by the plan and by the default technique
     std::optional<double> predicted_ms;
 };

@@ -10,6 +10,7 @@ alone are judged; the reference's noise is measured and taken out, and cases wit
   - broken: share of pictures above the budget, and the worst picture's error over the budget;
   - factor: 98 % of the errors of the first two thirds lie below their prediction times the factor (split conformal prediction; Papadopoulos
     et al. 2002, "Inductive Confidence Machines for Regression"). The program multiplies its predictions by kPlanSafety;
+  - tails: the same two for the 99th percentile, by --budget-p99;
   - instructions: of the plan, over the cheapest setting that holds the budget for all materials of the case; over the cheapest single
     setting that holds the budget in 98 % of all cases; over the default technique.
 
@@ -27,6 +28,7 @@ import tempfile
 
 SIZE = "480x270"
 BUDGETS = (0.1, 0.03, 0.01)
+TAILS = (0.5, 0.3, 0.2)  # of the 99th percentile
 REFERENCE, NOISY = 4096, 1024  # samples of mc
 BUILTINS = ("teapot", "spheres", "sphere", "plate", "bumps", "lacquer", "shaderballs")
 UNSEEN_BUILTINS = ("bumps", "shaderballs")
@@ -69,8 +71,10 @@ class Bench:
             self.run("render", *case, *words, "-q", "-o", path)
         return path
 
-    def flip(self, reference, test):
-        return float(re.search(r"flip-hdr +mean ([\d.]+)", self.run("compare", reference, test, "--metric", "flip-hdr"))[1])
+    def flips(self, reference, test):
+        """The mean, and the 99th percentile."""
+        found = re.search(r"flip-hdr +mean ([\d.]+), p99 ([\d.]+)", self.run("compare", reference, test, "--metric", "flip-hdr"))
+        return float(found[1]), float(found[2])
 
     def measure(self, index, case):
         """{"plans": {budget: ...}, "fixed": [[error, instructions]...], "usual": instructions}"""
@@ -79,30 +83,36 @@ class Bench:
             return json.loads(kept.read_text())
         reference = self.picture("reference.pfm", case, "--technique", "mc", "--samples", REFERENCE)
         noisy = self.picture("noisy.pfm", case, "--technique", "mc", "--samples", NOISY, "--seed", 9)
-        noise = self.flip(reference, noisy) * (NOISY / REFERENCE) ** 0.5  # of the reference
+        noises = [flip * (NOISY / REFERENCE) ** 0.5 for flip in self.flips(reference, noisy)]  # of the reference
 
-        def error(path):
-            return max(0.0, self.flip(reference, path) ** 2 - noise**2) ** 0.5
+        def errors(path):
+            return [max(0.0, flip**2 - noise**2) ** 0.5 for flip, noise in zip(self.flips(reference, path), noises)]
 
-        row = {"case": case, "noise": noise, "plans": {}, "fixed": []}
-        for budget in BUDGETS:
+        def plan_by(option, budget):
             plan_file, test = self.folder / "plan.json", self.folder / "test.pfm"
             try:
-                self.run("render", *case, "-q", "--budget", budget, "--plan-out", plan_file, "-o", test)
+                self.run("render", *case, "-q", option, budget, "--plan-out", plan_file, "-o", test)
             except Failed as failed:
                 if "no setting reaches" not in str(failed):
                     raise
-                continue
+                return None
             plan = json.loads(plan_file.read_text())
-            if plan["materials"]:
-                row["plans"][str(budget)] = {"predicted": plan["predicted_flip"], "error": error(test), "instructions": plan["instructions"]}
+            return {**plan, "errors": errors(test)} if plan["materials"] else None
+
+        row = {"case": case, "noise": noises[0], "noise_p99": noises[1], "plans": {}, "tails": {}, "fixed": []}
+        for budget in BUDGETS:
+            if plan := plan_by("--budget", budget):
+                row["plans"][str(budget)] = {"predicted": plan["predicted_flip"], "error": plan["errors"][0], "instructions": plan["instructions"]}
                 row["usual"], row["materials"] = plan["usual_instructions"], plan["materials"]
+        for budget in TAILS:
+            if plan := plan_by("--budget-p99", budget):
+                row["tails"][str(budget)] = {"predicted": plan["predicted_p99"], "error": plan["errors"][1], "instructions": plan["instructions"]}
         for technique, samples in FIXED if row["plans"] else ():
             path = self.folder / "fixed.pfm"
             self.run("render", *case, "-q", "--technique", technique, "--samples", samples, "-o", path)
             cost = sum(s["instructions"] for m in row["materials"] for s in m.get("settings", ())
                        if (s["technique"], s["samples"]) == (technique, samples))
-            row["fixed"].append([error(path), cost])
+            row["fixed"].append([errors(path)[0], cost])
         row.pop("materials", None)
         for name in ("reference.pfm", "noisy.pfm"):
             (self.folder / name).unlink()
@@ -124,6 +134,12 @@ def table(rows):
              f"{quantile(ratios(rows), 0.5):.2f}.", "",
              "| budget | pictures | above it | worst over budget | cost over the cheapest fixed setting of a case: median (sum) | over the best single setting | "
              "over the default: median (sum) |", "| --- | --- | --- | --- | --- | --- | --- |"]
+    tails = [[(p["error"] / float(budget), p["error"] / p["predicted"]) for row in rows for b, p in row["tails"].items()
+              if b == budget and row["noise_p99"] < 0.5 * float(budget)] for budget in map(str, TAILS)]
+    lines[2:2] = ["", "| 99th percentile | pictures | above it | worst over budget | 98 % below their prediction times | median |",
+                  "| --- | --- | --- | --- | --- | --- |",
+                  *(f"| {budget} | {len(t)} | {sum(over > 1 for over, _ in t)} | {max(over for over, _ in t):.2f} | "
+                    f"{quantile([r for _, r in t], 0.98):.2f} | {quantile([r for _, r in t], 0.5):.2f} |" for budget, t in zip(TAILS, tails) if t)]
     for budget in map(str, BUDGETS):
         drawn = [row for row in rows if budget in row["plans"] and row["noise"] < 0.5 * float(budget)]
         if not drawn:
@@ -167,7 +183,8 @@ def main():
                 print(f"case {index}: {failed}", file=sys.stderr)
                 return 2
             print(f"{index + 1} of {options.cases}: {' '.join(case)}: "
-                  + ", ".join(f"{b}: {p['error']:.4f} of {p['predicted']:.4f}" for b, p in rows[-1]["plans"].items()), file=sys.stderr)
+                  + ", ".join(f"{b}: {p['error']:.4f} of {p['predicted']:.4f}" for b, p in rows[-1]["plans"].items())
+                  + "; p99 " + ", ".join(f"{b}: {p['error']:.3f} of {p['predicted']:.3f}" for b, p in rows[-1]["tails"].items()), file=sys.stderr)
     lines = table(rows)
     print("\n".join(lines))
     if options.markdown:

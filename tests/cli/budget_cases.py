@@ -39,6 +39,28 @@ def holds(bench):
     check(len(set(settings_of(bench, "plan.json"))) > 1, "all materials have one setting")
 
 
+@case("budget.of_the_percentile_holds_the_tail", budget=20)
+def percentile(bench):
+    """At most one pixel in a hundred errs more than the budget, beside a mean that one holds too."""
+    bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "reference.pfm").expect(0)
+    means = {}
+    for words in (("--budget-p99", "0.3"), ("--budget-p99", "0.3", "--budget", "0.02"), ("--budget", "0.02")):
+        done = bench.run(*POT, *words, "-o", "test.pfm", "--stats", "a.json").expect(0)
+        plan = stats_of(bench, "a.json")["plan"]
+        mean, p99 = map(float, re.search(r"flip-hdr +mean ([\d.]+), p99 ([\d.]+)", bench.run("compare", "reference.pfm", "test.pfm").out).groups())
+        means[words] = plan["instructions"]
+        if "--budget-p99" in words:
+            check(p99 <= 0.3 and plan["budget_p99"] == 0.3, f"{words}: p99 {p99}")
+            check("99th percentile of HDR-FLIP 0.3: predicted" in done.err and 0.2 < p99 / plan["predicted_p99"] < 1.3, f"{p99} {plan} {done.err}")
+        check("--budget" not in words or mean <= 0.02, f"{words}: mean {mean}")
+    alone, both, mean = means.values()
+    check(both >= max(alone, mean), f"{means}")
+    for words, needle in ((("--budget-p99", "0"), "no technique is exact"), (("--budget-p99", "1e-6"), "--budget-p99: no setting reaches"),
+                          (("--budget-p99", "1e-6", "--budget", "0.1"), "--budget-p99: no setting reaches"), (("--budget-p99", "nan"), "--budget-p99"),
+                          (("--budget-p99", "0.3", "--plan", "p.json"), "--plan"), (("--budget-p99", "0.3", "--risks", "-"), "--risks")):
+        bench.run(*POT, *words).expect(2).expect_one_line(needle)
+
+
 @case("budget.plans_are_drawn_again_with_the_same_pixels", budget=3)
 def replayed(bench):
     bench.run(*POT, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)

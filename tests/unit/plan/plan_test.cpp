@@ -32,7 +32,7 @@ FrameDesc desc_of(const Session& session)
 
 Plan plan_of(Session& session, double error)
 {
-    Result<Plan> plan = make_plan(session, desc_of(session), {error, {}}, "", 0);
+    Result<Plan> plan = make_plan(session, desc_of(session), {error, {}, {}}, "", 0);
     EXPECT_TRUE(plan) << (plan ? "" : plan.error().line());
     return plan ? *plan : Plan{};
 }
@@ -53,7 +53,11 @@ TEST(plan, a_smaller_budget_costs_more_and_errs_less)
 TEST(plan, is_equal_for_every_number_of_threads_and_instruction_set)
 {
     const PlanSubject none;
-    const std::string expected = plan_json(plan_of(spheres(), 0.03), none);
+    const auto plans_of = [&](Session& session) {
+        const Result<Plan> tail = make_plan(session, desc_of(session), {{}, 0.3, {}}, "", 0);
+        return plan_json(plan_of(session, 0.03), none) + (tail ? plan_json(*tail, none) : tail.error().line());
+    };
+    const std::string expected = plans_of(spheres());
     for (const Isa isa : program_isas()) {
         if (!isa_available(isa))
             continue;
@@ -61,28 +65,28 @@ TEST(plan, is_equal_for_every_number_of_threads_and_instruction_set)
         options.isa = isa;
         Result<Session> other = Session::open("builtin:spheres", "builtin:studio", small_environment(isa == best_isa() ? 1 : 3), options);
         ASSERT_TRUE(other);
-        EXPECT_EQ(plan_json(plan_of(*other, 0.03), none), expected) << isa_name(isa);
+        EXPECT_EQ(plans_of(*other), expected) << isa_name(isa);
     }
 }
 
 TEST(plan, keeps_what_the_user_fixed)
 {
-    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {0.5, {}}, "lobe_line", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {0.5, {}, {}}, "lobe_line", 0);
     ASSERT_TRUE(plan);
     for (const PlannedMaterial& m : plan->materials)
         EXPECT_TRUE(m.share == 0.0 || m.chosen.setting.technique == "lobe_line") << m.chosen.setting.technique;
-    const Result<Plan> none = make_plan(spheres(), desc_of(spheres()), {0.5, {}}, "filtered_is_ggx", 0);
+    const Result<Plan> none = make_plan(spheres(), desc_of(spheres()), {0.5, {}, {}}, "filtered_is_ggx", 0);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ExitCode::usage);
 }
 
 TEST(plan, budgets_out_of_reach_are_errors)
 {
-    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {1e-7, {}}, "", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {1e-7, {}, {}}, "", 0);
     ASSERT_FALSE(plan);
     EXPECT_EQ(plan.error().code, ExitCode::usage);
     EXPECT_NE(plan.error().reason.find("no setting reaches"), std::string::npos);
-    const Result<Plan> fixed = make_plan(spheres(), desc_of(spheres()), {0.01, {}}, "split_isotropic", 0);
+    const Result<Plan> fixed = make_plan(spheres(), desc_of(spheres()), {0.01, {}, {}}, "split_isotropic", 0);
     ASSERT_FALSE(fixed);
     EXPECT_NE(fixed.error().reason.find("no setting reaches"), std::string::npos);
 }
@@ -91,7 +95,7 @@ TEST(plan, more_time_errs_less)
 {
     double error = 1.0;
     for (const double ms : {1e-3, 1e3, 1e6}) {
-        const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {{}, ms}, "", 0);
+        const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {{}, {}, ms}, "", 0);
         ASSERT_TRUE(plan);
         ASSERT_TRUE(plan->cpu_ms);
         EXPECT_GT(*plan->cpu_ms, 0.0);
@@ -101,11 +105,41 @@ TEST(plan, more_time_errs_less)
     EXPECT_LT(error, 0.02) << "mc with many samples fits into a quarter of an hour";
 }
 
+TEST(plan, a_percentile_holds_the_tail_and_a_smaller_one_costs_more)
+{
+    double cost = 0.0;
+    for (const double p99 : {0.6, 0.3, 0.15}) {
+        const Result<Plan> plan = make_plan(spheres(), desc_of(spheres()), {{}, p99, {}}, "", 0);
+        ASSERT_TRUE(plan) << plan.error().line();
+        ASSERT_TRUE(plan->p99);
+        EXPECT_LE(*plan->p99 * kTailSafety, p99);
+        EXPECT_GT(plan->cost, cost);
+        cost = plan->cost;
+    }
+    const Result<Plan> none = make_plan(spheres(), desc_of(spheres()), {{}, 1e-6, {}}, "", 0);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().field, "--budget-p99");
+}
+
+TEST(plan, beside_a_mean_a_percentile_only_adds)
+{
+    const Plan mean = plan_of(spheres(), 0.05);
+    const Result<Plan> loose = make_plan(spheres(), desc_of(spheres()), {0.05, 1.0, {}}, "", 0);
+    const Result<Plan> both = make_plan(spheres(), desc_of(spheres()), {0.05, 0.15, {}}, "", 0);
+    const Result<Plan> tail = make_plan(spheres(), desc_of(spheres()), {{}, 0.15, {}}, "", 0);
+    ASSERT_TRUE(loose && both && tail);
+    EXPECT_EQ(loose->cost, mean.cost) << "a percentile that holds anyway changes nothing";
+    EXPECT_LE(both->error * kPlanSafety, 0.05);
+    EXPECT_LE(*both->p99 * kTailSafety, 0.15);
+    EXPECT_GT(both->cost, mean.cost);
+    EXPECT_GE(both->cost, tail->cost);
+}
+
 TEST(plan, stands_aside_for_small_pictures)
 {
     FrameDesc desc = desc_of(spheres());
     desc.width = desc.height = 64;
-    const Result<Plan> plan = make_plan(spheres(), desc, {0.03, {}}, "", 0);
+    const Result<Plan> plan = make_plan(spheres(), desc, {0.03, {}, {}}, "", 0);
     ASSERT_TRUE(plan);
     EXPECT_FALSE(plan->aside.empty());
     EXPECT_TRUE(plan->settings().empty());
