@@ -7,7 +7,8 @@ import shlex
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr",
-             "goldens.json": "goldens.json", "brushed.mtlx": "materials/brushed.mtlx"}  # placeholder: file below tests/data
+             "goldens.json": "goldens.json", "brushed.mtlx": "materials/brushed.mtlx",
+             "ring.glb": "models/ring.glb"}  # placeholder: file below tests/data
 BY_OTHERS = ("serve.png", "engines.png", "conform_page.png", "square.png", "lamp_python.png")  # pictures that no command writes: pages in a browser, an example
 LAB = ("atlas", "conform", "race", "plot", "train")  # run by burnish-lab
 
