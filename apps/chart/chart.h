@@ -52,6 +52,7 @@ class Chart {
     std::vector<Spot> spots() const;
     Status at_place(const Spot& spot, const std::function<Status(const Place&)>& use);
     Status measure_place(const Place& place);
+    Result<std::vector<Setting>> planned_settings(const Place& place);
     std::string reference_name(const Place& place) const;
     std::string reference_picture(const Place& place) const;
     std::string key_of_piece(const Place& place) const;

@@ -29,6 +29,7 @@ Examples:
   burnish chart -o report
   burnish chart --mip --maps textures -o report
   burnish chart lamp.glb --env workshop.hdr --env builtin:sky --size 1280x720 -o report
+  burnish chart --budget 0.003,0.01,0.03 -o report
   burnish chart --techniques bent_normal,major_axis --sweep samples=2,4,8,16,32 -o report
   burnish chart --sweep samples=16 --sweep roughness=0.1,0.3,0.5,0.7 --sweep anisotropy=-0.9,-0.5,0,0.5,0.9 -o report)";
 
@@ -70,6 +71,8 @@ std::string live_html(const ChartReport& chart, const ChartOptions& options, con
     LiveWish wish;
     wish.renderer_folder = options.renderer, wish.limits = options.base.limits, wish.threads = options.base.threads;
     for (const ChartRow& row : chart.rows) {
+        if (row.setting.budget > 0.0)
+            continue; // pages draw one technique for all materials
         DrawRequest request;
         request.scene = row.scene, request.environment = row.env, request.width = chart.error_width, request.height = chart.error_height;
         for (const auto& [name, value] : {std::pair{"--glass", "interface"}, {"--floor", "off"}, {"--resolve", "linear"}})
@@ -94,6 +97,16 @@ std::string live_html(const ChartReport& chart, const ChartOptions& options, con
                         : parts->left_out.empty() ? ": an option reads a file"
                                                   : ": " + parts->left_out.front().second.line()));
     return parts ? parts->html : "";
+}
+
+// Returns the fastest settings within errors, for a chart of one place. The page has those of several.
+std::vector<std::string> wanted_lines(const ChartReport& chart)
+{
+    std::vector<const ChartRow*> rows;
+    for (const ChartRow& row : chart.rows)
+        rows.push_back(&row);
+    return chart.references.size() == 1 ? wanted_settings(rows, chart.references.begin()->second.noise, chart.wanted)
+                                        : std::vector<std::string>();
 }
 
 Status write_report(const ChartReport& chart, const std::string& live, const ChartCheckpoint& checkpoint, Report& report)
@@ -151,6 +164,8 @@ int run_chart(const ChartArguments& arguments, const OptionTable& given)
     const ChartReport& chart = measured->report;
     for (const ChartRow& row : chart.rows)
         report.detail("row", describe(row));
+    for (const std::string& line : wanted_lines(chart))
+        report.event("wanted", line);
     if (const std::optional<double> others = chart.machine.others; others.value_or(0.0) > kBusy)
         report.warning(
             fmt::format("other programs took {:.0f} % of the cores while frames were timed: times are too long", 100.0 * *others));

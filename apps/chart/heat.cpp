@@ -141,7 +141,7 @@ void draw_scale(Drawing& out, const Map& map, double y, double width)
 Drawing plot_heat(const RowList& rows, const std::string& technique, bool difference)
 {
     const auto roughness = values_of(rows, &Cell::roughness), anisotropy = values_of(rows, &Cell::anisotropy);
-    if (roughness.size() * anisotropy.size() < 2 || (difference && technique == kComparedWith))
+    if (technique == kPlanned || roughness.size() * anisotropy.size() < 2 || (difference && technique == kComparedWith))
         return {};
     if (difference && std::none_of(rows.begin(), rows.end(), [](const ChartRow* row) { return row->setting.technique == kComparedWith; }))
         return {};

@@ -12,6 +12,7 @@
 #include "apps/cli/words.h"
 #include "apps/options/parameters.h"
 #include "apps/options/scene_view.h"
+#include "apps/plan/plan.h"
 #include "apps/render/cached_reference.h"
 #include "apps/render/stats.h"
 #include "apps/report/pictures.h"
@@ -68,11 +69,13 @@ Status Chart::load_all()
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
     out_.frame = frame;
     out_.display_flip = options_.display_flip;
+    out_.wanted = options_.budgets.empty() ? kWantedErrors : options_.budgets;
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     if (options_.runs == 0)
         out_.machine = {version(), "", "", 0, {}}; // times alone depend on it
-    picture_width_ = picture_width(scenes_.size() * environments_.size() * options_.cells.size() * settings_.size());
+    picture_width_ =
+        picture_width(scenes_.size() * environments_.size() * options_.cells.size() * (settings_.size() + options_.budgets.size()));
     return {};
 }
 
@@ -89,11 +92,12 @@ std::vector<Chart::Spot> Chart::spots() const
 Status Chart::measure()
 {
     const std::size_t places = scenes_.size() * environments_.size() * options_.cells.size();
-    report_.event("chart", fmt::format("{}: {} of {} at {}, {} each", counted(places * settings_.size(), "row"),
-                                       counted(settings_.size(), "setting"), counted(options_.techniques.size(), "technique"),
-                                       counted(places, "place"), counted(static_cast<std::uint64_t>(options_.runs), "run")));
-    progress_ =
-        std::make_unique<Progress>("chart", places * settings_.size() * static_cast<std::size_t>(options_.runs + 1), options_.base.quiet);
+    report_.event("chart", fmt::format("{}: {} of {} at {}, {} each", counted(places * (settings_.size() + options_.budgets.size()), "row"),
+                                       counted(settings_.size() + options_.budgets.size(), "setting"),
+                                       counted(options_.techniques.size(), "technique"), counted(places, "place"),
+                                       counted(static_cast<std::uint64_t>(options_.runs), "run")));
+    progress_ = std::make_unique<Progress>(
+        "chart", places * (settings_.size() + options_.budgets.size()) * static_cast<std::size_t>(options_.runs + 1), options_.base.quiet);
     for (const Spot& spot : spots()) {
         BN_TRY(at_place(spot, [&](const Place& place) { return measure_place(place); }));
         BN_TRY(checkpoint_->save());
@@ -163,7 +167,10 @@ Status Chart::measure_place(const Place& place)
     // Find rows without errors
     std::vector<ChartRow> rows;
     bool complete = true; // every row has been compared with the reference
-    for (const Setting& setting : settings_) {
+    Result<std::vector<Setting>> settings = planned_settings(place);
+    BN_TRY(settings);
+    settings->insert(settings->begin(), settings_.begin(), settings_.end());
+    for (const Setting& setting : *settings) {
         rows.push_back(new_row(place, setting));
         complete = complete && rows.back().measured.has_errors;
     }
@@ -200,6 +207,26 @@ Status Chart::measure_place(const Place& place)
     return {};
 }
 
+// Plans the timed frame for each budget. A budget out of reach gets no row.
+Result<std::vector<Setting>> Chart::planned_settings(const Place& place)
+{
+    std::vector<Setting> settings;
+    FrameDesc desc = timed_desc_of(place, settings_.front());
+    desc.technique = FrameDesc().technique, desc.samples = automatic_technique().default_samples;
+    for (const double budget : options_.budgets) {
+        const Result<Plan> plan = make_plan(place.tile, desc, {budget, {}, {}}, "", 0);
+        if (!plan && plan.error().code != ExitCode::usage)
+            return plan.error();
+        const std::string reason = !plan ? plan.error().reason : plan->aside;
+        if (reason.empty())
+            settings.push_back({kPlanned, 1, false, budget, plan->settings()});
+        else
+            report_.warning(fmt::format("budget {:g} has no row for {}: {}", budget, base_name(place.scene.data->name), reason));
+        progress_->step(reason.empty() ? 0 : static_cast<std::size_t>(options_.runs + 1));
+    }
+    return settings;
+}
+
 Result<Frame> Chart::render_reference(const Place& place, ReferenceNoise& noise)
 {
     ReferenceOptions options;
@@ -228,6 +255,10 @@ FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
     FrameDesc desc = place.desc;
     desc.technique = setting.technique;
     desc.samples = setting.samples;
+    if (setting.budget > 0.0) {
+        desc.technique = FrameDesc().technique, desc.samples = automatic_technique().default_samples;
+        desc.by_material = setting.by_material;
+    }
     return desc;
 }
 
@@ -251,8 +282,12 @@ ChartRow Chart::new_row(const Place& place, const Setting& setting) const
                     options_.display_flip ? fmt::format("{} flip {} {}", describe(place.cell), options_.base.exposure_ev,
                                                         static_cast<int>(options_.base.resolve))
                                           : describe(place.cell));
+    std::string planned;
+    for (const MaterialTechnique& m : desc.by_material)
+        planned += fmt::format(" {} {}", m.technique, m.samples);
     ChartRow row;
-    row.key = hash_text(hash_bytes(text.data(), text.size()));
+    const std::uint64_t plain = hash_bytes(text.data(), text.size());
+    row.key = hash_text(planned.empty() ? plain : hash_bytes(planned.data(), planned.size(), plain));
     row.scene = place.scene.data->name, row.env = place.env;
     row.setting = setting, row.cell = place.cell;
     row.measured = checkpoint_->row(row.key);

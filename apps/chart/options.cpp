@@ -30,6 +30,29 @@ Value sweeps(Sweeps& to)
     return value;
 }
 
+Value budgets(std::vector<double>& to)
+{
+    Value value;
+    value.set = [&to](const std::string&, const std::vector<std::string>& texts) { return parse_budgets(texts.back(), to); };
+    value.get = [] { return std::string(); };
+    return value;
+}
+
+// Checks what a planned row needs.
+Status check_budgets(const ChartOptions& out)
+{
+    if (out.budgets.empty())
+        return {};
+    if (any_pieces(out.pieces))
+        return usage_error("--budget", "cannot be combined with pieces");
+    if (out.display_flip)
+        return usage_error("--budget", "holds HDR-FLIP: it cannot be combined with --metric flip");
+    for (const RenderOptions& cell : out.cell_options)
+        if (cell.frame.brdf != FrameDesc().brdf)
+            return usage_error("--brdf", "budgets are for the default model");
+    return {};
+}
+
 Status check_lobes(const FrameDesc& frame, const std::vector<std::string>& techniques)
 {
     for (const std::string& technique : techniques)
@@ -144,6 +167,8 @@ OptionTable chart_option_table(ChartArguments& to)
           "Values to chart: samples=N,N,... (1,2,4,8,16,32,64), roughness=R,R,..., anisotropy=A,A,... or any option of pictures; may be "
           "several",
           sweeps(o.sweeps), "as the scene has it"},
+         {"--budget", "E,E,...", "Also chart frames by plans for these mean HDR-FLIP errors: see burnish render --budget",
+          budgets(o.budgets), ""},
          {"--metric", "NAME", "Measure of errors: {}; flip judges 8-bit pictures after --exposure and the tone curve",
           choice(o.display_flip, {"flip-hdr", "flip"})},
          {"--reference-textures", "NAME", "Texture reads of references: full (at each ray's hit) or footprint (filtered as in techniques)",
@@ -203,6 +228,7 @@ Result<ChartOptions> check_chart_options(const ChartArguments& in, const OptionT
     remove_repeated(out.envs);
     BN_TRY(check_pairs(in, given, out));
     BN_TRY(check_cells(in, given, out));
+    BN_TRY(check_budgets(out));
     BN_TRY(check_error_size(in.error_size, given.given("--error-size"), out));
     if (!reference_available())
         return Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which the reference of a chart needs"};

@@ -15,6 +15,7 @@ struct ChartOptions {
     std::vector<std::string> scenes = {"builtin:spheres"}, envs = {"builtin:studio"};
     std::vector<std::string> techniques = technique_names();
     Sweeps sweeps;
+    std::vector<double> budgets;                             // of planned rows; mean HDR-FLIP
     std::vector<Cell> cells;                                 // one a sweep point
     std::vector<RenderOptions> cell_options;                 // `base` with the changes of each cell
     bool sweeps_environments = false, sweeps_scenes = false; // sweeps contain environment or scene options

@@ -114,6 +114,8 @@ std::string heats_html(const RowList& rows)
 
 std::string setting_text(const ChartRow& row)
 {
+    if (row.setting.budget > 0.0)
+        return fmt::format("budget {:g}", row.setting.budget);
     return row.setting.sampled ? fmt::format("{} sample{}", row.setting.samples, row.setting.samples == 1 ? "" : "s") : "one fetch";
 }
 
@@ -137,13 +139,13 @@ std::string table_html(const RowList& rows)
         "scope=\"col\">Pareto</th></tr>\n";
     for (const ChartRow* row : rows) {
         const RowErrors& e = row->measured.errors;
-        out +=
-            fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
-                        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(row->setting.technique), row->setting.sampled ? std::to_string(row->setting.samples) : "",
-                        escaped(describe(row->cell)), number(ms_of(*row)), number(p95_of(*row)), number(cpu_ms_of(*row)),
-                        number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs), known(100.0 * e.pattern_rms),
-                        known(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
+        out += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+            "<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            escaped(row->setting.budget > 0.0 ? describe(row->setting) : row->setting.technique),
+            row->setting.sampled ? std::to_string(row->setting.samples) : "", escaped(describe(row->cell)), number(ms_of(*row)),
+            number(p95_of(*row)), number(cpu_ms_of(*row)), number(e.flip_mean), number(e.flip_p99), number(e.rel_mse), number(e.max_abs),
+            known(100.0 * e.pattern_rms), known(std::fmax(e.quad_ratio_x, e.quad_ratio_y)), e.nan_pixels, row->pareto ? "yes" : "");
     }
     return out + "</table></div></details>\n";
 }
@@ -159,7 +161,17 @@ std::string noise_html(const ReferenceNoise& noise)
         noise.samples, 100.0 * noise.relative_error, number(noise.flip));
 }
 
-std::string pair_html(const PairRows& pair, std::size_t& place_number)
+// Says in words which setting the place wants at which error.
+std::string wanted_html(const PlaceRows& place, const std::vector<double>& errors)
+{
+    std::string items;
+    for (const std::string& line : wanted_settings(place.rows, place.reference->noise, errors))
+        items += fmt::format("<li>{}</li>\n", escaped(line));
+    return items.empty() ? ""
+                         : "<p>The fastest setting of this chart within a mean error:</p>\n<ul class=\"wanted\">\n" + items + "</ul>\n";
+}
+
+std::string pair_html(const PairRows& pair, const std::vector<double>& wanted, std::size_t& place_number)
 {
     std::string out = fmt::format("<section class=\"pair\">\n<h2>{} under {}</h2>\n", escaped(pair.scene), escaped(pair.env));
     if (pair.places.size() > 1) {
@@ -170,6 +182,7 @@ std::string pair_html(const PairRows& pair, std::size_t& place_number)
     }
     for (const PlaceRows& place : pair.places) {
         out += fmt::format("<div class=\"place\" data-place=\"{}\"{}>\n", place_number++, &place == &pair.places.front() ? "" : " hidden");
+        out += wanted_html(place, wanted);
         out += noise_html(place.reference->noise);
         out += charts_html(place.rows);
         out += "<h3>Pictures</h3>\n<p>In a picture: <kbd>+</kbd> <kbd>-</kbd> or a double click zoom, dragging or arrow keys move, "
@@ -294,7 +307,7 @@ Result<std::string> chart_page(const ChartReport& report, const std::string& liv
     page += heading(report);
     std::size_t place_number = 0;
     for (const PairRows& pair : pairs)
-        page += pair_html(pair, place_number);
+        page += pair_html(pair, report.wanted, place_number);
     page +=
         fmt::format("</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
                     "{}<script>\n{}</script>\n</body>\n</html>\n",

@@ -6,7 +6,6 @@
 
 #include "apps/cli/parse.h"
 #include "apps/cli/report.h"
-#include "raster/frame/frame.h"
 
 namespace burnish {
 namespace {
@@ -80,6 +79,29 @@ Status parse_sweep(const std::string& text, Sweeps& into)
     return {};
 }
 
+std::string describe(const Setting& setting)
+{
+    if (setting.budget > 0.0)
+        return fmt::format("{}, budget {:g}", setting.technique, setting.budget);
+    return setting.sampled ? fmt::format("{}, {} sample{}", setting.technique, setting.samples, setting.samples == 1 ? "" : "s")
+                           : setting.technique;
+}
+
+Status parse_budgets(const std::string& text, std::vector<double>& into)
+{
+    into.clear();
+    for (const std::string& part : split(text, ',')) {
+        const Result<double> value = parse_number("--budget", part, 0.0, 1.0);
+        BN_TRY(value);
+        if (!(*value > 0.0))
+            return usage_error("--budget", "0: no technique is exact; mc comes near with many samples");
+        add_once(into, *value);
+    }
+    if (into.size() > kMaxValues)
+        return usage_error("--budget", fmt::format("{} values, more than {}", into.size(), kMaxValues));
+    return {};
+}
+
 std::vector<Setting> settings_of(const std::vector<std::string>& names, const std::vector<int>& samples)
 {
     std::vector<Setting> settings;
@@ -150,8 +172,10 @@ std::string describe(const Cell& cell)
 
 int representative_samples(const std::string& technique, const std::vector<int>& samples)
 {
-    const int own = find_technique(technique)->default_samples;
     int best = samples.front();
+    if (technique == kPlanned)
+        return best;
+    const int own = find_technique(technique)->default_samples;
     for (const int n : samples)
         if (std::abs(n - own) < std::abs(best - own))
             best = n;

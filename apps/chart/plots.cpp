@@ -202,11 +202,9 @@ RowList rows_of(const RowList& rows, const std::string& technique)
 
 std::string describe(const ChartRow& row)
 {
-    const std::string samples =
-        row.setting.sampled ? fmt::format(", {} sample{}", row.setting.samples, row.setting.samples == 1 ? "" : "s") : "";
     const std::string flip = std::isfinite(flip_of(row)) ? "FLIP " + number(flip_of(row))
                                                          : fmt::format("{} pixels are NaN or Inf", row.measured.errors.nan_pixels);
-    return fmt::format("{}{}: {} ms, {}", row.setting.technique, samples, number(ms_of(row)), flip);
+    return fmt::format("{}: {} ms, {}", describe(row.setting), number(ms_of(row)), flip);
 }
 
 Mark mark_of(const std::string& technique)
@@ -226,7 +224,9 @@ Mark mark_of(const std::string& technique)
             return mark;
         ++mark.shape;
     }
-    mark.family = static_cast<int>(families.size()), mark.relative = 0; // auto, which chooses one of them
+    // auto, which chooses one of them, and plans, which choose several
+    const int more = technique == kPlanned ? 1 : 0;
+    mark.family = static_cast<int>(families.size()) + more, mark.relative = 0, mark.shape += more;
     return mark;
 }
 
@@ -296,6 +296,8 @@ Drawing plot_sweep(const RowList& rows, const std::string& option, Layout layout
     Plot plot{"Error by " + option, option, "mean FLIP error", {}, false, false, true};
     bool any = false;
     for (const std::string& technique : techniques_of(rows)) {
+        if (technique == kPlanned)
+            continue; // plans change along the sweep
         Curve curve{technique, {}, false};
         std::vector<int> samples;
         for (const ChartRow* row : rows_of(rows, technique))
@@ -322,6 +324,8 @@ Drawing plot_samples(const RowList& rows, Quantity quantity, Layout layout)
               true};
     bool any = false;
     for (const std::string& technique : techniques_of(rows)) {
+        if (technique == kPlanned)
+            continue; // its materials have counts of their own
         Curve curve{technique, {}, false};
         for (const ChartRow* row : rows_of(rows, technique)) {
             curve.level = !row->setting.sampled;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/core.h>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,7 @@ Json errors_json(const RowErrors& e)
 Json settings_json(const ChartReport& report, const ChartRow& row)
 {
     Json json = {{"samples", row.setting.sampled ? Json(row.setting.samples) : Json()},
+                 {"budget", row.setting.budget > 0.0 ? Json(row.setting.budget) : Json()},
                  {"roughness", override_json(row.cell.roughness)},
                  {"anisotropy", override_json(row.cell.anisotropy)},
                  {"msaa", report.msaa},
@@ -127,6 +130,28 @@ void mark_pareto(std::vector<ChartRow>& rows)
         for (std::size_t k = 0; k < members.size(); ++k)
             rows[members[k]].pareto = front[k];
     }
+}
+
+std::vector<std::string> wanted_settings(const std::vector<const ChartRow*>& rows, const ReferenceNoise& noise, std::vector<double> errors)
+{
+    std::vector<std::string> lines;
+    std::sort(errors.begin(), errors.end(), std::greater<>());
+    for (const double error : errors) {
+        const ChartRow* best = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        for (const ChartRow* row : rows) {
+            least = flip_of(*row) < least ? flip_of(*row) : least;
+            if (!row->measured.ms.empty() && flip_of(*row) <= error && (!best || ms_of(*row) < ms_of(*best)))
+                best = row;
+        }
+        if (rows.empty() || rows.front()->measured.ms.empty())
+            return {};
+        std::string line = fmt::format("error {:g}: ", error);
+        line += best ? fmt::format("{}, {:.3g} ms, FLIP {:.3g}", describe(best->setting), ms_of(*best), flip_of(*best))
+                     : fmt::format("none of these settings; the least is {:.3g}", least);
+        lines.push_back(line + (noise.flip > error ? "; the reference's own noise is larger" : ""));
+    }
+    return lines;
 }
 
 std::string chart_results_json(const ChartResults& results)

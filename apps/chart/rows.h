@@ -62,6 +62,7 @@ struct ChartReport {
     int width = 0, height = 0, msaa = 0, runs = 0; // width, height: the timed frames', pixels
     int error_width = 0, error_height = 0;         // pictures compared with the reference
     std::uint64_t reference_samples = 0;
+    std::vector<double> wanted;                       // mean errors that the page names settings for
     bool display_flip = false;                        // errors are LDR-FLIP of pictures as they are shown; else HDR-FLIP
     FrameDesc frame;                                  // all rows share its technique parameters
     std::vector<ChartRow> rows;                       // by scene, environment, cell, technique, samples
@@ -80,6 +81,10 @@ double cpu_ms_of(const ChartRow& row); // median
 // it.
 std::vector<bool> pareto_front(const std::vector<std::pair<double, double>>& points);
 void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and mean FLIP
+
+// Returns sentences on the fastest row of a place within each error (mean FLIP), largest error first. Empty without times.
+std::vector<std::string> wanted_settings(const std::vector<const ChartRow*>& rows, const ReferenceNoise& noise, std::vector<double> errors);
+inline const std::vector<double> kWantedErrors = {0.03, 0.01, 0.003}; // unless budgets say otherwise
 
 inline constexpr int kChartResultsVersion = 3; // file layout
 std::string chart_results_json(const ChartResults& results);

@@ -51,6 +51,28 @@ def busy(bench):
     check("Other programs took" in (bench.folder / "r/report.html").read_text(), "the page does not say that the machine was busy")
 
 
+@case("chart.of_budgets_has_planned_rows", budget=20)
+def budgets(bench):
+    """A plan's row stands beside those of techniques, and the page says which setting is the fastest within each error."""
+    needs_embree(bench)
+    words = ("chart", "builtin:teapot", "--size", "320x180", "--error-size", "128x72", "--msaa", "2", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64",
+             "--techniques", "bent_normal,mc", "--sweep", "samples=16")
+    done = bench.run(*words, "--runs", "1", "--budget", "0.2,0.08,1e-4", "-o", "r").expect(0)
+    check("budget 0.0001 has no row" in done.err and re.search(r"wanted +error 0.2: (planned, budget 0.2|bent_normal), [\d.e+]+ ms, FLIP", done.err), done.describe())
+    rows = rows_of(bench, "r")
+    check([(row["technique"], row["settings"]["budget"]) for row in rows] == [("bent_normal", None), ("mc", None), ("planned", 0.2), ("planned", 0.08)], rows)
+    check(0 < rows[3]["flip_mean"] < rows[2]["flip_mean"] <= 0.2, rows)
+    page = (bench.folder / "r/report.html").read_text()
+    check("The fastest setting of this chart within a mean error" in page and "error 0.0001: none of these settings" in page and "budget 0.08" in page, "the page")
+    # Rows come from the checkpoint, and another plan is another row
+    again = bench.run(*words, "--runs", "1", "--budget", "0.2,0.08", "-o", "r").expect(0)
+    check([row["flip_mean"] for row in rows_of(bench, "r")] == [row["flip_mean"] for row in rows] and "reference " not in again.err, again.describe())
+    for more, needle in ((("--budget", "0"), "no technique is exact"), (("--budget", "2"), "--budget"), (("--budget", "0.1,x"), "--budget"),
+                         (("--budget", "0.1", "--metric", "flip"), "--metric flip"), (("--budget", "0.1", "--pieces"), "pieces"),
+                         (("--budget", "0.1", "--brdf", "beckmann"), "--brdf"), (("--budget", "0.1", "--sweep", "brdf=beckmann,ggx_aniso"), "--brdf")):
+        bench.run(*words, *more, "-o", "n").expect(2).expect_one_line(needle)
+
+
 @case("chart.rows_and_files_hold_every_setting", "input", tier="nightly")
 def rows(bench):
     needs_embree(bench)

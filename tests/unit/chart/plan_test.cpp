@@ -59,6 +59,15 @@ TEST(chart_plan, wrong_sweeps_are_refused_with_what_was_expected)
     EXPECT_NE(fault_of(many).find("65 values"), std::string::npos);
 }
 
+TEST(chart_plan, budgets_are_errors_above_0)
+{
+    std::vector<double> budgets;
+    ASSERT_TRUE(parse_budgets("0.03,0.01,0.03", budgets));
+    EXPECT_EQ(budgets, (std::vector<double>{0.03, 0.01}));
+    for (const char* wrong : {"", "0", "-1", "2", "nan", "a", "0.1,,0.2", "0.1;0.2"})
+        EXPECT_FALSE(parse_budgets(wrong, budgets)) << wrong;
+}
+
 TEST(chart_plan, techniques_by_name_in_the_registrys_order)
 {
     const auto all = parse_techniques("all"), two = parse_techniques("major_axis,bent_normal");

@@ -60,6 +60,21 @@ TEST(chart_rows, rows_are_compared_with_those_of_their_place_only)
     EXPECT_TRUE(rows[2].pareto);
 }
 
+TEST(chart_rows, the_fastest_within_an_error_is_named)
+{
+    const std::vector<ChartRow> all = {test::row("a", "bent_normal", 1, 2.0, 0.05), test::row("b", "major_axis", 4, 3.0, 0.02),
+                                       test::row("c", "major_axis", 16, 2.5, 0.02)};
+    std::vector<const ChartRow*> rows;
+    for (const ChartRow& row : all)
+        rows.push_back(&row);
+    const std::vector<std::string> lines = wanted_settings(rows, {4096, 0.01, 0.003}, {0.001, 0.1, 0.03});
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(lines[0], "error 0.1: bent_normal, 2 ms, FLIP 0.05");
+    EXPECT_EQ(lines[1], "error 0.03: major_axis, 16 samples, 2.5 ms, FLIP 0.02");
+    EXPECT_EQ(lines[2], "error 0.001: none of these settings; the least is 0.02; the reference's own noise is larger");
+    EXPECT_TRUE(wanted_settings({}, {}, {0.1}).empty());
+}
+
 TEST(chart_rows, kept_rows_come_back_as_they_were)
 {
     ChartResults kept;
