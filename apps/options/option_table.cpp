@@ -106,7 +106,8 @@ std::vector<Option> picture_rows(RenderArguments& to)
         {"--floor", "NAME",
          "Floor below the scene, with soft contact shadows: off, shadow (fades into the environment), stage (bends up into a backdrop) or "
          "mirror (a stage that reflects the scene)",
-         choice(to.plain.floor, {"off", "shadow", "stage", "mirror"}), "stage for most built-in scenes, else off"},
+         choice(to.plain.floor, {"off", "shadow", "stage", "mirror"}),
+         "stage for most built-in scenes (shadow with --diffuse ashikhmin-shirley), else off"},
         {"--light", "SPEC", "Area light, such as sphere:points=0,1,0:radius=0.1:radiance=9,9,9; may be given several times",
          area_lights(to.plain.lights)},
         {"--as-table", "FILE|FOLDER",

@@ -236,6 +236,12 @@ bool changes_scene(const Option& option)
     return option.group == "Materials" || option.name == "--time" || option.name == "--animation" || option.name == "--variant";
 }
 
+// True if the diffuse part falls to 0 at grazing angles. A stage's backdrop is shaded as if it lay flat.
+static bool darkens_backdrops(const RenderOptions& options)
+{
+    return options.frame.diffuse_model != 0; // Ashikhmin and Shirley
+}
+
 FloorSettings floor_of(const RenderOptions& options)
 {
     FloorSettings floor;
@@ -255,7 +261,8 @@ FloorSettings floor_of(const RenderOptions& options)
         break;
     case FloorChoice::automatic: {
         const bool shown = options.frame.background && options.scene.starts_with("builtin:");
-        floor.kind = shown && builtin_is_staged(options.scene.substr(8)) ? FloorKind::stage : FloorKind::off;
+        if (shown && builtin_is_staged(options.scene.substr(8)))
+            floor.kind = darkens_backdrops(options) ? FloorKind::shadow : FloorKind::stage;
         break;
     }
     }
@@ -297,6 +304,8 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
     BN_TRY(check_budget(given, out));
     BN_TRY(check_camera(out));
     warn_of_no_effect(given, out);
+    if (darkens_backdrops(out) && (out.floor == FloorChoice::stage || out.floor == FloorChoice::mirror))
+        out.warnings.push_back("--diffuse ashikhmin-shirley turns the backdrop of the stage dark; --floor shadow has no backdrop");
     out.environment.quiet = out.quiet;
     out.env_given = given.given("--env");
     return out;

@@ -18,6 +18,7 @@
 #include "core/image/metrics/metrics.h"
 #include "core/jobs/activity.h"
 #include "core/simd/cpu.h"
+#include "raster/session/shadows.h"
 #include "raster/tile/tile_renderer.h"
 
 namespace burnish {
@@ -38,6 +39,7 @@ Examples:
   burnish parity --pipeline forward --sampler native --msaa 4
   burnish parity builtin:teapot --technique major_axis --glsl edited.glsl
 
+--shadows compares the shadowed picture too: the device draws it without the lights, and rays darken both pictures.
 --glsl compares an engine's copy of a technique: the device runs the file's functions, the tile renderer its own. Settings, points and fetches
 stay the program's.
 
@@ -78,6 +80,16 @@ ParityRow failed_row(const Bench& bench, const ParityPlace& place, const ParityS
     return row;
 }
 
+// Returns the frame's picture with shadows.
+Result<Image> shadowed(const RenderOptions& options, FrameDesc desc, Session& session, const Frame& frame)
+{
+    desc.stages = desc.triangle_ids = false;
+    Frame lit;
+    lit.color = frame.color, lit.layers = frame.layers;
+    BN_TRY(add_shadows({options.shadows, options.shadow_samples, options.isa, options.quiet}, desc, session, lit));
+    return std::move(lit.color);
+}
+
 Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions& options, const View& view, Session& tile, Session& vulkan,
                           Session& rays)
 {
@@ -97,6 +109,12 @@ Result<ParityRow> compare(const Bench& bench, ParityRow row, const RenderOptions
     row.pixel_hash = pixel_hash(a->color);
     row.samples_emulated = b->stats.samples_emulated;
     row.counts = compare_stages(*a, *b, desc.msaa);
+    if (options.shadows != Shadows::off) {
+        const Result<Image> of_tile = shadowed(options, desc, tile, *a), of_device = shadowed(options, desc, vulkan, *b);
+        BN_TRY(of_tile);
+        BN_TRY(of_device);
+        row.counts.stages.push_back(compare_colours("shadowed colour", *of_tile, *of_device, *a, *b, desc.msaa));
+    }
     const Image flip = flip_map(a->color, b->color, *bench.jobs);
     row.flip_mean = flip.bytes.empty() ? row.counts.pixels_differ ? 1.0 : 0.0 : summarise_errors(flip).mean;
     row.causes = share_causes(pixel_causes(*a, *b, desc.msaa), *a, desc.msaa, flip.bytes.empty() ? nullptr : flip.f32());

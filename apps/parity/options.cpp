@@ -156,6 +156,7 @@ OptionTable parity_option_table(ParityArguments& to)
                          {"--html", "FILE", "Rows as one HTML page", file(to.html)},
                          quiet_option(r.quiet),
                          verbose_option(r.verbosity, "Print every row")});
+    table.take(of_render, "Output", {"--shadows", "--shadow-samples"});
     table.take(of_render, "Picture",
                {"--size",
                 "--eye",

@@ -202,6 +202,17 @@ ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa)
     return out;
 }
 
+ParityStage compare_colours(const char* name, const Image& of_tile, const Image& of_other, const Frame& tile, const Frame& other, int msaa)
+{
+    const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;
+    StageCounter counter(name, tile.color.width);
+    for (std::size_t p = 0; p < pixels; ++p)
+        if (same_pairs(tile, other, p, n))
+            counter.add(reinterpret_cast<const std::uint32_t*>(of_tile.f32() + 3 * p),
+                        reinterpret_cast<const std::uint32_t*>(of_other.f32() + 3 * p), 3, p);
+    return counter.stage();
+}
+
 std::vector<PixelCause> pixel_causes(const Frame& tile, const Frame& other, int msaa)
 {
     const std::size_t n = static_cast<std::size_t>(msaa), pixels = tile.triangle_ids.size() / n;

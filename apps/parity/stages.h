@@ -20,7 +20,7 @@ struct ParityCounts {
     std::uint64_t samples = 0, visibility_differ = 0;        // a sample differs if its triangle differs
     std::uint64_t pixels_differ = 0, edge_pixels_differ = 0; // in the resolved picture; those with several triangles in the pixel
     std::vector<ParityStage>
-        stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour, layers
+        stages; // clip positions, visibility, depth, interpolants, material inputs, shaded colour, resolved colour, layers, shadowed colour
 };
 
 inline constexpr const char* kVisibilityStage = "visibility";
@@ -29,6 +29,9 @@ inline constexpr const char* kVisibilityStage = "visibility";
 // compared where visibility agrees. Depths are compared by sample. Interpolants to shaded colour are compared by pairs with the same
 // triangle and samples. Resolved colour, and layers if both frames have them, are compared in pixels with equal pairs.
 ParityCounts compare_stages(const Frame& tile, const Frame& other, int msaa);
+
+// Compares two pictures' colours under a stage's name, in the pixels where both frames have equal pairs.
+ParityStage compare_colours(const char* name, const Image& of_tile, const Image& of_other, const Frame& tile, const Frame& other, int msaa);
 
 // The first stage with a difference above kRounding times the largest vector component, in any (pixel, triangle) pair of the pixel.
 // `rounding` if no pair has such a difference.

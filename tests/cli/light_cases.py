@@ -282,6 +282,11 @@ def floors(bench):
         done = bench.run("render", *teapot, *words, "-o", "a.png")
         if done.code != 77:  # no Embree or no device
             done.expect(2).expect_one_line("--floor", named)
+    # A diffuse law that falls to 0 at grazing angles would turn a backdrop black
+    law = (*teapot, "--diffuse", "ashikhmin-shirley")
+    check(bench.figures(*law)["pixel_hash"] == bench.figures(*law, "--floor", "shadow")["pixel_hash"], "the backdrop is black")
+    check("backdrop" in bench.run("render", *law, "--floor", "stage", "-o", "dark.png").expect(0).err, "a dark backdrop is no warning")
+    check("backdrop" not in bench.run("render", *law, "-o", "light.png").expect(0).err, "a warning without reason")
     bench.run("chart", "builtin:plate", "--sweep", "floor=off,stage", "-o", "page").expect(2).expect_one_line("floor")
     bench.run("render", *teapot, "--floor", "grass", "-o", "a.png").expect(2).expect_one_line("--floor", "stage")
 
@@ -291,7 +296,8 @@ def no_shadows(bench):
     needs_embree(bench)
     bench.run("render", *SMALL, *SHADOWS, "--backend", "reference", "-o", "a.png").expect(2).expect_one_line("--shadows", "shadowed")
     bench.run("render", *SMALL, "--shadow-samples", "9", "-o", "a.png").expect(2).expect_one_line("--shadow-samples", "--shadows")
-    bench.run("parity", "builtin:plate", *SHADOWS).expect(2).expect_one_line("--shadows")
+    bench.run("parity", "builtin:plate", *SHADOWS, "--pipeline", "forward").expect(2).expect_one_line("--shadows", "--pipeline ids")
+    bench.run("parity", "builtin:plate", "--shadow-samples", "9").expect(2).expect_one_line("--shadow-samples", "--shadows")
     run = bench.run("render", *SMALL, *SHADOWS, "-o", "b.png").expect(0)
     check("--shadows has no effect" in run.err, run.describe())
     check("a.png" not in bench.left_behind(), "a picture was written")

@@ -118,6 +118,18 @@ def small_picture(bench):
 
 
 # Extracted lights: discs and needles, tilted lobes, mirrors, shared samples.
+@case("parity.shadowed_pictures_are_equal", tier="nightly")
+def shadowed_pictures(bench):
+    """Area lights and lamps: the device draws the picture without them, and rays darken it."""
+    for words in (("builtin:lights", "--shadows", "on"), ("builtin:teapot", "--env", "builtin:sky", "--shadows", "on", "--shadow-samples", "32")):
+        report = parity(bench, *words, "--technique", "bent_normal", "--msaa", "1,4", "--size", "48x36")
+        shadowed = [row["stages"].pop() for row in report["rows"]]
+        check_equal(report)
+        check(len(shadowed) == 2, f"{report}")
+        for stage in shadowed:
+            check(stage["name"] == "shadowed colour" and stage["values"] == 48 * 36 * 3 and stage["words_differ"] == 0, f"{stage}")
+
+
 @case("parity.light_of_suns_is_equal", tier="nightly")
 def light_of_suns(bench):
     check_equal(parity(bench, "builtin:spheres", bench.data_file("models/Lights.glb"), "--env", "builtin:sky", "--size", "64x48", "--msaa", "1",

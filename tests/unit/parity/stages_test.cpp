@@ -66,6 +66,22 @@ TEST(compare_stages, names_the_stage_the_words_and_the_pixel)
     EXPECT_EQ(first_difference(compare_stages(a, moved, 2))->name, "clip positions");
 }
 
+TEST(compare_colours, counts_words_where_the_pairs_are_equal)
+{
+    const Frame a = two_pixels();
+    Image shadowed = a.color;
+    shadowed.f32()[5] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(1.0f) + 7);
+    const ParityStage stage = compare_colours("shadowed colour", a.color, shadowed, a, a, 2);
+    EXPECT_EQ(stage.name, "shadowed colour");
+    EXPECT_EQ(stage.values, 6u);
+    EXPECT_EQ(stage.words_differ, 1u);
+    EXPECT_EQ(stage.max_ulp, 7u);
+    EXPECT_EQ(stage.worst_x, 1);
+    Frame other = a;
+    other.triangle_ids[2] = 0;
+    EXPECT_EQ(compare_colours("", a.color, shadowed, a, other, 2).values, 3u);
+}
+
 TEST(compare_stages, leaves_out_samples_that_show_another_triangle_and_no_others)
 {
     const Frame a = two_pixels();
