@@ -9,6 +9,7 @@
 #include "apps/bake/direction_field.h"
 #include "apps/bake/displaced.h"
 #include "apps/bake/environment_textures.h"
+#include "apps/bake/lobe.h"
 #include "apps/bake/ltc_options.h"
 #include "apps/bake/maps.h"
 #include "apps/bake/mip.h"
@@ -51,6 +52,9 @@ and GLSL.
 mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
 render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
 half floats with mip levels, or one picture a level. The program prints their error against the levels, at texels and between four texels.
+lobe: maps of the lobes that heights reflect as, from their slopes: roughness.exr (widths), rotation.exr (the stretched highlight's
+direction) and normal.exr (tilts), in a folder, for render --roughness-map, --rotation-map and --normal-map. Masking is the model's own.
+The program prints the distance between the slopes and a lobe, and warns where heights have no single lobe, as in weave.
 displaced: a mesh whose triangles follow the heights, as render --height-map shows them by parallax. It has no materials.
 Components of quaternion and tpr lie from -1 to 1. In 8 bits, code 128 is 0 and 255 is 1; .exr and .pfm hold the numbers themselves.
 
@@ -70,6 +74,7 @@ Examples:
   burnish bake environment workshop.hdr --format ktx2 -o workshop
   burnish bake mip copper_brushed --mip-filter kappa -o copper.mip --preview levels
   burnish bake mip copper_brushed --mip-filter kappa --format png-levels -o textures
+  burnish bake lobe heights.png --height-scale 0.02 -o lobes
   burnish bake displaced wall.obj heights.png --height-scale 0.02 -o wall.glb)~";
 
 enum class BakeFormat { none, pyramid, exr_mip, png_levels, ktx2, dds, exr }; // the levels of mip, then the textures of environment
@@ -110,18 +115,18 @@ OptionTable bake_option_table(BakeArguments& to)
 {
     OptionTable table, limits;
     limits.add("", limit_options(to.limits));
-    table.add(
-        "",
-        {Option("WHAT", "", "{}",
-                choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "half-vectors", "brdf-lut", "environment", "mip"}))
-             .must_be_given(),
-         {"PICTURE", "", "Source picture; for displaced the mesh, for mip a scene or a folder of pictures, for tpr the second expression",
-          file(to.picture), ""},
-         {"HEIGHTS", "", "Height map for displaced", file(to.heights), ""}});
-    table.add_needing(
-        "WHAT", "displaced",
-        {{"--height-scale", "S", "Depth of the height map's darkest value, in texture lengths", number(to.depth, 0.0, 1000.0)},
-         {"--triangles", "N", "Least number of triangles", integer(to.triangles, 1, 1 << 26)}});
+    table.add("", {Option("WHAT", "", "{}",
+                          choice(to.what, {"ltc", "direction", "quaternion", "tpr", "displaced", "lobe", "half-vectors", "brdf-lut",
+                                           "environment", "mip"}))
+                       .must_be_given(),
+                   {"PICTURE", "",
+                    "Source picture; for lobe the heights, for displaced the mesh, for mip a scene or a folder of pictures, for tpr the "
+                    "second expression",
+                    file(to.picture), ""},
+                   {"HEIGHTS", "", "Height map for displaced", file(to.heights), ""}});
+    table.add_needing("WHAT", "displaced", {{"--triangles", "N", "Least number of triangles", integer(to.triangles, 1, 1 << 26)}});
+    table.add("Heights", {{"--height-scale", "S", "Depth of the darkest height for displaced and lobe, in texture lengths",
+                           number(to.depth, 0.0, 1000.0)}});
     table.add_needing("WHAT", "mip", mip_options(to.mip));
     table.add_needing("WHAT", "direction",
                       {{"--from", "NAME", "Quantity that gives the direction, as an angle from 0 to 180 degrees: {}",
@@ -143,15 +148,15 @@ OptionTable bake_option_table(BakeArguments& to)
     table.add_needing("WHAT", "ltc", ltc_options(to.ltc));
     table.add(
         "Maps and tables of texels",
-        {{"--size", "WxH", "Width and height in texels of tpr, half-vectors and brdf-lut", picture_size(to.size),
-          "256x256; brdf-lut 10x20, as the renderer uses"},
+        {{"--size", "WxH", "Width and height in texels of lobe, tpr, half-vectors and brdf-lut", picture_size(to.size),
+          "256x256; brdf-lut 10x20, as the renderer uses; lobe one for 64x64 heights"},
          {"--nu", "N", "Exponent along the tangent for half-vectors and brdf-lut, 1 / alpha^2", number(to.nu, 0.0, kMostPhongExponent), ""},
          {"--nv", "N", "Exponent along the bitangent for half-vectors and brdf-lut, 1 / alpha^2", number(to.nv, 0.0, kMostPhongExponent),
           ""},
          {"--azimuth", "NAME", "Spacing of brdf-lut's columns over the eye's azimuth: {}", choice(to.azimuth, {"root", "linear"})},
          {"--brdf", "NAME",
-          "Reflection model for ltc (ggx_aniso, beckmann, ashikhmin_shirley or ward) and for mip, which takes its net and measures "
-          "with it",
+          "Reflection model for ltc (ggx_aniso, beckmann, ashikhmin_shirley or ward), for lobe (ggx_aniso or beckmann) and for mip, "
+          "which takes its net and measures with it",
           lobe_value(to.mip.brdf)}});
     table.add_needing(
         "WHAT", "environment",
@@ -459,16 +464,19 @@ int run_bake(const BakeArguments& by_default, const OptionTable& given)
         for (const char* option : {"--nu", "--nv"})
             if (given.given(option))
                 return fail(usage_error(option, "is of half-vectors and brdf-lut"));
-    if (given.given("--brdf") && arguments.what != "ltc" && arguments.what != "mip")
-        return fail(usage_error("--brdf", "is of ltc and mip"));
+    const bool fits_lobes = arguments.what == "lobe";
+    if (given.given("--brdf") && arguments.what != "ltc" && arguments.what != "mip" && !fits_lobes)
+        return fail(usage_error("--brdf", "is of ltc, lobe and mip"));
+    if (given.given("--height-scale") && arguments.what != "displaced" && !fits_lobes)
+        return fail(usage_error("--height-scale", "is of displaced and lobe"));
     if (const Status format = take_format(arguments, given); !format)
         return fail(format.error());
     if (given.given("--texels") && arguments.textures != TextureFormat::ktx2 && arguments.textures != TextureFormat::dds)
         return fail(usage_error("--texels", "is of --format ktx2 and dds"));
     if (given.given("--azimuth") && arguments.what != "brdf-lut")
         return fail(usage_error("--azimuth", "is of brdf-lut"));
-    if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut")
-        return fail(usage_error("--size", "is of tpr, half-vectors and brdf-lut"));
+    if (given.given("--size") && arguments.what != "tpr" && arguments.what != "half-vectors" && arguments.what != "brdf-lut" && !fits_lobes)
+        return fail(usage_error("--size", "is of lobe, tpr, half-vectors and brdf-lut"));
     if (const Status pieces = check_piece_options(arguments.pieces); !pieces)
         return fail(pieces.error());
     if (any_pieces(arguments.pieces) && arguments.what != "ltc" && arguments.what != "mip")
@@ -480,6 +488,10 @@ int run_bake(const BakeArguments& by_default, const OptionTable& given)
         return run_displaced(arguments);
     if (!arguments.heights.empty())
         return fail(usage_error("HEIGHTS", fmt::format("'{}': only displaced takes two files", arguments.heights)));
+    if (fits_lobes)
+        return run_lobe({arguments.picture, arguments.output, arguments.preview, arguments.size, arguments.depth,
+                         given.given("--brdf") ? lobe_model(arguments.mip.brdf).name : "ggx_aniso", arguments.limits, arguments.threads,
+                         arguments.verbosity, arguments.quiet});
     if (arguments.what == "environment")
         return run_environment(arguments);
     if (arguments.what == "mip")

@@ -1,6 +1,9 @@
 """burnish bake: tables that shading reads."""
 
 import json
+import math
+import random
+import re
 import struct
 import subprocess
 import zlib
@@ -64,6 +67,47 @@ def check_previews(bench, bakers):
         check({path.name: path.read_bytes() for path in (bench.folder / "seen" / what).iterdir()} == first, f"{what}: other pictures the second time")
         scratch(bench, "file", b"")
         bench.run("bake", what, *words, "-q", "--preview", "file").expect(7).expect_one_line("file")
+
+
+def grooves(turns):
+    """Heights with grooves along a direction, `turns` = (repetitions along u, along v) of the first wave; the others are multiples."""
+    chance = random.Random(4)
+    waves = [(k * turns[0], k * turns[1], 2 * math.pi * chance.random()) for k in range(1, 13)]
+    return lambda x, y: 0.5 + 0.03 * sum(math.cos(2 * math.pi * (i * x + j * y) / 96 + phase) for i, j, phase in waves)
+
+
+def grey(width, height, value):
+    rows = [struct.pack(f"<{width}f", *(value(x, y) for x in range(width))) for y in reversed(range(height))]
+    return f"Pf\n{width} {height}\n-1.0\n".encode() + b"".join(rows)
+
+
+@case("bake.lobe_finds_the_direction_of_grooves")
+def lobe(bench):
+    """The highlight is wide across grooves; a row of the picture lies below the one before, and the bitangent points up."""
+    for name, turns, angle in (("across", (1, 0), 0), ("up", (0, 1), 90), ("rising", (1, -1), 45), ("falling", (1, 1), 135)):
+        scratch(bench, f"{name}.pfm", grey(96, 96, grooves(turns)))
+        done = bench.run("bake", "lobe", f"{name}.pfm", "--height-scale", "0.02", "--brdf", "beckmann", "-o", name, "--preview", "seen").expect(0)
+        found = re.search(r"1x1 of beckmann; the median: widths ([\d.e-]+) and ([\d.e-]+) at (\d+) degrees, ([\d.]+) from its slopes", done.err)
+        check(found and abs((int(found[3]) - angle + 90) % 180 - 90) <= 1 and float(found[1]) > 2 * float(found[2]), f"{name}: {done.describe()}")
+        check({path.name for path in (bench.folder / name).iterdir()} == {"roughness.exr", "rotation.exr", "normal.exr"}, "other files")
+    # Maps of several lobes; threads change nothing
+    for threads in ("1", "3"):
+        bench.run("bake", "lobe", "rising.pfm", "--size", "6x4", "-o", f"t{threads}", "-t", threads, "-q").expect(0)
+    check(all((bench.folder / "t1" / f).read_bytes() == (bench.folder / "t3" / f).read_bytes() for f in ("roughness.exr", "rotation.exr", "normal.exr")), "threads")
+    maps = [word for option in ("roughness", "rotation", "normal") for word in (f"--{option}-map", f"across/{option}.exr")]
+    seen = {w: bench.figures("builtin:sphere", "--size", "32x24", "--msaa", "1", "--env-size", "16", "--env-samples", "16", *w)["pixel_hash"] for w in ((), tuple(maps))}
+    check(len(set(seen.values())) == 2, "the maps change nothing")
+    scratch(bench, "flat.pfm", grey(32, 32, lambda x, y: 0.5))
+    bench.run("bake", "lobe", "flat.pfm", "-o", "flat", "-q").expect(0)
+    scratch(bench, "woven.pfm", grey(96, 96, lambda x, y: 0.5 + 0.2 * (math.cos(math.pi * x / 4) if (x // 8 + y // 8) % 2 else math.cos(math.pi * y / 4))))
+    check("no single lobe" in bench.run("bake", "lobe", "woven.pfm", "-o", "woven").expect(0).err, "a weave has a lobe")
+    for words, needle in ((("flat.pfm", "--size", "3x1", "-o", "x"), "--size"), (("flat.pfm", "-o", "x", "--brdf", "ward"), "ggx_aniso or beckmann"),
+                          (("flat.pfm",), "-o"), (("-o", "x"), "PICTURE"), (("flat.pfm", "-o", "x", "--pieces"), "pieces"), (("flat.pfm", "-o", "x", "--height-scale", "nan"), "--height-scale")):
+        bench.run("bake", "lobe", *words).expect(2).expect_one_line(needle)
+    scratch(bench, "small.pfm", grey(8, 8, lambda x, y: 0.5))
+    bench.run("bake", "lobe", "small.pfm", "-o", "x").expect(4).expect_one_line("small.pfm", "16x16")
+    bench.run("bake", "lobe", "none.pfm", "-o", "x").expect(4).expect_one_line("none.pfm")
+    check(not (bench.folder / "x").exists(), "a folder was left")
 
 
 # A preview never overwrites inputs or outputs.

@@ -53,7 +53,7 @@ MISTAKES = (
     ("compare a.png", 2, "TEST is required"),
     ("compare a.png b.png", 4, "a.png: cannot be opened"),
     ("chart", 2, "--output is required"),
-    ("bake", 2, "direction, quaternion, tpr, displaced, half-vectors, brdf-lut, environment or mip"),
+    ("bake", 2, "direction, quaternion, tpr, displaced, lobe, half-vectors, brdf-lut, environment or mip"),
     ("chart --techniques major -o report", 2, "did you mean 'major_axis'?"),
     ("profile --aov depth -o a.exr", 2, "belongs to burnish render"),
 )
