@@ -1,8 +1,9 @@
 // Brushed metal under an environment in Babylon.js, with and without a technique of burnish. ?sky=FILE.hdr gives the environment, ?model=FILE.glb
-// opens another model.
+// opens another model, ?alone begins with the engine alone.
 import { studio_file } from './studio.js';
 
 const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
+improved.checked = !asked.has('alone');
 const sky = asked.get('sky') ?? URL.createObjectURL(studio_file());
 let engine, improveAnisotropy;
 
@@ -39,8 +40,8 @@ async function scene_of(improve) {
   scene.environmentTexture = new BABYLON.HDRCubeTexture(sky, scene, 256, false, true, false, true);
   scene.environmentTexture.rotationY = Math.PI / 2;
   const materials = await add_model(scene);
-  const { min, max } = scene.getWorldExtends(), middle = min.add(max).scale(0.5), radius = max.subtract(min).length() / 2;
-  const camera = new BABYLON.ArcRotateCamera('camera', Math.PI / 2, 1.33, radius * 2.2, middle, scene);
+  const { min, max } = scene.getWorldExtends(), middle = min.add(max).scale(0.5), size = max.subtract(min), radius = size.length() / 2;
+  const camera = new BABYLON.ArcRotateCamera('camera', Math.PI / 2, 1.33, Math.max(radius * 2.2, 2 * size.y + size.z / 2), middle, scene);
   camera.fov = Math.PI / 6;
   camera.minZ = radius / 100;
   camera.maxZ = radius * 100;
