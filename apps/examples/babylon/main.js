@@ -5,7 +5,8 @@ import { studio_file } from './studio.js';
 const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
 improved.checked = !asked.has('alone');
 const sky = asked.get('sky') ?? URL.createObjectURL(studio_file());
-let engine, improveAnisotropy;
+let engine, improveAnisotropy, said = '';
+const told = count => `${count} material${count === 1 ? '' : 's'} improved`;
 
 // Adds three brushed balls: highlights run around the first one, from pole to pole on the second one, and aslant on the third one.
 function add_brushed_balls(scene) {
@@ -49,7 +50,7 @@ async function scene_of(improve) {
   camera.wheelDeltaPercentage = 0.02;
   camera.panningSensibility = 1000 / radius;
   if (improve) // meshes from code have texture coordinates that grow upwards
-    state.textContent = `${improveAnisotropy(BABYLON, materials, { glTF: asked.has('model') })} materials improved`;
+    said = told(improveAnisotropy(BABYLON, materials, { glTF: asked.has('model') }));
   return scene;
 }
 
@@ -73,6 +74,7 @@ try {
   engine.resize();
   engine.runRenderLoop(() => {
     chosen().render();
+    state.textContent = improved.checked ? said : '';
     document.documentElement.dataset.drawn = 'yes'; // for programs that drive this page
   });
 } catch (error) {

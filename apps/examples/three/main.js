@@ -9,7 +9,7 @@ import { height, studio, width } from './studio.js';
 const asked = new URLSearchParams(location.search), gpu = asked.has('webgpu'), state = document.getElementById('state'), improved = document.getElementById('improved');
 improved.checked = !asked.has('alone');
 const api = gpu ? await import('three/webgpu') : THREE; // its renderer
-let renderer, improveAnisotropy;
+let renderer, improveAnisotropy, said = '';
 
 function studio_texture() {
   const picture = new THREE.DataTexture(studio(), width, height, THREE.RGBAFormat, THREE.FloatType);
@@ -44,6 +44,8 @@ async function model() {
   return asked.has('model') ? (await new GLTFLoader().loadAsync(asked.get('model'))).scene : brushed_balls();
 }
 
+const told = count => `${count} material${count === 1 ? '' : 's'} improved`;
+
 // Adds a model to a scene of its own.
 async function scene_of(light, improve) {
   const scene = new THREE.Scene(), thing = await model();
@@ -52,7 +54,7 @@ async function scene_of(light, improve) {
   scene.add(thing);
   // Meshes from code have texture coordinates that grow upwards
   if (improve)
-    state.textContent = `${improveAnisotropy(thing, gpu ? { environment: light } : { glTF: asked.has('model') })} materials improved`;
+    said = told(improveAnisotropy(thing, gpu ? { environment: light } : { glTF: asked.has('model') }));
   return scene;
 }
 
@@ -72,7 +74,10 @@ try {
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.target.copy(sphere.center);
   controls.update();
-  const draw = () => renderer.render(scenes[improved.checked ? 1 : 0], camera);
+  const draw = () => {
+    renderer.render(scenes[improved.checked ? 1 : 0], camera);
+    state.textContent = improved.checked ? said : '';
+  };
   const fit = () => {
     const { clientWidth: width, clientHeight: height } = document.documentElement;
     renderer.setPixelRatio(devicePixelRatio);
