@@ -61,7 +61,10 @@ try {
   await Promise.all(scenes.map(scene => scene.whenReadyAsync()));
   // Both scenes look from one place
   const chosen = () => scenes[improved.checked ? 1 : 0];
+  const tell = () => { state.textContent = improved.checked ? said : ''; };
+  tell();
   improved.addEventListener('change', () => {
+    tell();
     const [from, to] = improved.checked ? scenes : [scenes[1], scenes[0]];
     from.activeCamera.detachControl();
     for (const part of ['alpha', 'beta', 'radius'])
@@ -74,7 +77,6 @@ try {
   engine.resize();
   engine.runRenderLoop(() => {
     chosen().render();
-    state.textContent = improved.checked ? said : '';
     document.documentElement.dataset.drawn = 'yes'; // for programs that drive this page
   });
 } catch (error) {
