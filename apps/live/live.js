@@ -63,8 +63,18 @@
     });
   }
 
+  // Holds the page's load event until its first whole picture: programs that photograph pages wait for that event.
+  const hold = document.createElement('iframe');
+  function hold_load() {
+    if (document.readyState === 'complete') return;
+    hold.hidden = true;
+    document.body.append(hold);
+    hold.contentDocument.open();
+  }
+
   async function begin() {
     await until_wanted();
+    hold_load();
     unpacked ||= unpack();
     const contents = await unpacked;
     lead = new Renderer(error => { if (error.name !== 'AbortError') lost = error; });
@@ -154,7 +164,7 @@
     return answer;
   }
 
-  const ready = () => begun ||= begin().catch(fault => { begun = null; throw fault; });
+  const ready = () => begun ||= begin().catch(fault => { begun = null, hold.remove(); throw fault; });
 
   // One question is with the workers; of the others, those that are still wanted wait.
   let last = Promise.resolve();
@@ -172,6 +182,7 @@
         return await answer_to(path, body);
       } finally {
         running = null;
+        if (path === '/draw' && body.reduction === 1) setTimeout(() => hold.remove());
       }
     });
     last = mine;

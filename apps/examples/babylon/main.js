@@ -1,10 +1,12 @@
 // Brushed metal under an environment in Babylon.js, with and without a technique of burnish. ?sky=FILE.hdr gives the environment, ?model=FILE.glb
-// opens another model.
+// opens another model, ?alone begins with the engine alone.
 import { studio_file } from './studio.js';
 
 const asked = new URLSearchParams(location.search), state = document.getElementById('state'), improved = document.getElementById('improved');
+improved.checked = !asked.has('alone');
 const sky = asked.get('sky') ?? URL.createObjectURL(studio_file());
-let engine, improveAnisotropy;
+let engine, improveAnisotropy, said = '';
+const told = count => `${count} material${count === 1 ? '' : 's'} improved`;
 
 // Adds three brushed balls: highlights run around the first one, from pole to pole on the second one, and aslant on the third one.
 function add_brushed_balls(scene) {
@@ -39,8 +41,8 @@ async function scene_of(improve) {
   scene.environmentTexture = new BABYLON.HDRCubeTexture(sky, scene, 256, false, true, false, true);
   scene.environmentTexture.rotationY = Math.PI / 2;
   const materials = await add_model(scene);
-  const { min, max } = scene.getWorldExtends(), middle = min.add(max).scale(0.5), radius = max.subtract(min).length() / 2;
-  const camera = new BABYLON.ArcRotateCamera('camera', Math.PI / 2, 1.33, radius * 2.2, middle, scene);
+  const { min, max } = scene.getWorldExtends(), middle = min.add(max).scale(0.5), size = max.subtract(min), radius = size.length() / 2;
+  const camera = new BABYLON.ArcRotateCamera('camera', Math.PI / 2, 1.33, Math.max(radius * 2.2, 2 * size.y + size.z / 2), middle, scene);
   camera.fov = Math.PI / 6;
   camera.minZ = radius / 100;
   camera.maxZ = radius * 100;
@@ -48,7 +50,7 @@ async function scene_of(improve) {
   camera.wheelDeltaPercentage = 0.02;
   camera.panningSensibility = 1000 / radius;
   if (improve) // meshes from code have texture coordinates that grow upwards
-    state.textContent = `${improveAnisotropy(BABYLON, materials, { glTF: asked.has('model') })} materials improved`;
+    said = told(improveAnisotropy(BABYLON, materials, { glTF: asked.has('model') }));
   return scene;
 }
 
@@ -59,7 +61,10 @@ try {
   await Promise.all(scenes.map(scene => scene.whenReadyAsync()));
   // Both scenes look from one place
   const chosen = () => scenes[improved.checked ? 1 : 0];
+  const tell = () => { state.textContent = improved.checked ? said : ''; };
+  tell();
   improved.addEventListener('change', () => {
+    tell();
     const [from, to] = improved.checked ? scenes : [scenes[1], scenes[0]];
     from.activeCamera.detachControl();
     for (const part of ['alpha', 'beta', 'radius'])

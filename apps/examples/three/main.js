@@ -1,5 +1,5 @@
 // Brushed metal under an environment in three.js, with and without a technique of burnish. ?model=FILE.glb opens another model, ?sky=FILE.hdr
-// another environment; ?webgpu draws by WebGPU.
+// another environment; ?webgpu draws by WebGPU; ?alone begins with the engine alone.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -7,8 +7,9 @@ import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
 import { height, studio, width } from './studio.js';
 
 const asked = new URLSearchParams(location.search), gpu = asked.has('webgpu'), state = document.getElementById('state'), improved = document.getElementById('improved');
+improved.checked = !asked.has('alone');
 const api = gpu ? await import('three/webgpu') : THREE; // its renderer
-let renderer, improveAnisotropy;
+let renderer, improveAnisotropy, said = '';
 
 function studio_texture() {
   const picture = new THREE.DataTexture(studio(), width, height, THREE.RGBAFormat, THREE.FloatType);
@@ -43,6 +44,8 @@ async function model() {
   return asked.has('model') ? (await new GLTFLoader().loadAsync(asked.get('model'))).scene : brushed_balls();
 }
 
+const told = count => `${count} material${count === 1 ? '' : 's'} improved`;
+
 // Adds a model to a scene of its own.
 async function scene_of(light, improve) {
   const scene = new THREE.Scene(), thing = await model();
@@ -51,7 +54,7 @@ async function scene_of(light, improve) {
   scene.add(thing);
   // Meshes from code have texture coordinates that grow upwards
   if (improve)
-    state.textContent = `${improveAnisotropy(thing, gpu ? { environment: light } : { glTF: asked.has('model') })} materials improved`;
+    said = told(improveAnisotropy(thing, gpu ? { environment: light } : { glTF: asked.has('model') }));
   return scene;
 }
 
@@ -64,13 +67,17 @@ try {
   document.body.append(renderer.domElement);
   const light = await environment(), scenes = [await scene_of(light, false), await scene_of(light, true)];
   // Look at the model from a little above
-  const sphere = new THREE.Box3().setFromObject(scenes[0]).getBoundingSphere(new THREE.Sphere());
+  const box = new THREE.Box3().setFromObject(scenes[0]), sphere = box.getBoundingSphere(new THREE.Sphere()), { y, z } = box.getSize(new THREE.Vector3());
+  const far = Math.max(sphere.radius * 2.2, 2 * y + z / 2); // high models fit too
   const camera = new THREE.PerspectiveCamera(30, 1, sphere.radius / 100, sphere.radius * 100);
-  camera.position.copy(sphere.center).add(new THREE.Vector3(0, 0.25, 1).normalize().multiplyScalar(sphere.radius * 2.2));
+  camera.position.copy(sphere.center).add(new THREE.Vector3(0, 0.25, 1).normalize().multiplyScalar(far));
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.target.copy(sphere.center);
   controls.update();
-  const draw = () => renderer.render(scenes[improved.checked ? 1 : 0], camera);
+  const draw = () => {
+    renderer.render(scenes[improved.checked ? 1 : 0], camera);
+    state.textContent = improved.checked ? said : '';
+  };
   const fit = () => {
     const { clientWidth: width, clientHeight: height } = document.documentElement;
     renderer.setPixelRatio(devicePixelRatio);
