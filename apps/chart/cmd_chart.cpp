@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page that needs no other file), report.json, report.csv, the charts as .svg, and the pictures.
-rows.json holds the finished rows, and a stopped chart continues from it. References are cached beside environments. With the
-defaults, one scene under one environment takes minutes on two cores.
+rows.json holds the finished rows, and a stopped chart continues from it. References take the longest. They are
+cached beside environments.
 
 --mip measures mip filters of normals and lobes instead of frames: FLIP, L1 and MSE of each shaded level against level 0, shaded at full
 detail and averaged. It uses families of materials made in code, and those of --maps. REPORT_DIR gets mip.json, mip.csv (one row for each
