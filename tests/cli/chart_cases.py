@@ -53,7 +53,8 @@ def busy(bench):
 
 @case("chart.of_budgets_has_planned_rows", budget=20)
 def budgets(bench):
-    """A plan's row stands beside those of techniques, and the page says which setting is the fastest within each error."""
+    """A plan's row stands beside those of techniques, and the page says which setting is the fastest within each error. Each plan draws
+    trial pictures."""
     needs_embree(bench)
     words = ("chart", "builtin:teapot", "--size", "320x180", "--error-size", "128x72", "--msaa", "2", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64",
              "--techniques", "bent_normal,mc", "--sweep", "samples=16")

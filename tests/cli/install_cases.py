@@ -82,7 +82,8 @@ def hashes_of_turntable(bench, folder, out):
 
 @case("install.library_is_found_and_draws_the_same", budget=12)
 def library(bench):
-    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
+    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`. A compiler builds that
+    program."""
     with tempfile.TemporaryDirectory(prefix="burnish-library-") as folder:
         prefix, out = installed_examples(bench, folder, "turntable")
         check_pages(prefix / "share/doc/burnish")

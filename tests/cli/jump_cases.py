@@ -253,6 +253,7 @@ def area_jumps(bench):
 
 @case("laws.lamps_go_through_the_horizon_without_a_jump", budget=11)
 def sinking_lamps(bench):
+    """Draws a row of pictures for each lamp and way of area lights."""
     held(bench, by_way(bench, [path for path in AREA_PATHS if "lamp that" in path]))
 
 

@@ -147,7 +147,7 @@ def named(bench, folder, *mistakes, kept=SCENES):
     return [m["name"] for m in result["mistakes"]]
 
 
-@case("conform.names_a_mistake_and_two", budget=55)
+@case("conform.names_a_mistake_and_two", tier="nightly")
 def names(bench):
     """Names one mistake, made in the files, then one that few scenes show, then two, made by kernels and pictures, then an exposure."""
     written(bench)
@@ -253,8 +253,9 @@ def passes_and_fails(bench):
     check_no_known_mistake(bench, {"round": "lamp"}, "round", "lamp")
 
 
-@case("conform.missing_and_unusable_pictures_are_said", budget=25)
+@case("conform.missing_and_unusable_pictures_are_said", tier="nightly")
 def missing_or_unusable(bench):
+    """In check, `conform.refuses_wrong_requests` holds the faults that need no reference."""
     written(bench)
     drawn(bench, "folder", "pictures")
     kept, pictures = without("rotation_0", "lamp"), bench.folder / "pictures"
