@@ -165,7 +165,7 @@ def killed(bench):
 
 @case("golden.merges_of_scripts_end_with_the_verdict", budget=3)
 def merges_of_scripts(bench):
-    """A merge makes what is missing, and its exit code is that of one process: 0, or the verdict of golden pictures. No word of a picture's
+    """A merge makes what is missing, and its exit code equals one process': 0, or the verdict of golden pictures. No word of a picture's
     name is run. A merge of k8s takes what no pod makes."""
     import yaml
     name = "$(touch run) `touch run`; touch run"

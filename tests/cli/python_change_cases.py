@@ -96,7 +96,7 @@ for source in sources:
     scene.set_environment(source, {KEYWORDS})
     assert scene.render({FRAME}).hash == '{expected}'
 import warnings
-sky[3][5] = (float('nan'), 0, 0) # repaired, as those of files, and told once
+sky[3][5] = (float('nan'), 0, 0) # repaired, as environments of files are, and told once
 with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter('always')
     scene = burnish.load('builtin:plate', Array(), {KEYWORDS})

@@ -86,7 +86,7 @@ def pictures(bench):
             check(info["hash"] == hash_of_command(bench, info["command"]), f"{info['command']} draws another picture")
             (bench.folder / "served.png").write_bytes(body)
             bench.run("compare", "served.png", "picture.png", "--fail-max", "0", "-q").expect(0)
-        # Warnings are those of this picture, not of the session
+        # Warnings belong to this picture, not to the session
         for words, told in (({"shadows": "ratio"}, True), ({}, False), ({"shadows": "ratio"}, True)):
             info = json.loads(served.ask("/draw", wish(**words))[1]["X-Burnish"])
             check(any("--shadows has no effect" in line for line in info["warnings"]) == told, f"{words}: {info['warnings']}")

@@ -90,7 +90,7 @@ PRODUCT = ("--env", "folder/environment.exr", "--env-size", "256", "--env-sample
 
 @case("conform.any_reader_takes_a_folder_and_draws_what_its_kernels_draw", tier="nightly")
 def folder_is_whole(bench):
-    """The folder is whole. The product's pictures of its scenes are those of the kernels without a mistake, and they are judged right."""
+    """The folder is whole. The product's pictures of its scenes equal the kernels' pictures without a mistake, and they are judged right."""
     folder = bench.folder / written(bench)
     listed = json.loads((folder / "conform.json").read_text())
     check(tuple(s["name"] for s in listed["scenes"]) == SCENES, f"{listed}")
