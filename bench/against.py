@@ -5,7 +5,7 @@ Usage: against.py COMMIT|FOLDER --program build/release/bench_frame [--isa avx2,
 
 Builds bench_frame of the commit in a folder of its own below the build folder, with the newest scenes and workloads since then that it builds
 with, or takes the build folder that is given. Then each workload is drawn by the one and by the other, turn by turn: the ratio of a turn is
-that of the medians of its rounds, and the figure of the table the median over all turns, with the least and the most beside it. CPU times of
+the ratio of the medians of its rounds, and the figure of the table the median over all turns, with the least and the most beside it. CPU times of
 all threads. A ratio of a busy machine still holds, within its spread; milliseconds do not. Where the pictures differ it says so.
 
 Exit code: 0; 1 where some workload has become slower by more than 3 % in every turn; 2 where nothing could be compared.

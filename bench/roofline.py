@@ -7,7 +7,7 @@ Usage: roofline.py --program build/release/bench/micro/bench_micro -o roofline.s
 Runs the benchmarks `limit/` and `kernel/` of bench_micro (or reads what they printed as JSON). Limits are measured: multiplications and
 additions a second by instruction set, not fused, as kernels may not fuse them; random 16-byte loads a second from memory of the size of the
 first, second and third cache. A kernel's operations and bytes a fragment are counted by the same text compiled with counting lanes.
-The share of the limit is the larger of two: operations a second over the limit of operations; 16-byte loads a second over that of the second
+The share of the limit is the larger of two: operations a second over the limit of operations; 16-byte loads a second over the loads of the second
 cache, where the levels of the environment lie that rough metal looks at. What is left goes to what is not counted: integers, selections,
 conversions, shuffles. All of one core and CPU time.
 """

@@ -143,7 +143,7 @@ def block(speed):
     if speed["races"]:
         width, height = speed["race_size"]
         techniques = ", ".join(dict.fromkeys(row["technique"] for row in speed["races"]))
-        lines += ["", f"A race at {width}x{height}: CPU time of the device with its lean shader over that of the tile renderer, as geometric mean and "
+        lines += ["", f"A race at {width}x{height}: CPU time of the device with its lean shader over the tile renderer's, as geometric mean and "
                   f"least over {techniques}. Rows whose pictures differ, or that the lean shader cannot draw, are not counted.", "",
                   *race_table(speed["races"])]
         if speed["race_notes"]:

@@ -27,7 +27,7 @@ bool is_chart(const std::string& file)
            (name == "time-flip" || name == "samples-flip" || name == "samples-time" || name.rfind("heat-", 0) == 0);
 }
 
-// True for file names of row pictures and reference pictures: KEY-SETTINGS.jpg.
+// Returns true for file names of row pictures and reference pictures: KEY-SETTINGS.jpg.
 bool is_picture(const std::string& file)
 {
     constexpr std::size_t kDigits = 16;

@@ -18,11 +18,11 @@ namespace {
 
 constexpr const char* kFooter =
     R"(REPORT_DIR gets report.html (one page that needs no other file), report.json, report.csv, the charts as .svg, and the pictures.
-rows.json holds the finished rows, and a stopped chart continues from it. References are cached beside environments. With the
-defaults, one scene under one environment takes minutes on two cores.
+rows.json holds the finished rows, and a stopped chart continues from it. References take the longest. They are
+cached beside environments.
 
 --mip measures mip filters of normals and lobes instead of frames: FLIP, L1 and MSE of each shaded level against level 0, shaded at full
-detail and averaged. It uses families of materials made in code, and those of --maps. REPORT_DIR gets mip.json, mip.csv (one row for each
+detail and averaged. It uses families of materials made in code, and materials of --maps. REPORT_DIR gets mip.json, mip.csv (one row for each
 material, model, filter and level) and mip.txt, the means.
 
 Examples:
@@ -41,7 +41,7 @@ std::uint64_t pictures_with_nan(const ChartReport& chart)
     return count;
 }
 
-// True if the page can draw the rows: no option reads a further file.
+// Returns true if the page can draw the rows: no option reads a further file.
 bool pages_can_draw(const OptionTable& given)
 {
     RenderArguments arguments;
@@ -99,7 +99,7 @@ std::string live_html(const ChartReport& chart, const ChartOptions& options, con
     return parts ? parts->html : "";
 }
 
-// Returns the fastest settings within errors, for a chart of one place. The page has those of several.
+// Returns the fastest settings within errors, for a chart of one place. The page has the settings of several places.
 std::vector<std::string> wanted_lines(const ChartReport& chart)
 {
     std::vector<const ChartRow*> rows;

@@ -268,7 +268,7 @@ std::optional<double> swept(const ChartRow& row, const std::string& option)
     return std::nullopt;
 }
 
-// True if the row differs from the first row in `option` alone.
+// Returns true if the row differs from the first row in `option` alone.
 bool only_differs_by(const ChartRow& row, const ChartRow& first, const std::string& option)
 {
     if (row.cell.roughness != first.cell.roughness || row.cell.anisotropy != first.cell.anisotropy)

@@ -13,7 +13,7 @@ double number_of(const nlohmann::json& json)
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-// True if every entry is a valid time in milliseconds.
+// Returns true if every entry is a valid time in milliseconds.
 bool are_times(const std::vector<double>& ms)
 {
     return std::all_of(ms.begin(), ms.end(), [](double x) { return x >= 0.0 && x < 1e12; });

@@ -54,7 +54,7 @@ Status print_markdown(const std::string& name)
     return found ? Status() : usage_error("SUBCOMMAND", "there is no subcommand '" + name + "'");
 }
 
-// True for the laboratory's subcommands: burnish-lab has their options and prints their pages.
+// Returns true for the laboratory's subcommands: burnish-lab has their options and prints their pages.
 bool asks_lab(const std::string& name)
 {
     const std::vector<Command> commands = all_commands();

@@ -48,7 +48,7 @@ class Reader {
     }
 
   private:
-    // True for "-1" and "-.5": these are values, not option letters.
+    // Returns true for "-1" and "-.5": these are values, not option letters.
     static bool is_number(const std::string& word) { return (word[1] >= '0' && word[1] <= '9') || word[1] == '.'; }
 
     void refuse(const std::string& reason)

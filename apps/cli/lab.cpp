@@ -31,7 +31,7 @@ int start_lab(const std::vector<std::string>& words, const std::string& reason)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
     execv(program.c_str(), arguments.data());
-    const char* const help = errno == ENOENT ? "; cmake --build builds it, as its target burnish-lab" : "";
+    const char* const help = errno == ENOENT ? "; make it with `cmake --build build/release --target burnish-lab`" : "";
     return fail(Error{ExitCode::unavailable, program, "",
                       fmt::format("{} '{}', and cannot be started: {}{}", reason.empty() ? "runs" : "has",
                                   !reason.empty() ? reason

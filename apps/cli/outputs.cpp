@@ -63,7 +63,7 @@ Status check_not_input(const std::string& path, const std::vector<std::string>& 
     return {};
 }
 
-// True for pipes and devices. These are written into; a finished file renamed over them would destroy them.
+// Returns true for pipes and devices. These are written into; a finished file renamed over them would destroy them.
 bool is_special(const std::string& path)
 {
     // /dev/stdout may lead to a regular file, but must stay a link.

@@ -28,7 +28,7 @@ Status make_output_folder(const std::string& folder);
 
 std::string extension_of(const std::string& path); // in lower case, without its dot
 
-// True if two names lead to one file, even one not yet made. Pipes and devices never count as one.
+// Returns true if two names lead to one file, even one not yet made. Pipes and devices never count as one.
 bool same_file(const std::string& a, const std::string& b);
 
 // Returns the 8-bit picture for a display, from linear pixels after exposure and tonemapping. Alpha is straight, not premultiplied.

@@ -16,7 +16,7 @@
 namespace burnish {
 namespace {
 
-// Returns how grave an exit code is among those of pictures.
+// Returns how grave an exit code is among codes of pictures.
 int gravity(int code)
 {
     constexpr ExitCode kOrder[] = {ExitCode::differ, ExitCode::not_finite, ExitCode::size_mismatch};

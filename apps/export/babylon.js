@@ -46,7 +46,7 @@ uniform sampler2D burnish_lobe_albedo;
 // Returns radiance that the engine will multiply by reflectance. reflectance: of a round lobe, with multiple scattering.
 vec3 burnish_image_light(vec3 v, vec3 n, vec3 grain, vec2 widths, float kept, vec3 f0, vec3 f90, vec3 reflectance)
 {
-    // Where a pixel holds many directions, its widths are those of the mean covariance
+    // Where a pixel holds many directions, its widths follow from the mean covariance
     vec2 squares = widths * widths;
     float middle = 0.5 * (squares.x + squares.y), apart = 0.5 * (squares.x - squares.y) * kept;
     widths = vec2(sqrt(middle + apart), sqrt(middle - apart));

@@ -35,8 +35,8 @@ are equal up to rounding. The file documents its arguments and the functions tha
 three, babylon: a module for three.js or Babylon.js, with the technique and all that connects it. three's draws area lights too. three-node is
 for three.js' renderer on WebGPU. godot, bevy: a shader for these engines, whose first lines say what it needs.
 
-page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether its bits are
-those of this machine. It takes the options of the picture, as `burnish render` does.
+page: one file with the scene and the renderer, which draws in any browser with WebAssembly, from disk too. The page says whether it
+draws the bits of this machine. It takes the options of the picture, as `burnish render` does.
 
 Examples:
   burnish export glsl --technique major_axis -o major_axis.glsl

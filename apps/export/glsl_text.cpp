@@ -125,7 +125,7 @@ class Reader {
             comment_ += line + "\n";
     }
 
-    // True for comments of list files (*.def) inside the generated code.
+    // Returns true for comments of list files (*.def) inside the generated code.
     bool from_list(const std::string& line, std::size_t first) const
     {
         return ends_with(file_, ".def") && line.compare(first, 2, "//") == 0;

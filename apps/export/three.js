@@ -60,7 +60,7 @@ vec4 burnish_ltc_texel(int at)
 burnish_shaded_point burnish_point_in_three(vec3 v, vec3 n, PhysicalMaterial material, out float albedo)
 {
     float across = max(material.roughness * material.roughness, 1e-4), along = max(material.alphaT, across);
-    // Where a pixel holds many directions, its widths are those of the mean covariance
+    // Where a pixel holds many directions, its widths follow from the mean covariance
     float middle = 0.5 * (along * along + across * across), apart = 0.5 * (along * along - across * across) * burnish_kept;
     along = sqrt(middle + apart), across = sqrt(middle - apart);
     float mean = 0.5 * (along + across), roughness = sqrt(mean), anisotropy = (along - across) / (along + across);

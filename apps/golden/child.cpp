@@ -214,7 +214,7 @@ class Guard {
 
   private:
     // Calls only what is safe in the child of a process with threads. Leaves the parent's group, which a signal may end as a whole. Closes
-    // other descriptors: among them are this pipe's other end, and those of other guards.
+    // other descriptors: among them are this pipe's other end, and the ends of other guards.
     [[noreturn]] static void watch(int watched)
     {
         setpgid(0, 0);

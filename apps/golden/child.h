@@ -14,7 +14,7 @@ struct ChildRun {
     std::string name;                               // of the program in reasons; empty: the first word
     std::string hidden{};                           // taken out of the output: runs in other folders leave the same texts
     std::string folder;                             // to run in
-    std::map<std::string, std::string> environment; // variables besides those of this process
+    std::map<std::string, std::string> environment; // variables besides this process' variables
     std::string output;                             // file for the program's output: at most its first and last 512 KiB
     double seconds = 300.0;                         // limit; then the program and its children are killed
     const std::atomic<bool>* stop = nullptr;        // kills them too

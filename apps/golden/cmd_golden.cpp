@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 constexpr const char* kFooter =
     R"~(check MANIFEST.json: makes the manifest's pictures and compares them with their goldens. check EXPECTED ACTUAL: compares two folders,
 or the files of two quoted patterns with one * in the file name.
-bless: takes over new pictures of the last check that differ or have no golden; with --from, only those of the list.
-merge FOLDER...: joins the results of shards; the files are those of one run.
+bless: takes over new pictures of the last check that differ or have no golden; with --from, only the list's pictures.
+merge FOLDER...: joins the results of shards to the files of one run.
 With --shard and --work, --take or --piece, a row is a piece in a folder that processes share, and --merge writes the results. A row that
 failed is a piece too, unless the machine may be the cause: a full disk, a program that is killed or takes too long. A program's row counts by
 its words and the files that they name, but not by folders.

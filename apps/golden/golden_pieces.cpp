@@ -46,7 +46,7 @@ class InFolder {
 // Files that were read for a scene, by the words that name them and limit reading: many rows draw one scene.
 using SceneFiles = std::map<std::string, std::vector<std::string>>;
 
-// Returns files that are read for a row's scene, its material and its light. Errors: those of reading them.
+// Returns files that are read for a row's scene, its material and its light. Errors: as where they are read.
 Result<std::vector<std::string>> files_of_drawn(const RenderOptions& options)
 {
     Result<Scene> scene = load_scene(options.scene, options.limits);

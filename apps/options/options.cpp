@@ -236,7 +236,7 @@ bool changes_scene(const Option& option)
     return option.group == "Materials" || option.name == "--time" || option.name == "--animation" || option.name == "--variant";
 }
 
-// True if the diffuse part falls to 0 at grazing angles. A stage's backdrop is shaded as if it lay flat.
+// Returns true if the diffuse part falls to 0 at grazing angles. A stage's backdrop is shaded as if it lay flat.
 static bool darkens_backdrops(const RenderOptions& options)
 {
     return options.frame.diffuse_model != 0; // Ashikhmin and Shirley

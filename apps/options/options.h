@@ -118,14 +118,14 @@ std::string reference_mode_name(const RenderOptions& options); // in --reference
 // table counts as not given.
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given);
 
-// Check the options that belong to one backend.
+// Checks the options that belong to one backend.
 Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
 Status check_vulkan_options(RenderOptions& out);
 
-// True for options that change a picture and can be swept or animated: numbers and, with `names`, names too.
+// Returns true for options that change a picture and can be swept or animated: numbers and, with `names`, names too.
 bool changes_pictures(const Option& option, bool names);
 
-// True for options that need the scene to be read again.
+// Returns true for options that need the scene to be read again.
 bool changes_scene(const Option& option);
 
 // Adds one warning for each given option that has no effect, and names the option that causes this.

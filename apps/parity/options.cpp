@@ -65,7 +65,7 @@ Status choose_places(const ParityArguments& in, std::vector<ParityPlace>& places
     return in.models.empty() ? Status() : add_models(in.models, places);
 }
 
-// True for options that another look may change: the content, not its size, environment or view.
+// Returns true for options that another look may change: the content, not its size, environment or view.
 bool changes_look(const Option& option)
 {
     constexpr const char* kLooks[] = {"--technique",  "--msaa",  "--samples",   "--roughness",

@@ -51,13 +51,13 @@ std::uint32_t mask_at(const Frame& f, std::size_t sample)
     return f.stages.pairs[sample * kPairWords];
 }
 
-// True if both frames have a pair that starts at this sample, with the same triangle and samples.
+// Returns true if both frames have a pair that starts at this sample, with the same triangle and samples.
 bool same_pair(const Frame& a, const Frame& b, std::size_t sample)
 {
     return mask_at(a, sample) != 0 && mask_at(a, sample) == mask_at(b, sample) && a.triangle_ids[sample] == b.triangle_ids[sample];
 }
 
-// True if both frames have the same pairs in a pixel: the same triangles on the same samples.
+// Returns true if both frames have the same pairs in a pixel: the same triangles on the same samples.
 bool same_pairs(const Frame& a, const Frame& b, std::size_t pixel, std::size_t msaa)
 {
     for (std::size_t s = pixel * msaa; s < (pixel + 1) * msaa; ++s)
@@ -93,7 +93,7 @@ void count_pixel_differences(const Frame& tile, const Frame& other, std::size_t 
     }
 }
 
-// True if two vectors differ by more than kRounding times the largest component of either.
+// Returns true if two vectors differ by more than kRounding times the largest component of either.
 bool beyond_rounding(const std::uint32_t* a, const std::uint32_t* b, int words)
 {
     double largest = 0.0, difference = 0.0;

@@ -23,7 +23,7 @@ Examples:
   burnish submit --for slurm --shards 8 -- chart lamp.glb --runs 0 -o report | sh
   burnish submit --for parallel --at-once 2 -- render lamp.glb --backend reference --samples 4096 -o lamp.exr)";
 
-// True for a size that is drawn in bands.
+// Returns true for a size that is drawn in bands.
 bool is_large(const std::vector<std::string>& words)
 {
     const auto at =
@@ -41,8 +41,8 @@ bool is_large(const std::vector<std::string>& words)
     return width > kMaxPictureSide || height > kMaxPictureSide || width * height * samples > kMaxPictureSamples;
 }
 
-// True if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas. Also references for engines, levels, a
-// table, nets, and goldens.
+// Returns true if a command has pieces: a reference, a row of pictures, bands, a chart of frames, an atlas. Also references for engines,
+// levels, a table, nets, and goldens.
 bool has_pieces(const std::vector<std::string>& words)
 {
     const auto has = [&](const std::string& option) {

@@ -32,7 +32,7 @@ std::string host_name()
     return failed ? name : name + "/" + numbers;
 }
 
-// True if a lease's owner ran on this machine and runs no more. content: MACHINE PROCESS RANDOM COUNT.
+// Returns true if a lease's owner ran on this machine and runs no more. content: MACHINE PROCESS RANDOM COUNT.
 bool owner_ended(const std::string& content)
 {
     std::istringstream words(content);

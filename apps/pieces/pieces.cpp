@@ -95,7 +95,7 @@ bool stopped()
     return watch_stop_signals().load();
 }
 
-// True if the file has the head and the size of the piece. Reads the head alone: many processes ask for many pieces.
+// Returns true if the file has the head and the size of the piece. Reads the head alone: many processes ask for many pieces.
 bool looks_whole(const std::string& file, const std::string& key)
 {
     std::ifstream in(file, std::ios::binary);

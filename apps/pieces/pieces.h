@@ -31,7 +31,7 @@ struct JobPiece {
 
 // Returns the key of a piece from the text of all that decides its content. The program's build joins it.
 std::string piece_key(const std::string& text);
-// Returns a name beside a piece's that no other process uses, for what is in the making. A merge sweeps those of dead processes.
+// Returns a name beside a piece's that no other process uses, for what is in the making. A merge sweeps the names of dead processes.
 std::string own_name_beside(const std::string& file, const std::string& extension);
 
 // Lists pieces, or makes those that the options name. Returns the exit code. words: the command, from its subcommand on.

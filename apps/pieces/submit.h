@@ -12,7 +12,7 @@ struct SubmitOptions {
     int shards = 8;
     int at_once = 0; // 0: all
     std::string work = "pieces";
-    std::vector<std::string> words; // a subcommand and its options, without those of pieces
+    std::vector<std::string> words; // a subcommand and its options, without the options of pieces
 };
 
 std::vector<std::string> submit_engines();

@@ -26,7 +26,7 @@ struct PixelLobes {
 // frame: drawn by desc with layers.
 PixelLobes lobes_of(const Frame& frame, const FrameDesc& desc);
 
-// Returns the instructions a fragment of mc with this many samples, less those of a single fetch.
+// Returns the instructions a fragment of mc with this many samples, less the instructions of a single fetch.
 double random_over_fetch(int samples);
 
 // Returns the mean cost over each material's pixels, instructions a fragment. material: of each pixel, below `count`, or negative.

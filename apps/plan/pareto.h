@@ -16,7 +16,7 @@ struct PlanPoint {
 // Returns the points that no other one beats in cost and error, by rising cost and falling error. Expects at least one point.
 std::vector<PlanPoint> pareto_front(std::vector<PlanPoint> points);
 
-// Return a point of each material's front.
+// Returns a point of each material's front.
 // within_error: the cheapest with a summed error of `error` or less. Where no choice reaches it: the least errors. within_cost: the least
 // summed error with a summed cost of `cost` or less. Where no choice reaches it: the cheapest. Both pick from one front of pictures, which
 // depends on no bound. So a smaller error never costs less, and a larger cost never errs more. Many materials have a front with at most

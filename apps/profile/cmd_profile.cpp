@@ -104,7 +104,7 @@ Status write_files(const RenderOptions& options, const ProfileArguments& argumen
 
 int run_profile(const ProfileArguments& arguments, const OptionTable& given)
 {
-    // Check the options, and refuse those of other subcommands
+    // Check the options, and refuse options of other subcommands
     Result<RenderOptions> checked = check_render_options(arguments.render, given);
     if (!checked)
         return fail(checked.error());

@@ -21,7 +21,7 @@ WIDTH = 140
 EVERY, DRAWS, TRACES = ("render", "reference"), ("render",), ("reference",)
 LOADS, SCENES, LIGHTS = ("load",), ("load", "meshes"), ("load", "meshes", "set_environment")
 
-# Options that are no parameters of techniques: type, default, the functions that read them. Defaults are those of FrameDesc, OpenOptions and
+# Options that are no parameters of techniques: type, default, the functions that read them. Defaults come from FrameDesc, OpenOptions and
 # ReferenceOptions; None leaves an option unset.
 OPTIONS = {
     "width": ("int", "1280", EVERY), "height": ("int", "720", EVERY), "msaa": ("Literal[1, 2, 4, 8, 16]", "8", DRAWS),

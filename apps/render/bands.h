@@ -8,7 +8,7 @@
 namespace burnish {
 
 // Draws the picture, or lists, makes or merges its bands as pieces. Writes the outputs and the statistics. desc: its first window, seen by
-// the picture's view. figures: those of the session so far. Returns the exit code.
+// the picture's view. figures: the session's figures so far. Returns the exit code.
 int run_bands(const RenderArguments& arguments, const OptionTable& given, const RenderOptions& options, const FrameDesc& desc,
               Session& session, RenderFigures figures, Report& report);
 

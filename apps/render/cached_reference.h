@@ -16,7 +16,7 @@ struct ReferenceCache {     // where references are cached
 // Returns `options` with checkpoint files in `home`.
 ReferenceOptions cached_reference_options(ReferenceOptions options, const ReferenceCache& home, Report& report);
 
-// Returns the reference's frame for `desc`, resumed from its file. `options` are those of the session, from cached_reference_options().
+// Returns the reference's frame for `desc`, resumed from its file. `options` are the session's options, from cached_reference_options().
 // Reports a damaged file and renders anew. If stats.sampling.stopped is set, options.stop ended the frame early and the frame is
 // incomplete.
 Result<Frame> cached_reference(Session& reference, const FrameDesc& desc, const ReferenceOptions& options, Report& report);

@@ -1,4 +1,4 @@
-// Pages with pictures, those of charts and of comparisons: pictures beside the points of charts, and walls of pictures that zoom and flicker together.
+// Pages of charts and of comparisons: pictures beside the points of charts, and walls of pictures that zoom and flicker together.
 'use strict';
 (() => {
   const data = JSON.parse(document.getElementById('data').textContent);

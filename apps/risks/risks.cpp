@@ -123,7 +123,7 @@ bool shaded(const PixelLayers& at)
     return at.normal[0] != 0.0f || at.normal[1] != 0.0f || at.normal[2] != 0.0f;
 }
 
-// Return roughness for the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
+// Returns roughness for the lobes that stand for a pixel's lobe: lobes on a line along the grain, one round lobe, one bent lobe.
 float narrow_of(const RiskInputs& i)
 {
     return std::sqrt(std::max(i.across, 0.3f * i.along));

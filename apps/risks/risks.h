@@ -25,7 +25,7 @@ struct RiskInputs {
 
 // Returns the inputs common to a whole picture.
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment);
-// Return the inputs for an entry's failing picture at s, and for a picture with these options.
+// Returns the inputs for an entry's failing picture at s, and for a picture with these options.
 RiskInputs inputs_of_entry(const AtlasEntry& entry, double s);
 RiskInputs inputs_of_setting(const RenderOptions& o);
 

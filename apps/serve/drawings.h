@@ -42,11 +42,11 @@ class Drawings {
     };
     // Draws, or returns a cached picture. Any thread may call it; one tile picture and one reference are drawn at a time. A picture stops
     // where nobody waits, a reference where another request comes, and a passing picture where another passing request comes: an error of
-    // ExitCode::differ. Other errors are those of `burnish render`.
+    // ExitCode::differ. Other errors are `burnish render`'s.
     Result<std::shared_ptr<const Drawn>> draw(const DrawRequest& request, const Call& call);
 
     // Draws the rows between two shares of the picture's height, in [0, 1]. Keeps the session, not the rows. Bands with shared ends make
-    // the picture. Cannot be stopped. Errors: those of draw(), and ExitCode::usage at FrameDesc::window for a picture that is drawn as a
+    // the picture. Cannot be stopped. Errors: draw()'s, and ExitCode::usage at FrameDesc::window for a picture that is drawn as a
     // whole.
     Result<DrawnBand> draw_part(const DrawRequest& request, double from, double to);
     // Joins bands from top to bottom. Keeps the picture as draw() does. ms: time of the picture. Errors: ExitCode::usage for bands that do

@@ -35,7 +35,7 @@ class Pages {
     void answer(const HttpRequest& request, HttpResponse& response);
     // For several renderers that draw one picture. draw_part answers {picture, from, to}, two shares of the height in [0, 1], with a header
     // about the rows and their pixels: floats, then 8 bits. join answers {picture, bands, ms}, headers of bands from top to bottom, as POST
-    // /draw does; pixels: those of all bands. Status 409 of draw_part: the picture is drawn as a whole.
+    // /draw does; pixels: the pixels of all bands. Status 409 of draw_part: the picture is drawn as a whole.
     void draw_part(const HttpRequest& request, HttpResponse& response);
     void kept(const HttpRequest& request, HttpResponse& response); // status 200 if POST /draw has the picture at hand, else 404
     void join(const HttpRequest& request, std::span<const std::uint8_t> pixels, HttpResponse& response);

@@ -51,7 +51,7 @@ template <class Iterator> std::vector<fs::path> files_of(Iterator at, std::error
     return found;
 }
 
-// True if brackets nest deeper than `most`. Brackets in texts count too.
+// Returns true if brackets nest deeper than `most`. Brackets in texts count too.
 bool nests_deeper(const std::string& text, int most)
 {
     int depth = 0;

@@ -22,7 +22,7 @@ struct ServedLists {
     std::vector<ServedFile> scenes, environments;
     bool operator==(const ServedLists&) const = default;
 };
-// Lists built-in scenes and environments, and those of a folder with all below it, or a file with the environments beside it. At most
+// Lists built-in scenes and environments, and all in a folder and below it, or a file with the environments beside it. At most
 // kMostServed of each. Errors: ExitCode::bad_input.
 inline constexpr std::size_t kMostServed = 1000;
 Result<ServedLists> served_lists(const std::string& target);
@@ -43,7 +43,7 @@ Result<Json> request_json(const std::string& text);
 // must be served. Errors: ExitCode::usage.
 Result<DrawRequest> draw_request_of(const Json& json, const ServedLists& lists);
 
-// True for options that a page may set: those of the picture, which neither read nor write a file.
+// Returns true for options that a page may set: options of the picture, which neither read nor write a file.
 bool is_served(const Option& option);
 Json served_options(const OptionTable& table); // [{name, group, help, kind, low, high, names, initial}]
 

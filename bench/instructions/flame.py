@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Where a frame's instructions go, by function and by what is inlined into it: a flame chart, alone or above that of an older program.
+"""Where a frame's instructions go, by function and by what is inlined into it: a flame chart, alone or above an older program's chart.
 
 Usage: flame.py --program build/flame/bench_instructions [--before PROGRAM] [--unit N] [--table 20] -o flame.svg WORKLOAD
 

@@ -57,7 +57,7 @@ def most_within(ratios):
 
 
 def ratios_of_time(cpu):
-    """{samples: time of lobe_line to that of major_axis_weighted with 16}; cpu: places_of() milliseconds."""
+    """{samples: time of lobe_line over the time of major_axis_weighted with 16}; cpu: places_of() milliseconds."""
     whole = cpu["major_axis_weighted:16"]
     return {n: statistics.median(t / max(whole[p], 1e-9) for p, t in cpu[f"lobe_line:{n}"].items()) for n in COUNTS if f"lobe_line:{n}" in cpu}
 

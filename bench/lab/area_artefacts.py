@@ -5,7 +5,7 @@ Usage: area_artefacts.py --program build/release/burnish -o FOLDER [--size WxH] 
 
 A brushed ball under strips, by the program's own table and by one for each artefact of KT, Heitz, Dupuy, Narayanan 2022, figure 3, beside
 samples of the lights. Tables that lie in FOLDER are not made again. FOLDER/index.html shows the pictures and FLIP's maps; printed is a line a
-table: mean and greatest FLIP, and the greatest step between neighbouring pixels of the ball, in radiance over that of the samples.
+table: mean and greatest FLIP, and the greatest step between neighbouring pixels of the ball, in radiance over the samples' step.
 
 Exit code: 0 the program's own table is the nearest; 1 it is not; 2 something could not be run.
 """

@@ -4,7 +4,7 @@
 Usage: budget.py --program build/release/burnish [--cases N] [--models FOLDER] [--environments FOLDER] [--work FOLDER] [--markdown FILE]
 
 Draws seeded cases: a scene, its materials as they are or with one roughness and anisotropy, an environment, a view. Scenes and environments
-of the first two thirds are never those of the last third. A case's reference is mc with many samples, by the same renderer, so that techniques
+of the first two thirds never come back in the last third. A case's reference is mc with many samples, by the same renderer, so that techniques
 alone are judged; the reference's noise is measured and taken out, and cases with a noise above half the budget are left out. Per budget:
 
   - broken: share of pictures above the budget, and the worst picture's error over the budget;

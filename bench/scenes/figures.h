@@ -16,7 +16,7 @@ Spread spread_of(std::vector<double> values); // expects at least one value
 
 double load_average(); // over the last minute; -1 where unknown
 
-// Return the resident bytes now, and their peak since reset_peak_memory(). The reset returns false where the system
+// Returns the resident bytes now, and their peak since reset_peak_memory(). The reset returns false where the system
 // lacks it.
 std::uint64_t resident_bytes();
 std::uint64_t peak_resident_bytes();

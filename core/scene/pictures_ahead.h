@@ -29,7 +29,7 @@ class PicturesAhead {
     PicturesAhead(const std::vector<Wanted>& pictures, const Limits& limits, const Jobs* jobs);
 
     // Hands out the held picture, or reads the picture now where none is held or fits. rest: the limits above with the texture bytes that
-    // are left now. Errors: those of read_image(); ExitCode::stopped where the caller's work is to stop.
+    // are left now. Errors: read_image()'s; ExitCode::stopped where the caller's work is to stop.
     Result<Image> read(const std::string& path, bool colours, const Limits& rest, PictureNotes& notes);
 
   private:

@@ -104,7 +104,7 @@ struct FrameDesc {
 };
 // Checks that a rasterizer can draw the description: sizes, samples, names.
 Status check_desc(const FrameDesc& desc);
-// Return the picture's size. The frame shows this picture, or its window.
+// Returns the picture's size. The frame shows this picture, or its window.
 inline int picture_width(const FrameDesc& desc)
 {
     return desc.window.picture_width > 0 ? desc.window.picture_width : desc.width;

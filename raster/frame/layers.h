@@ -22,7 +22,7 @@ struct NamedChannels {
     Image image; // f32, a channel a name
     std::vector<std::string> names;
 };
-// Returns the picture's channels (R, G, B, and A if present) and those of the layers. Empty pixels have infinite depth and 0 in other
+// Returns the picture's channels (R, G, B, and A if present) and the layers' channels. Empty pixels have infinite depth and 0 in other
 // layers. frame: drawn from these tables with a description from ask_for_layers(). Errors: ExitCode::usage for an unknown name, a picture
 // that is not f32 with 3 channels or more, or a frame of another size or without the layers' data.
 Result<NamedChannels> with_layers(const Image& color, const Frame& frame, const DrawTables& tables, const std::vector<std::string>& names);

@@ -57,7 +57,7 @@ using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;
 // wanted: by material, whether its own levels are made; null: all.
 MaterialLevels filtered_levels(const Scene& scene, const SceneMips& mips, const Jobs& jobs, const OptimisedTexels& advance = {},
                                const std::vector<bool>* wanted = nullptr);
-// Returns the materials that filtered_levels() makes levels for, by index. Other materials have none, or those of one of these.
+// Returns the materials that filtered_levels() makes levels for, by index. Other materials have none, or the levels of one of these.
 std::vector<std::size_t> filtered_materials(const Scene& scene, const SceneMips& mips);
 bool is_metal(const Scene& scene, const Material& material); // more than half of it
 

@@ -35,7 +35,7 @@ SceneTables upload_scene(const RenderInput& input);
 bool tilts(const Scene& scene, const FrameDesc& desc);
 // Runs check_desc(). Checks that the frame's lobes can be tilted if the scene tilts them.
 Status check_frame(const Scene& scene, const FrameDesc& desc);
-// True where a frame sets roughness or anisotropy, or leaves normal maps out: it overrides materials.
+// Returns true where a frame sets roughness or anisotropy, or leaves normal maps out: it overrides materials.
 bool sets_materials(const FrameDesc& desc);
 // Refuses a frame that sets_materials() where the scene was prepared without (MipSettings::frames_override).
 Status check_prepared(const SceneMips& mips, const FrameDesc& desc);

@@ -20,7 +20,7 @@ Status parse_checkpoint(const std::uint8_t* data, std::size_t size, const std::s
 
 // Returns the state of `count` blocks from `first` on, which have equal passes.
 std::vector<std::uint8_t> blocks_of(const Accumulator& a, std::uint64_t key, std::uint32_t first, std::uint32_t count);
-// Adds such a state, whose passes follow those of the accumulator. Leaves the accumulator unchanged if key, size or passes differ.
+// Adds such a state, whose passes follow the accumulator's passes. Leaves the accumulator unchanged if key, size or passes differ.
 Status take_blocks(const std::vector<std::uint8_t>& bytes, std::uint64_t key, Accumulator& into);
 
 // Reads a checkpoint into an accumulator with equal size. A missing file is not an error. Returns true if a checkpoint was read.

@@ -94,14 +94,14 @@ int burnish_set_material(burnish_session* session, int material, const burnish_o
 int burnish_set_primitive_material(burnish_session* session, int primitive, int material);
 /* factors: by names of burnish_light_name, of a point, spot or directional light; others stay as they are. */
 int burnish_set_light(burnish_session* session, int light, const burnish_options* factors);
-/* environment and options: as those of burnish_open. */
+/* environment and options: as burnish_open() takes them. */
 int burnish_set_environment(burnish_session* session, const char* environment, const burnish_options* options);
 
 /* Pictures. */
 int burnish_render(burnish_session* session, const burnish_options* options, burnish_frame** out);
 /* Called like burnish_progress. */
 typedef int (*burnish_poll)(void* user);
-/* The Monte Carlo reference of the same frame; "samples" are those of a pixel. poll may be NULL. */
+/* The Monte Carlo reference of the same frame; "samples" counts the samples a pixel. poll may be NULL. */
 int burnish_reference(burnish_session* session, const burnish_options* options, burnish_poll poll, void* user, burnish_frame** out);
 int burnish_frame_width(const burnish_frame* frame);
 int burnish_frame_height(const burnish_frame* frame);

@@ -43,7 +43,7 @@ Status add_mesh(const burnish_mesh& mesh, const std::string& place, Scene& scene
     return added ? Status() : Status(added.error());
 }
 
-// Loads the environment that is named, else that of the options' picture, else the scene's default one.
+// Loads the environment that is named, else the environment of the options' picture, else the scene's default one.
 Result<std::shared_ptr<const Environment>> environment_of(const burnish_options* options, const CSettings& settings,
                                                           const char* environment, const SceneData& scene, const Jobs& jobs)
 {

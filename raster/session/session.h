@@ -44,8 +44,8 @@ struct SceneData { // a scene and its draw tables
     MipSettings asked = {};        // what mips were made by
 };
 
-// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to those of the
-// scene, in world space. floor: that is laid under the scene. jobs: threads that decode pictures; null: the calling thread alone.
+// "builtin:NAME" or a path of a .gltf, .glb or .obj file, at a moment of its animation. lights: that are added to the scene's
+// lights, in world space. floor: that is laid under the scene. jobs: threads that decode pictures; null: the calling thread alone.
 Result<std::shared_ptr<const SceneData>> load_scene_data(const std::string& spec, const Limits& limits,
                                                          const MaterialOverrides& overrides = {}, const MipSettings& mips = {},
                                                          const Moment& moment = {}, const std::vector<AreaLight>& lights = {},

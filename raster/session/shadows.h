@@ -24,7 +24,7 @@ Status check_shadows(const ShadowSettings& settings);
 Status check_drawn(const Frame& lit, const FrameDesc& desc);
 
 // Darkens `lit`, the session's frame for `desc`, with FrameDesc::layers. Renders three more frames for each kind of light: two by rays,
-// with and without occluders, and one by the session without these lights. Errors: those of Session::render(); usage where `lit` is another
+// with and without occluders, and one by the session without these lights. Errors: Session::render()'s; usage where `lit` is another
 // frame or has no layers.
 Status add_shadows(const ShadowSettings& settings, const FrameDesc& desc, Session& session, Frame& lit);
 

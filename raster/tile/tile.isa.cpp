@@ -130,7 +130,7 @@ void draw_layers(const Tile& t, const view_params& view, const MaterialRecord& m
     }
 }
 
-// True for the techniques that this copy of the kernels draws by.
+// Returns true for the techniques that this copy of the kernels draws by.
 #ifndef BN_COMPILES_TECHNIQUE
 #define BN_COMPILES_TECHNIQUE(id) true
 #endif

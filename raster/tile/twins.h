@@ -22,7 +22,7 @@ struct CountedFrame {
 };
 bool has_counting_lanes();
 // Draws a frame on the calling thread with lanes that count. The work is equal on every machine and for every number of threads; it depends
-// on the description, its tile size included. Errors: those of Renderer::render(); ExitCode::unavailable without such lanes.
+// on the description, its tile size included. Errors: Renderer::render()'s; ExitCode::unavailable without such lanes.
 Result<CountedFrame> draw_counted(const RenderInput& input, const FrameDesc& desc);
 
 } // namespace burnish

@@ -68,7 +68,7 @@ BN_INLINE std::uint32_t list_triangles(std::uint32_t some, std::uint32_t first, 
     return n;
 }
 
-// Returns those of the triangles `used` from `first` on whose material blends.
+// Returns the triangles among `used`, from `first` on, whose material blends.
 std::uint32_t blended_triangles(const Tile& t, std::uint32_t first, std::uint32_t used)
 {
     std::uint32_t blended = 0;

@@ -23,7 +23,7 @@ class ForwardDrawer {
 
 struct ForwardShaders {
     std::vector<EmbeddedShader> files;
-    std::uint32_t samplers = 0; // that a stage binds beside those of NativeImages
+    std::uint32_t samplers = 0; // that a stage binds beside the samplers of NativeImages
     std::unique_ptr<ForwardDrawer> (*make)(Context& context, Pipelines& pipelines, GpuScene& scene, const RenderInput& input) = nullptr;
 };
 

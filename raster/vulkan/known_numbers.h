@@ -17,7 +17,7 @@ class Buffers {
   public:
     Buffers(const std::vector<Instruction>& globals, const std::vector<KnownNumber>& numbers);
 
-    // Returns the number that an access chain points at, if it is known. values: those of the chain's constant indices.
+    // Returns the number that an access chain points at, if it is known. values: the values of the chain's constant indices.
     std::optional<std::int32_t> number_at(const Instruction& chain, const Values& values) const;
 
   private:

@@ -60,7 +60,7 @@ class Pipelines {
     VkDescriptorSetLayout native_layout() const { return native_layout_; } // of set 1, with native samplers: cubes, a material's textures
     // Sets the known numbers. Pipelines made for other numbers stay cached beside the new ones.
     void know(std::vector<KnownNumber> numbers);
-    // Return a pipeline, made on first use and then cached.
+    // Returns a pipeline, made on first use and then cached.
     VkPipeline compute(const std::string& shader, const Specialization& constants = {});
     VkPipeline graphics(const GraphicsState& state, const Specialization& constants = {});
 

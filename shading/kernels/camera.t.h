@@ -26,7 +26,7 @@ BN_FN view_params view_params_of(BN_IN(ViewRecord) v)
     return r;
 }
 
-// Return where snapped positions are 0, in 1/256 pixel from the picture's top left corner.
+// Returns where snapped positions are 0, in 1/256 pixel from the picture's top left corner.
 BN_FN int center_in_picture_x(frame_ref f)
 {
     return the_frame(f).center_x + the_frame(f).left * kSubpixel;

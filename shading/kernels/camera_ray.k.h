@@ -7,7 +7,7 @@
 
 BN_KERNELS_BEGIN
 
-// Return where the ray through an image point meets the plane at distance 1, along the view's right and up. (px, py):
+// Returns where the ray through an image point meets the plane at distance 1, along the view's right and up. (px, py):
 // pixels from the image's top left corner. half_width, half_height: half the image, pixels.
 BN_FN real screen_x(real px, real half_width, real inv_tan_x)
 {

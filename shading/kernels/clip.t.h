@@ -26,7 +26,7 @@ struct clip_polygon {
     clip_corner corner[kMostCorners];
 };
 
-// Return the guard band's |x| / w and |y| / w.
+// Returns the guard band's |x| / w and |y| / w.
 BN_FN uniform_wide band_x(frame_ref f)
 {
     return wide_of(kCutBand / kSubpixel) / wide_of(the_frame(f).half_width);
@@ -36,7 +36,7 @@ BN_FN uniform_wide band_y(frame_ref f)
     return wide_of(kCutBand / kSubpixel) / wide_of(the_frame(f).half_height);
 }
 
-// Return the guard band's middle, as band_x() and band_y(). y up.
+// Returns the guard band's middle, as band_x() and band_y(). y up.
 BN_FN uniform_wide middle_x(frame_ref f)
 {
     return wide_of(the_frame(f).middle_x);

@@ -25,7 +25,7 @@ BN_FN broad_lobe broad_lobe_of(BN_IN(shaded_point) x)
     real3 whole = x.s.n * max(mean.up, lit(0.05)) + side * mean.along;
     real length = k_length3(whole);
     r.direction = k_normalize3(whole);
-    // Find the prefiltered lobe whose mean direction is as long: that of roughness 1 has length 2/3
+    // Find the prefiltered lobe whose mean direction is as long: at roughness 1 the length is 2/3
     r.roughness = min(max(lit(1.0) - lit(2.8) * (length - lit(0.66666667)), lit(0.3)), lit(1.0));
     return r;
 }

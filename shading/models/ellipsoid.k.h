@@ -80,7 +80,7 @@ struct ellipsoid_view {
     real lengths; // |A u| |A n|
     real sum;     // |A u| |A n| + A u . A n
     real hidden;  // |A u| |A n| - A u . A n
-    real k;       // 2 |A n|^2 / sum: the ellipsoid's projected area over that of the half visible from u
+    real k;       // 2 |A n|^2 / sum: the ellipsoid's projected area over the projected area of the half visible from u
 };
 
 // Computes the view from u, unit. Of sum and difference, the one that cancels comes from the squared cross product, |A u x

@@ -42,7 +42,7 @@ BN_STAGE void make_interface(any_frame f, material_ref m, BN_IN(material_inputs)
         x.energy.gain = vec3_all(lit(1.0) / max(interface_albedo(rough_interface_at(x)), lit(0.05)));
 }
 
-// Return the geometry's frame; a surface seen from behind shows its other side.
+// Returns the geometry's frame; a surface seen from behind shows its other side.
 BN_FN real facing_handedness(BN_IN(visible_point) p)
 {
     real sign = BN_MUTANT(handedness_ignored, p.tangent_sign, lit(1.0));

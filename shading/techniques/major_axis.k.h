@@ -256,7 +256,7 @@ BN_FN real major_axis_grain_count(major_axis_grain g, real beta, real limit)
     return min(max(count, lit(1.0)), limit);
 }
 
-// Returns true where the count above may exceed that of the line from Cocco, Zanni, Chermain 2024 (sec. 5): wide lobes
+// Returns true where the count above may exceed the count of the line from Cocco, Zanni, Chermain 2024 (sec. 5): wide lobes
 // (roughness above 0.5), grazing views, k other than 1.
 BN_FN mask major_axis_count_unsure(major_axis_grain g, real k)
 {

@@ -1,5 +1,5 @@
 // Interleaved sampling: Keller and Heidrich 2001, "Interleaved Sampling". In each 2x2 quad of pixels, samples lie in four
-// different places of their cells. A fragment averages its results with those of fragments with similar lobes in the 3x3
+// different places of their cells. A fragment averages its results with results of fragments with similar lobes in the 3x3
 // pixels around it, which gives four times the samples for the same price. Weights at the window's sides are one half, so
 // each of the four places counts the same wherever the window lies, and no quad shows. The environment is infinitely far
 // away, so only the direction, length and width of lobes tell two fragments apart.

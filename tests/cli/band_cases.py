@@ -30,7 +30,8 @@ def check_same(bench, name, *words, rows=48, aov=()):
 
 @case("band.pictures_have_the_bytes_of_whole_ones", budget=19)
 def same(bench):
-    """By a technique that shares samples, with lights and their shadows, blended and masked surfaces, layers, and without a background."""
+    """By a technique that shares samples, with lights and their shadows, blended and masked surfaces, layers, and without a background.
+    Draws each whole and in bands."""
     check_same(bench, "teapot", "builtin:teapot", *SMALL, "--msaa", "4")
     check_same(bench, "spheres", "builtin:spheres", *SMALL, "--no-background", "--technique", "mc", "--samples", "4", aov=("--aov", "depth,normal"), rows=16)
     check_same(bench, "lights", "builtin:lights", *SMALL, "--msaa", "4", "--shadows", "on", "--shadow-samples", "16", rows=64)
@@ -85,6 +86,7 @@ def shared(bench):
 
 @case("band.merged_pieces_are_the_picture", budget=20)
 def pieces(bench):
+    """Draws one picture whole, in two shares, and for its timeline."""
     words = ("builtin:teapot", *SMALL, "--msaa", "4", "--band-rows", "32", "-o", "a.exr", "-o", "a.png")
     bench.run("render", *words).expect(0)
     for ending in ("exr", "png"):

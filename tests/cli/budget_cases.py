@@ -41,7 +41,7 @@ def holds(bench):
 
 @case("budget.of_the_percentile_holds_the_tail", budget=20)
 def percentile(bench):
-    """At most one pixel in a hundred errs more than the budget, beside a mean that one holds too."""
+    """At most one pixel in a hundred errs more than the budget, beside a mean that one holds too. The reference needs many samples."""
     bench.run(*POT, "--technique", "mc", "--samples", "2048", "-o", "reference.pfm").expect(0)
     means = {}
     for words in (("--budget-p99", "0.3"), ("--budget-p99", "0.3", "--budget", "0.02"), ("--budget", "0.02")):

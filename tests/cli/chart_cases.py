@@ -53,7 +53,8 @@ def busy(bench):
 
 @case("chart.of_budgets_has_planned_rows", budget=20)
 def budgets(bench):
-    """A plan's row stands beside those of techniques, and the page says which setting is the fastest within each error."""
+    """A plan's row stands beside rows of techniques, and the page says which setting is the fastest within each error. Each plan draws
+    trial pictures."""
     needs_embree(bench)
     words = ("chart", "builtin:teapot", "--size", "320x180", "--error-size", "128x72", "--msaa", "2", "--env-size", "64", "--env-samples", "32", "--reference-samples", "64",
              "--techniques", "bent_normal,mc", "--sweep", "samples=16")
@@ -225,7 +226,7 @@ def wrong(bench):
 
 @case("chart.errors_are_of_the_error_size", tier="nightly")
 def error_size(bench):
-    """Times are measured at --size, errors at --error-size. Errors equal those of a run where both sizes are --error-size."""
+    """Times are measured at --size, errors at --error-size. Errors equal the errors of a run where both sizes are --error-size."""
     needs_embree(bench)
     small, large = FEW, ("--size", "1024x576", "--error-size", "64x36", *FEW[2:])
     bench.run("chart", *small, "-o", "small").expect(0)
@@ -435,7 +436,7 @@ def grid_of(bench, scene, techniques, samples, roughness, anisotropy, *words):
 def claims(bench):
     """Cocco, Zanni, Chermain 2024: benefit of 16 samples along the axis, over widths and anisotropies. On average they beat the bent
     normal.
-    For roughness to 0.5 and anisotropy from 0.5 they do so in every cell except those of CLAIM_FAILS. A cell of that list that holds again
+    For roughness to 0.5 and anisotropy from 0.5 they do so in every cell except the cells of CLAIM_FAILS. A cell of that list that holds again
     is printed.
     On rougher surfaces some cells may fail, and there the samples by density beat both."""
     needs_embree(bench)

@@ -55,6 +55,7 @@ def undefined(bench):
 
 @case("export.every_technique_compiles_alone_and_reads_nothing_undefined", budget=20)
 def compiles_alone(bench):
+    """Compiles and optimises a shader for each technique."""
     compiler()
     if not (shutil.which("spirv-opt") and shutil.which("spirv-dis")):
         raise Skipped("no spirv-opt, or no spirv-dis")

@@ -245,6 +245,7 @@ def ltc_table(bench):
 
 @case("export.quad_light_is_that_of_sampled_lobes", budget=30)
 def quad_light(bench):
+    """Sums sampled lobes in Python for each point. No cheaper test holds the values of an exported quad light."""
     table = ltc_table(bench)
     for language in ("glsl", "hlsl", "msl"):
         bench.run("export", language, "--ltc", "--technique", "bent_normal", "-o", f"bent_normal.{language}").expect(0)
@@ -297,6 +298,7 @@ def quad_light_in_webgpu(bench):
 
 @case("export.albedo_place_finds_the_albedo_of_two_widths", budget=20)
 def albedo(bench):
+    """Sums sampled lobes in Python for each point."""
     bench.run("bake", "environment", "builtin:studio", "--env-size", "16", "--env-samples", "16", "--textures", "ktx2", "--texels", "float", "-q", "-o", "baked").expect(0)
     tiles = ktx2(bench.folder / "baked/lobe_albedo.ktx2")[1][0]
     written(bench, "glsl", ["bent_normal"])
@@ -478,8 +480,16 @@ def wgsl_pages(bench, names):
     in_pages(bench, names, "wgsl", RUN_WEBGPU, WGSL)
 
 
-for claim, run, budget in (("hlsl_gives_the_words_of_glsl", hlsl_words, 12), ("hlsl_by_spirv_cross_gives_the_words_of_glsl", spirv_cross_words, 12),
-                           ("msl_as_cpp_gives_the_words_of_glsl", msl_words, 12),
-                           ("essl_draws_in_webgl_2", essl_pages, 12), ("wgsl_draws_in_webgpu", wgsl_pages, 12)):
-    case(f"export.{claim}", budget=budget)(lambda bench, run=run: run(bench, SOME))
-    case(f"export.{claim}_by_every_technique", tier="nightly")(lambda bench, run=run: run(bench, NAMES))
+def in_two_tiers(claim, run):
+    """Registers run(bench, techniques) for some techniques in check, and for all nightly."""
+    @case(f"export.{claim}", budget=12)
+    def for_some(bench):
+        """Compiles shaders in two languages for each of some techniques."""
+        run(bench, SOME)
+
+    case(f"export.{claim}_by_every_technique", tier="nightly")(lambda bench: run(bench, NAMES))
+
+
+for claim, run in (("hlsl_gives_the_words_of_glsl", hlsl_words), ("hlsl_by_spirv_cross_gives_the_words_of_glsl", spirv_cross_words),
+                   ("msl_as_cpp_gives_the_words_of_glsl", msl_words), ("essl_draws_in_webgl_2", essl_pages), ("wgsl_draws_in_webgpu", wgsl_pages)):
+    in_two_tiers(claim, run)

@@ -54,7 +54,8 @@ def pieces(bench):
 
 @case("golden.pieces_have_keys_by_content", budget=11)
 def keys(bench):
-    """Each file that decides a row changes its key, and no other row's. A folder of pieces thus serves the next commit."""
+    """Each file that decides a row changes its key, and no other row's. A folder of pieces thus serves the next commit. The program starts
+    once a file."""
     scene = gltf_files.textured("colour.png")
     (bench.folder / "ball.gltf").write_text(gltf_files.text(scene))
     (bench.folder / "colour.png").write_bytes(gltf_files.png(2, 2, color=lambda x, y: (200, 100, 50)))
@@ -136,7 +137,8 @@ def alive(pid):
 
 @case("golden.a_killed_check_ends_its_programs", budget=20)
 def killed(bench):
-    """Signal 9 to a process that makes rows ends their programs, and what these started: no program goes on beside its successor."""
+    """Signal 9 to a process that makes rows ends their programs, and what these started: no program goes on beside its successor. Busy
+    machines end them late."""
     here = bench.folder / "go"
     write(bench, [{"name": f"row{i}", "command": ["sh", "-c", f"sleep 60 & echo $! > {here}.{i}; echo $$ >> {here}.{i}; wait"], "picture": f"out{i}.ppm"} for i in range(2)])
     for words in (("--jobs", "2"), ("--take", "--work", "w")):
@@ -163,7 +165,7 @@ def killed(bench):
 
 @case("golden.merges_of_scripts_end_with_the_verdict", budget=3)
 def merges_of_scripts(bench):
-    """A merge makes what is missing, and its exit code is that of one process: 0, or the verdict of golden pictures. No word of a picture's
+    """A merge makes what is missing, and its exit code equals one process': 0, or the verdict of golden pictures. No word of a picture's
     name is run. A merge of k8s takes what no pod makes."""
     import yaml
     name = "$(touch run) `touch run`; touch run"

@@ -68,11 +68,13 @@ def run_degenerate(bench, options):
 
 @case("hostile.degenerate_scenes", "program", "input", budget=12)
 def degenerate(bench):
+    """Starts the program once for each of many scenes."""
     run_degenerate(bench, TILE)
 
 
 @case("hostile.degenerate_scenes_by_the_reference", "program", "input", budget=11)
 def degenerate_reference(bench):
+    """Starts the program once for each of many scenes."""
     if "reference" not in bench.run("info").expect(0).out:
         raise Skipped("built without Embree")
     refused = run_degenerate(bench, REFERENCE)

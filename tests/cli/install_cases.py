@@ -6,13 +6,19 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 from harness import SMALL, Skipped, case, check
 
 MODULE = "burnish_openimageio.so"
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "apps/manual"))
+
+import pages  # noqa: E402
+
 INSTALLING = {**os.environ, "BN_TEST_INSTALL": "1"}  # builds for tests refuse to be installed otherwise
+SOURCES = ("core/", "shading/", "raster/", "tests/", "bench/", "apps/README.md")  # that pages link to and no installation holds
 
 
 @case("install.copy_reads_and_writes_pictures", "input")
@@ -52,6 +58,22 @@ def installed_examples(bench, folder, *targets):
     return prefix, out
 
 
+def check_pages(installed):
+    """Checks that installed pages show no picture and link to no file that is missing, but files of the sources."""
+    wrong, shown = [], 0
+    for page in sorted(installed.rglob("*.md")):
+        text = page.read_text()
+        pictures = re.findall(r"!\[[^\]]*\]\(([^)\s]+)\)", text)
+        shown += len(pictures)
+        wrong += [f"{page.relative_to(installed)} shows {file}" for file in pictures if not (page.parent / file).is_file()]
+        for file, _ in pages.links_of(text):
+            target = os.path.relpath(page.parent / file, installed)
+            if file and not (installed / target).exists() and not target.startswith(SOURCES):
+                wrong.append(f"{page.relative_to(installed)} links to {file}")
+    check(not wrong, "not installed:\n" + "\n".join(wrong))
+    check(shown > 300, f"installed pages show only {shown} pictures")
+
+
 def hashes_of_turntable(bench, folder, out):
     run = subprocess.run([str(out / "turntable"), "builtin:spheres"], cwd=folder, capture_output=True, text=True, timeout=300)
     check(run.returncode == 0, f"turntable ended with {run.returncode}: {run.stderr}")
@@ -60,9 +82,11 @@ def hashes_of_turntable(bench, folder, out):
 
 @case("install.library_is_found_and_draws_the_same", budget=12)
 def library(bench):
-    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`."""
+    """Another program, built against the installed tree by find_package alone, draws the image of `burnish render`. A compiler builds that
+    program."""
     with tempfile.TemporaryDirectory(prefix="burnish-library-") as folder:
         prefix, out = installed_examples(bench, folder, "turntable")
+        check_pages(prefix / "share/doc/burnish")
         text = "".join(path.read_text() for path in [*(prefix / "lib/cmake/burnish").glob("*.cmake"), prefix / "lib/pkgconfig/burnish.pc"])
         for word in ("-Wall", "-march", "fmt::", "TBB", "embree", str(pathlib.Path(bench.program).parent)):
             check(word not in text, f"the installed package names {word}")
@@ -189,7 +213,7 @@ def without_module(bench):
         bench.run("render", *SMALL, "-o", "a.png", "-o", "a.tif", "-o", "a.pfm", program=program).expect(0)
         for words in (("atlas", "--list"), ("help", "train"), ("race", "builtin:plate"), ("bake", "ltc", "-o", "t.ltc"),
                       ("chart", "--mip", "-o", "r"), ("render", "builtin:needles=0.01", *SMALL)):
-            bench.run(*words, program=program).expect(77).expect_one_line("burnish-lab", "target burnish-lab")
+            bench.run(*words, program=program).expect(77).expect_one_line("`cmake --build build/release --target burnish-lab`")
         written = bench.run("render", *SMALL, "--quiet", "-o", "b.exr", program=program).expect(77)
         written.expect_one_line("b.exr", MODULE, folder)
         read = bench.run("render", *SMALL, "--quiet", "--env", "a.exr", "-o", "c.png", program=program).expect(77)

@@ -253,12 +253,13 @@ def area_jumps(bench):
 
 @case("laws.lamps_go_through_the_horizon_without_a_jump", budget=11)
 def sinking_lamps(bench):
+    """Draws a row of pictures for each lamp and way of area lights."""
     held(bench, by_way(bench, [path for path in AREA_PATHS if "lamp that" in path]))
 
 
 @case("laws.steps_of_the_reference_are_those_that_are_kept", tier="nightly")
 def reference_is_kept(bench):
-    """Steps may become smaller. BN_BLESS=1 keeps the steps found, BN_BLESS=missing those of rows that are missing."""
+    """Steps may become smaller. BN_BLESS=1 keeps the steps found, BN_BLESS=missing the steps of rows that are missing."""
     needs_embree(bench)
     rows = {(key[1], lobe): path for key, (path, _, lobe) in {**by_technique(bench), **by_model(bench), **by_way(bench, AREA_PATHS)}.items()
             if key[1] not in OWN_PATHS}

@@ -17,7 +17,11 @@ SIDE = ("--size", "64x64", "-q")
 
 def in_two_tiers(claim, law, some):
     """Registers law(bench, techniques) for some techniques in check, and for all nightly."""
-    case(f"laws.{claim}", budget=20)(lambda bench: law(bench, some))
+    @case(f"laws.{claim}", budget=20)
+    def for_some(bench):
+        """Draws pictures in pairs, for each of some techniques."""
+        law(bench, some)
+
     case(f"laws.{claim}_by_any_technique", tier="nightly")(lambda bench: law(bench, names_of(bench, "techniques")))
 
 

@@ -333,6 +333,7 @@ COMPILE = """async function run() {
 
 @case("export.shaders_for_engines_on_webgpu_compile", budget=15)
 def on_webgpu(bench):
+    """A browser compiles the shaders of three modules."""
     for what in ("three-node", "bevy"):
         bench.run("export", what, "--technique", "lobe_line", "-o", what).expect(0)
     module = (bench.folder / "three-node").read_text()

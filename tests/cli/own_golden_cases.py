@@ -44,6 +44,7 @@ def show(bench, isa):
 
 @case("own_goldens.are_drawn_by_every_instruction_set", budget=30)
 def every_isa(bench):
+    """Draws each golden picture once an instruction set: no cheaper test holds them."""
     for isa in json.loads(bench.run("info", "--json").expect(0).out)["isa_available"]:
         if draw(bench, isa, "pfm").code != 0:  # pfm takes a third of exr's time
             drawn, shown = draw(bench, isa, "exr"), show(bench, isa)

@@ -113,6 +113,7 @@ def automatic_technique(bench):
 
 @case("parity.a_small_picture_is_equal", budget=90)
 def small_picture(bench):
+    """Takes long, since a device of the CPU compiles every shader. No cheaper test compares a device with the tile renderer."""
     report = parity(bench, "builtin:plate", "--size", "32x24", "--env-size", "16", "--env-samples", "16", "--msaa", "4", "--technique", "auto")
     check_equal(report)
 

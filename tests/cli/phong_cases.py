@@ -67,6 +67,7 @@ def tables(bench, given_of):
 
 @case("phong.tables_from_files_are_those_that_frames_make", "input", budget=13)
 def some_tables(bench):
+    """Bakes tables of many texels for three lobes."""
     tables(bench, {"16": (("both",),), "60": (("large.exr", "a.pfm"),), "64": (("across.exr",),)})
 
 

@@ -73,6 +73,7 @@ def one_and_pieces(bench, words, outputs, option="-o", machine=("--threads", "1"
 
 @case("pieces.of_a_reference_make_its_bytes", budget=13)
 def reference(bench):
+    """Draws a reference of several blocks whole and in pieces."""
     needs_embree(bench)
     one_and_pieces(bench, PICTURE, ("o.exr", "o.png"))
 
@@ -228,8 +229,10 @@ def taken_and_killed(bench, words, output, kills, seed):
     check(not list((bench.folder / "w").glob("*.lease")), "a lease is left")
 
 
-@case("pieces.survive_killed_workers", budget=37)
+@case("pieces.survive_killed_workers", tier="nightly")
 def killed(bench):
+    """In quick, `unit_pieces.lease.of_a_dead_owner_is_taken_over` frees a dead worker's lease. In check,
+    `pieces.damaged_or_of_another_version_are_named` refuses cut pieces."""
     needs_embree(bench)
     taken_and_killed(bench, (*PICTURE, "--samples", "65536"), "exr", 3, 5)
 
@@ -373,6 +376,7 @@ def renderer(bench):
 
 @case("pieces.of_one_kind_are_made_twice_at_once", budget=15)
 def at_once(bench):
+    """Two processes do the same work at once, three times, to meet in each file."""
     needs_embree(bench)
     for words in ((*ROW[:4], "--steps", "20", *ROW[6:], "-o", "a_%d.png", "-o", "a_%d.exr"), (*CHART, "-o", "report")):
         for _ in range(3):

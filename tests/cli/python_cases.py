@@ -77,6 +77,7 @@ scene.render({FRAME}, msaa=4).save("by_python.png")
 
 @case("python.shadows_and_mirrors_are_the_program_s", budget=20)
 def shadows(bench):
+    """Draws each picture twice, and shadows cast many rays."""
     words = ("builtin:lights", *SMALL[:-1])
     shaded = hash_of(bench, *words, "off", "--shadows", "ratio", "--shadow-samples", "32")
     mirrored = hash_of(bench, *words, "mirror")

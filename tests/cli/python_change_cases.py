@@ -96,7 +96,7 @@ for source in sources:
     scene.set_environment(source, {KEYWORDS})
     assert scene.render({FRAME}).hash == '{expected}'
 import warnings
-sky[3][5] = (float('nan'), 0, 0) # repaired, as those of files, and told once
+sky[3][5] = (float('nan'), 0, 0) # repaired, as environments of files are, and told once
 with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter('always')
     scene = burnish.load('builtin:plate', Array(), {KEYWORDS})
@@ -112,6 +112,7 @@ for wrong in ([[1, 2, 3]], 7, (0.1, 0.2, 0.3)):
 
 @case("python.work_is_told_and_stops", budget=20)
 def told(bench):
+    """Bakes and references work on all cores until they stop."""
     python(bench, f"""
 calls = []
 def hears(work, done):
@@ -194,8 +195,9 @@ assert len(freed) == 1, freed
 """)
 
 
-@case("python.ctrl_c_stops_every_call", budget=30)
+@case("python.ctrl_c_stops_every_call", tier="nightly")
 def interrupt(bench):
+    """In check, `python.ctrl_c_stops_a_reference` sends the signal, and `python.work_is_told_and_stops` stops calls."""
     floats, picture = "memoryview(bytearray(12 * 8192 * 4096)).cast('f', [4096, 8192, 3])", "scene.render(width=8192, height=4096, msaa=1, technique='split_isotropic')"
     for large, work in (("None", "scene.render(width=1280, height=720, technique='mc', samples=8192)"),
                         ("None", "burnish.load('builtin:spheres', env_size=2048, env_samples=65536, cache=False)"),

@@ -263,6 +263,7 @@ assert 2 * compare(exact, space['line']).flip_mean < compare(exact, space['split
 
 @case("python.notebook_runs_in_jupyter", budget=15)
 def jupyter(bench):
+    """Starts Jupyter, which takes most of the time."""
     program = shutil.which("jupyter-nbconvert", path="/usr/bin:/bin") or shutil.which("jupyter-nbconvert")
     if not program:
         raise Skipped("no jupyter-nbconvert")

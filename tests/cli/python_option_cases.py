@@ -136,6 +136,7 @@ assert pictures[0] != pictures[1] == pictures[2], pictures
 
 @case("python.views_are_those_of_the_program", budget=20)
 def views(bench):
+    """Draws each view twice: by the program and by the package."""
     lamp = str(bench.data_file("models/Lights.glb"))
     wanted = [hash_of(bench, "builtin:plate", *SMALL, *words) for words in (["--target", "0.1,0,0"], ["--orbit", "0,10", "--target", "0,0.1,0"], ["--zoom", "2"],
                                                                             ["--eye", "1,1,2", "--zoom", "0.5"], ["--fov", "30"])]
@@ -157,6 +158,7 @@ refused('camera: ', lambda: plate.render(camera='none'))
 
 @case("python.more_keywords_draw_as_the_program", budget=20)
 def more(bench):
+    """Draws each picture twice: by the program and by the package."""
     wanted = [hash_of(bench, "builtin:bumps", *SMALL, *words) for words in (["--mip-filter", "kappa", "--mip-kappa", "0.5"], ["--f0", "0.9,0.5,0.1"], ["--key-lights", "off"],
                                                                             ["--couple", "albedo", "--color-kernel", "kaiser"])]
     done = python(bench, REFUSED + f"""

@@ -4,7 +4,7 @@ import json
 import re
 
 from environment_files import even, exr
-from harness import case, check, scratch
+from harness import ROOT, case, check, scratch
 
 VIEW = ("render", "builtin:sphere", "--size", "96x64", "--env-size", "64", "--env-samples", "64")
 BRUSHED = ("--technique", "bent_normal", "--roughness", "0.4", "--anisotropy", "0.7")
@@ -83,3 +83,20 @@ def refused(bench):
                                  (2, "file", "--risks", "file")):
         bench.run(*VIEW, *words).expect(code).expect_one_line(needle)
     check(bench.left_behind() == ["file"], f"{bench.left_behind()}")
+
+
+@case("risks.every_technique_has_rules_and_a_row_in_the_manual", tier="quick")
+def every_technique(bench):
+    techniques = re.findall(r"^BN_TECHNIQUE\((\w+)", (ROOT / "shading/models.def").read_text(), re.M)
+    check(len(techniques) > 5, f"only {techniques} were seen")
+    readers = [rule.split() for rule in re.findall(r'^BN_RISK\(\w+, \w+, \w+, "([^"]*)"', (ROOT / "apps/risks/risks.def").read_text(), re.M)]
+    beginnings = {word for rule in readers for word in rule}
+    without = [name for name in techniques if not name.startswith(tuple(beginnings))]
+    check(not without, f"no rule of apps/risks/risks.def applies to {without}")
+    unread = [word for word in beginnings if not any(name.startswith(word) for name in techniques)]
+    check(not unread, f"apps/risks/risks.def: no technique begins with {unread}")
+    page = (ROOT / "apps/manual/techniques.md").read_text()
+    without = [name for name in techniques if f"\n| `{name}` | ![](pictures/t_{name}.png) |" not in page]
+    check(not without, f"apps/manual/techniques.md has no row with a picture of {without}")
+    samples = page.partition("\n## How many samples\n")[2].partition("\n## ")[0]
+    check(all(f"`{name}`" in samples for name in techniques), "apps/manual/techniques.md does not name every technique's samples")

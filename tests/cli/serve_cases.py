@@ -86,7 +86,7 @@ def pictures(bench):
             check(info["hash"] == hash_of_command(bench, info["command"]), f"{info['command']} draws another picture")
             (bench.folder / "served.png").write_bytes(body)
             bench.run("compare", "served.png", "picture.png", "--fail-max", "0", "-q").expect(0)
-        # Warnings are those of this picture, not of the session
+        # Warnings belong to this picture, not to the session
         for words, told in (({"shadows": "ratio"}, True), ({}, False), ({"shadows": "ratio"}, True)):
             info = json.loads(served.ask("/draw", wish(**words))[1]["X-Burnish"])
             check(any("--shadows has no effect" in line for line in info["warnings"]) == told, f"{words}: {info['warnings']}")
@@ -104,6 +104,7 @@ def pictures(bench):
 
 @case("serve.references_stop_for_other_pictures", budget=20)
 def stopped(bench):
+    """References work on all cores until they stop."""
     long = {**wish(size=(640, 480)), "reference_samples": 65536}
     with Served(bench, "builtin:sphere") as served:
         answers = []
@@ -190,7 +191,7 @@ def refusals(bench):
 
 @case("serve.a_picture_that_nobody_waits_for_stops", budget=20)
 def stops(bench):
-    """A later picture of the page does not wait for an earlier one."""
+    """A later picture of the page does not wait for an earlier one, which works on all cores until it stops."""
     with Served(bench, "builtin:teapot") as served:
         served.ask("/draw", wish("builtin:teapot"))  # makes the session
         slow = wish("builtin:teapot", size=(1920, 1080), technique="mc", samples="4096")
@@ -256,6 +257,7 @@ def saves(bench):
 
 @case("serve.page_turns_compares_and_shows_its_command", budget=25)
 def page(bench):
+    """A browser draws every step of the page."""
     with Served(bench, "builtin:sphere", "-o", "pictures") as served, Browser(bench.folder / "browser") as browser:
         browser.size(900, 600)
         browser.visit(served.address)
@@ -337,6 +339,7 @@ def page(bench):
 
 @case("serve.page_shows_every_error_and_no_other_scene", budget=15)
 def errors(bench):
+    """A browser draws every step of the page."""
     (bench.folder / "models").mkdir()
     (bench.folder / "models/broken.glb").write_bytes(b"glTF, not")
     lights = ";".join(["sphere:points=0,1,0:radius=0.1:radiance=9,9,9"] * 6)

@@ -84,6 +84,7 @@ def check_whats(bench, name, runs, left=0):
 
 @case("subcommand.each_runs_small", "input", budget=11)
 def each(bench):
+    """Starts every subcommand several times."""
     check_named(bench, False, RUNS)
     (bench.folder / "goldens.json").write_text('{"rows": [{"name": "a", "picture": "a.png"}]}')
     for name, runs in RUNS.items():

@@ -76,6 +76,7 @@ def close(a, b, step):
 
 @case("bake.textures_for_engines_hold_the_same_light", budget=15)
 def textures(bench):
+    """Bakes once a kind of texture, and reads all texels in Python."""
     alone = bench.run(*BAKE, "-o", "plain").expect(0)
     plain = {path.name: path.read_bytes() for path in (bench.folder / "plain").iterdir()}
     check(list(plain) == ["environment.bnenv"], alone.describe())

@@ -151,7 +151,7 @@ Status Atlas::write_piece_of(const AtlasEntry& entry, const std::string& file, c
                        pack({cached_entry_json(walked->measured, entry_key(entry, options_.walk())), {{"strip", std::move(*strip)}}}));
 }
 
-// Returns the entries as pieces. An estimate is that of a quick walk of the first entry, by its samples.
+// Returns the entries as pieces. An estimate scales a quick walk of the first entry, by its samples.
 std::vector<JobPiece> Atlas::pieces()
 {
     const auto rate = std::make_shared<std::optional<double>>();

@@ -129,7 +129,7 @@ Result<std::optional<Image>> ConformDrawer::draw(std::size_t scene, std::span<co
     }
     if (!any)
         return std::optional<Image>();
-    // Draw with those of kernels and frame
+    // Draw with the mistakes of kernels and frame
     const Result<std::shared_ptr<const Environment>> environment = sky(opened.environment, changes);
     BN_TRY(environment);
     SessionParts parts;

@@ -202,7 +202,7 @@ bool area_lights_round(Scene& scene)
     return has_area_light(scene) && no_anisotropy(scene);
 }
 
-// Replaces the file's tangents by those of the coordinates.
+// Replaces the file's tangents by tangents of the coordinates.
 bool own_tangents_ignored(Scene& scene)
 {
     VertexTable& v = scene.vertices;

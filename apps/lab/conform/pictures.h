@@ -17,7 +17,7 @@ struct ConformPictures {
     std::vector<EnginePicture> engine; // by scene
 };
 
-// Looks for NAME.exr, .hdr, .pfm and .png in this order. Errors: those of references, and a folder without one picture. A picture that
+// Looks for NAME.exr, .hdr, .pfm and .png in this order. Errors: errors of references, and a folder without one picture. A picture that
 // cannot be read or compared has a fault.
 Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const std::string& pictures, const Limits& limits,
                                               Report& report);

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// True for the reference fit: each node fitted independently, as other LTC implementations do.
+// Returns true for the reference fit: each node fitted independently, as other LTC implementations do.
 bool others_path(const LtcArguments& a)
 {
     return a.norm != LtcNorm::l1 || a.interpolate != "mirror" || a.unaligned || a.unsymmetric;

@@ -13,8 +13,8 @@ struct OpaqueScene {
     bool empty() const { return left_out > 0 && left_out == materials; }
 };
 
-// Leaves out primitives whose material lets light through or has AlphaMode::blend. Materials keep their indices, and the bounds stay those
-// of the whole scene. whole: without a floor.
+// Leaves out primitives whose material lets light through or has AlphaMode::blend. Materials keep their indices, and the bounds stay the
+// whole scene's. whole: without a floor.
 Result<OpaqueScene> opaque_scene(const std::shared_ptr<const SceneData>& whole);
 
 // Returns one line on the materials that are left out; empty where there are none.

@@ -19,7 +19,7 @@ et al. 2022). Training uses materials made in code: tiles of 32 x 32 texels, lit
 level is compared with them as a display shows it. Layout cov starts from a closed form (covariances of normals added to widths) and learns
 the rest; paper adds to plain means, as published. A stopped training leaves WEIGHTS.part, or the file of --checkpoint. The same command
 continues from it to the same bytes, for every number of threads and every instruction set. --seeds trains several nets, and writes the
-one with the lowest mean L1 on the validation materials; its bytes are those of --seed alone.
+one with the lowest mean L1 on the validation materials; that seed alone gives the same bytes.
 --evaluate measures weights against closed forms: on families outside the training, on new materials of trained families, and on pictures
 with --maps. It prints FLIP, L1 and MSE of shaded levels, times 1000, as means over levels 1 to 5. --validation measures only new materials
 of trained families, which serve for choosing weights.

@@ -73,7 +73,7 @@ ImageLight image_light_of(Document& doc)
     return gltf::read_image_light(doc);
 }
 
-// Runs a reader and turns its exceptions, and those of libraries, into Errors. No exception passes this function.
+// Runs a reader and turns its exceptions, and exceptions of libraries, into Errors. No exception passes this function.
 template <class F> auto guarded(const std::string& file, F&& read) -> decltype(read())
 {
     const auto error = [&](std::string place, std::string reason) {

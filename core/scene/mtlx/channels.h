@@ -11,7 +11,7 @@ namespace burnish::mtlx {
 float value_at(const Image& image, std::size_t at);
 
 // Returns the channel that an input takes, times its factor, clamped between 0 and `most`. Encoded colours become linear, an alpha that is
-// not there 1. Floats where the values are not those of the file.
+// not there 1. Floats where the values differ from the file's.
 Image channel_of(const Image& image, const PictureInput& picture, float most);
 
 // Returns the picture's colours as the slot of base colours takes them: 8 and 16 bits encoded, floats linear. with_alpha: keeps alpha.

@@ -10,9 +10,9 @@ namespace burnish {
 
 class Jobs;
 
-// Puts the file's materials on those of the scene with the same names; a file with one material puts it on all. Pictures lie below the
+// Puts the file's materials on the scene's materials with the same names; a file with one material puts it on all. Pictures lie below the
 // file's folder, unless Limits::uris_outside; else a picture with the same name in that folder is taken. Inputs that have no counterpart
-// give a warning. Errors: those of mtlx::read_document; damaged or missing pictures; more bytes than textures may have; pictures for a
+// give a warning. Errors: mtlx::read_document()'s; damaged or missing pictures; more bytes than textures may have; pictures for a
 // scene without texture coordinates; several materials, none of which has the name of one in the scene (ExitCode::usage).
 // jobs: threads that decode pictures; null: the calling thread alone. The materials are the same.
 Status apply_mtlx(Scene& scene, const std::string& path, const Limits& limits, const Jobs* jobs = nullptr);

@@ -186,7 +186,7 @@ LeanDrawer::LeanDrawer(Context& context, Pipelines& pipelines, GpuScene& scene, 
     BN_VK(vkCreateSampler(context.device(), &sampler, nullptr, &sampler_));
 }
 
-// Makes set 0: frame, material, grid, albedo tables, lights, transformed cosines. Set 1 is that of native samplers.
+// Makes set 0: frame, material, grid, albedo tables, lights, transformed cosines. Set 1 holds native samplers.
 void LeanDrawer::make_layouts()
 {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;

@@ -356,7 +356,7 @@ ExtractedLight light_of(const Picture& picture, const Equirect& source, double t
         excess[i] = std::max(excess[i], 0.0);
         light += excess[i], squares += excess[i] * excess[i] / picture.angle(pixels[i]);
     }
-    // The light takes its shape from the inertia ellipse. Its area is that of an even disc with the light's total and mean radiance, so a
+    // The light takes its shape from the inertia ellipse. Its area equals an even disc's with the light's total and mean radiance, so a
     // faint glow does not inflate it.
     Ellipse e = ellipse_of(picture, pixels, excess);
     const double size = std::sqrt(light * light / squares / (kPi * length(e.u) * length(e.v)));

@@ -11,7 +11,7 @@ namespace burnish {
 // Extracts extracted lights from `source`. A region is an extracted light if it
 //  - is connected and brighter than a threshold, which is at least four times the sphere's mean radiance,
 //  - is compact: it lies within 5 degrees around its centre, its inertia ellipse covers it and has half axes up to 2.5 degrees,
-//  - has a mean radiance at least eight times its surroundings' mean, and four times that of any pixel on its rim,
+//  - has a mean radiance at least eight times its surroundings' mean, and four times the radiance of any pixel on its rim,
 //  - gives at least 1/200 of the sphere's light.
 // The threshold is the lowest one that satisfies all conditions. At most `most` lights are extracted, the strongest first, each with
 // the pixels around it. A mean of the surroundings, weighted by nearness, fills the hole. Light is moved, never made or lost: an extracted

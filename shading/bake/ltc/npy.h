@@ -12,7 +12,7 @@ namespace burnish::ltc {
 bool is_npy(const std::uint8_t* data, std::size_t bytes);
 
 // Reads n x n x n x n x 3 x 3 floats or doubles, in C order. Nodes are even in alpha and in the ratio of the widths. Such files hold no
-// albedos, so those of the built-in table are taken. A mirrored matrix, which has the same density, gets a positive determinant, and a
+// albedos, so the built-in table's albedos are taken. A mirrored matrix, which has the same density, gets a positive determinant, and a
 // matrix without determinant becomes the first-order one. size: required number of nodes along an axis, 0: any. Errors: ExitCode::bad_input
 // with the place in the file.
 Result<Table> parse_npy(const std::uint8_t* data, std::size_t bytes, const std::string& path, int size);

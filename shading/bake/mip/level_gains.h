@@ -18,7 +18,7 @@ struct LevelSize {
 };
 
 // Returns the gains of the levels after level 0, in [kLeastGain, kMostGain]. sizes: level 0 and all levels after it. The gain makes a
-// level's mean radiance equal to that of level 0. Light has radiance 1 from within 84 degrees of +z; eyes are on all sides. The estimate
+// level's mean radiance equal to level 0's. Light has radiance 1 from within 84 degrees of +z; eyes are on all sides. The estimate
 // uses 2048 or 4096 points of the map that never change. The gain scales f0 and the diffuse part; grazing reflection stays. The bits
 // depend neither on threads nor on the instruction set. rule: the lighting that the gains are made for.
 std::vector<float> level_gains(const std::vector<LevelSize>& sizes, const LevelTexels& texels, const MipErrorSurface& surface, Gains rule);

@@ -7,7 +7,7 @@
 namespace burnish {
 
 struct LightPicture {
-    // Texels minus their mean; RGB, linear. A constant picture leaves zeros, and its light equals exactly that of an untextured light.
+    // Texels minus their mean; RGB, linear. A constant picture leaves zeros, and its light equals an untextured light exactly.
     // Level 0 is the picture, to about 1/4000 of the mean: beside a sun dark texels are lost. Higher levels are the picture, blurred by a
     // Gaussian of kLightPictureSpread of their texels, bilinear fetch included. Only the part on the picture counts. Borders show the view
     // half a texel past the edges. The last level is constant.

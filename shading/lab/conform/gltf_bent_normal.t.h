@@ -13,14 +13,14 @@
 
 BN_KERNELS_BEGIN
 
-// Returns the roughness of the material: that of the lobe's narrow axis.
+// Returns the material's roughness: the roughness along the lobe's narrow axis.
 BN_FN real gltf_roughness(aniso_lobe lobe)
 {
     real across = min(lobe.sigma_v * lit(1.4142135623730951), lit(1.0));
     return sqrt(across);
 }
 
-// Returns the albedo that viewers take: that of a round lobe of the material's roughness.
+// Returns the albedo that viewers take: a round lobe's albedo at the material's roughness.
 BN_FN real3 gltf_albedo(frame_ref f, BN_IN(shaded_point) x)
 {
     return albedo_of(x.s, dfg_lookup(dfg_pairs(f), the_frame(f).dfg_size, x.s.n_dot_v, gltf_roughness(x.lobe)));

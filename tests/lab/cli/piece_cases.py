@@ -34,8 +34,9 @@ def table(bench):
     bench.run("bake", "ltc", "--table", "two/a.ltc", "--pieces").expect(2).expect_one_line("--table")
 
 
-@case("pieces.of_measured_nets_make_their_figures", budget=14)
+@case("pieces.of_measured_nets_make_their_figures", tier="nightly")
 def nets(bench):
+    """In check, `pieces.of_a_table_make_its_bytes` and `pieces.of_an_atlas_make_its_bytes` hold the laboratory's pieces."""
     net = str(ROOT / "shading/bake/mipnet/ggx_aniso.mipnet")
     one_and_pieces(bench, ("train", "mip", "--evaluate", net, "--validation", "-q"), ("figures.json",), option="--json", machine=("--threads", "1"))
 

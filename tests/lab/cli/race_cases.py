@@ -12,6 +12,7 @@ SHARE = {"lobe_line": 0.025, "as_mc": 0.075}
 
 @case("race.lean_shaders_draw_the_pictures_of_kernels", budget=12)
 def lean(bench):
+    """A device of the CPU compiles a shader for each technique."""
     done = bench.run("race", "builtin:spheres", "builtin:lights", "--techniques", "all", "--shaders", "lean", "--devices", "lavapipe", "--msaa", "1",
                      "--size", "128x72", "--runs", "1", "--json", "race.json", timeout=300.0)
     if done.code != 77:
@@ -29,7 +30,7 @@ def lean(bench):
 
 @case("race.lean_coats_and_leaves_glass_out", budget=12)
 def lean_coats(bench):
-    """Coats under a sky; a note counts the materials that no renderer draws."""
+    """Coats under a sky; a note counts the materials that no renderer draws. A device of the CPU compiles the shaders."""
     rows = lean_rows(bench, "builtin:lacquer", "builtin:glass", "--size", "64x48", "--techniques", "split_isotropic", "--msaa", "1")
     check_lean(rows, 2)
     notes = json.loads((bench.folder / "race.json").read_text())["notes"]

@@ -46,7 +46,7 @@ def killed(bench):
 
 @case("train.pieces_of_seeds_make_the_best_weights", tier="nightly")
 def seeds(bench):
-    """One seed is a piece: more seeds share the pieces of fewer, and the best weights are those of its seed alone."""
+    """One seed is a piece: more seeds share the pieces of fewer, and the best weights equal the weights of their seed alone."""
     words = ("train", "mip", "--steps", "40", "--size", "1x8", "--seed", "5", "-q")
     three = (*words, "--seeds", "3")
     one_and_pieces(bench, three, ("best.mipnet",), machine=("--threads", "1"))

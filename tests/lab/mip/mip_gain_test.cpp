@@ -52,8 +52,8 @@ TEST(mip_gain, is_one_where_levels_are_as_level_0)
         }
 }
 
-// Steep ridges make a level too bright or too dark. With its gain the level reflects as much as level 0, under other directions than those
-// of the fit.
+// Steep ridges make a level too bright or too dark. With its gain the level reflects as much as level 0, under other directions than the
+// fit's.
 TEST(mip_gain, makes_levels_reflect_as_much_as_level_0)
 {
     double plain = 0.0;

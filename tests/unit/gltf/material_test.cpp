@@ -229,7 +229,7 @@ TEST(material, textures_above_the_memory_limit_are_an_error)
     EXPECT_EQ(scene.error().place, "/images/1");
 }
 
-// Threads decode images; the scene, its warnings, its files and its first error are those of one thread.
+// Threads decode images; the scene, its warnings, its files and its first error equal one thread's.
 TEST(material, images_are_the_same_by_any_number_of_threads)
 {
     const TempFolder folder;

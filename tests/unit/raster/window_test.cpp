@@ -1,4 +1,4 @@
-// Windows of larger pictures: their pixels are those of the whole picture.
+// Windows of larger pictures have the pixels of the whole picture.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Pictures of materials by several threads: scenes, warnings, files and errors are those of one thread.
+// Pictures of materials by several threads: scenes, warnings, files and errors equal one thread's.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -248,7 +248,7 @@ TEST(pictures_ahead, what_is_held_fits_into_the_limits)
     of_files.input_bytes = std::filesystem::file_size(three.wanted[0].path) + std::filesystem::file_size(three.wanted[1].path);
     PicturesAhead all(three.wanted, three.limits, &three.jobs), first(three.wanted, of_one, &three.jobs),
         two(three.wanted, of_files, &three.jobs);
-    // A picture that no longer fits is read again, and the error is that of reading
+    // A picture that no longer fits is read again, and reading gives the error
     Limits rest;
     rest.texture_bytes = 299;
     PictureNotes notes;

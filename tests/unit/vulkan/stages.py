@@ -1,4 +1,4 @@
-"""The built program's shaders from raster/vulkan/stages.txt, disassembled; those of raster/vulkan/lab are the laboratory's."""
+"""The built program's shaders from raster/vulkan/stages.txt, disassembled; shaders of raster/vulkan/lab are the laboratory's."""
 import array
 import re
 import subprocess

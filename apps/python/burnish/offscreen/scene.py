@@ -88,7 +88,7 @@ class Node:
         self._matrix, self.columns = pose, columns
 
     def _parts(self):
-        """Returns translation, rotation and scale: as they were set, else those of the matrix. A mirroring matrix has a negative x scale. Shears
+        """Returns translation, rotation and scale: as they were set, else from the matrix. A mirroring matrix has a negative x scale. Shears
         are left out."""
         if self._given:
             return self._given
