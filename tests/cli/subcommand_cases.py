@@ -42,6 +42,7 @@ RUNS = {
              (("brdf-lut", "--nu", "9", "--nv", "70", "--size", "4x4", "-o", "l.pfm"), (0,)),
              (("environment", "a.hdr", "--env-size", "16", "--env-samples", "4", "-o", "baked"), (0,)),
              (("displaced", "builtin:sphere", "a.png", "--triangles", "1", "-o", "s.glb"), (0,)),
+             (("lobe", "a.png", "--size", "1x1", "-o", "lobes"), (0,)),
              (("mip", MAPPED, "--mip-filter", "ssgt", "-o", "b.mip", "--preview", "seen"), (0,)),
              (("mip", MAPPED, "--format", "png-levels", "-o", "textures"), (0,)), (("mip", MAPPED, "--format", "exr-mip", "-o", "levels"), (0,))],
     "export": [*(((what, "--technique", "lobe_line", "-o", f"l.{what}"), (0,)) for what in ("essl", "hlsl", "msl", "wgsl", "three", "three-node", "babylon", "godot", "bevy")),
