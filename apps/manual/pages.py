@@ -8,13 +8,18 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 STAND_INS = {"lamp.glb": "models/AnisotropyBarnLampSmall.glb", "workshop.hdr": "env/workshop_1k.hdr",
              "goldens.json": "goldens.json", "brushed.mtlx": "materials/brushed.mtlx",
              "ring.glb": "models/ring.glb"}  # placeholder: file below tests/data
-BY_OTHERS = ("square.png", "lamp_python.png")  # pictures that no command writes: examples
+BY_PROGRAMS = ("square.png", "lamp_python.png")  # by programs that a page shows: `make --installed` runs them
+BLOCK = re.compile(r"^## (?P<section>[^\n]*)$|(?:^`(?P<file>\w+\.\w+)`[^\n]*:\n\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```$|^(?P<shell>(?:    [^\n]*\n)+)",
+                   re.M | re.S)
+TYPED = re.compile(r"(?:[A-Z_]+=\S+ )+\S|(?:burnish|cp|cmake|cpack|cc|g\+\+|npm|node|pip|python3|pkg-config|export|man) \S|\./\w")
+NAMED = re.compile(r"burnish \w+|burnish (?:bake|export|train) \w+|.*(?:\b(?:FOLDER|NAME|FILE|DIR)\b|\.\.\.).*")
 LAB = ("atlas", "conform", "race", "plot", "train")  # run by burnish-lab
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
@@ -25,37 +30,59 @@ def pages():
 
 
 def blocks_of(text):
-    """The page's code blocks, indented or fenced, as lists of lines, each continued line as one."""
-    blocks, fenced = [[]], False
-    for line in re.sub(r"\\\n *", "", text).splitlines():
-        if line.startswith("```"):
-            fenced = not fenced
-        elif fenced or line.startswith("    "):
-            blocks[-1].append(line.strip())
-            continue
-        blocks.append([])
-    return [block for block in blocks if block]
+    """[(section, file or "", language, text)] of a page's code blocks. An indented block holds commands for a shell. A line before a block that
+    begins with a file's name in backquotes gives the file."""
+    section = ""
+    for found in BLOCK.finditer(text):
+        if found["section"] is not None:
+            section = found["section"]
+        elif found["shell"]:
+            yield section, "", "sh", textwrap.dedent(found["shell"])
+        else:
+            yield section, found["file"] or "", found["language"], found["text"]
 
 
-def code_of(text):
-    """The lines of a page's code blocks."""
-    return [line for block in blocks_of(text) for line in block]
+def lines_of(block):
+    """The lines of a block for a shell, each continued line as one."""
+    return [line.strip() for line in re.sub(r"\\\n *", "", block).splitlines()]
+
+
+def typed(line):
+    """(line without its comment, exit code): a line ends with `# exit code N` where N is not 0."""
+    code = re.search(r"# exit code (\d+)", line)
+    return re.sub(r"\s+#.*", "", line), int(code[1]) if code else 0
+
+
+def photographs(block):
+    """True for lines that photograph a page in a browser."""
+    return any(line.startswith("chromium ") for line in lines_of(block))
+
+
+def shell_of(text):
+    """The lines that a page's reader types, as typed() has them, without those of blocks that photograph a page."""
+    return [typed(line) for _, _, language, block in blocks_of(text) if language == "sh" and not photographs(block) for line in lines_of(block)]
+
+
+def of_program(line):
+    """The parts of a line between `&&` that begin with `burnish ` or `mkdir `: they run without a shell. A line with a pipe has none."""
+    return [] if " | " in line else [part for part in line.split(" && ") if part.startswith(("burnish ", "mkdir "))]
 
 
 def commands_of(text):
-    """[(words, exit code)]: lines that begin with `burnish ` or `mkdir `; a line ends with `# exit code N` where N is not 0. A block with a line
-    that begins with `chromium ` is one command, for bash, which photographs a page."""
+    """[(words, exit code)] of the parts that run without a shell. A block that photographs a page is one command, for bash."""
     found = []
-    for block in blocks_of(text):
-        if any(line.startswith("chromium ") for line in block):
-            found.append((["bash", "-ec", "\n".join(block)], 0))
-            continue
-        for line in block:
-            code = re.search(r"# exit code (\d+)", line)
-            for part in re.sub(r"\s#.*", "", line).split(" && "):
-                if part.startswith(("burnish ", "mkdir ")):
-                    found.append((shlex.split(part), int(code[1]) if code else 0))
+    for _, _, language, block in blocks_of(text):
+        if language == "sh" and photographs(block):
+            found.append((["bash", "-ec", "\n".join(lines_of(block))], 0))
+        elif language == "sh":
+            found += [(shlex.split(part), code) for line, code in map(typed, lines_of(block)) for part in of_program(line)]
     return found
+
+
+def inline_of(text):
+    """The commands within a page's sentences, without names of subcommands and without placeholders."""
+    codes = re.findall(r"`([^`\n]+)`", BLOCK.sub("", text))
+    return [code for code in codes if TYPED.match(code) and not NAMED.fullmatch(code)]
 
 
 def lacks(words):
