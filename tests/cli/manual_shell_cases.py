@@ -41,9 +41,11 @@ NOT_RUN = {
 LANGUAGES = ("sh", "python", "cmake", "cpp", "js", "glsl", "json", "yaml", "text")  # of blocks; commands for a shell are sh
 SERVERS = {"python3 -m http.server": "http://localhost:8000/pages/three.html"}  # begin of a line: a page that it serves
 PICTURES = {"library/square.png": "square.png", "python/lamp_python.png": "lamp_python.png"}  # by programs of pages
+ABSENT = '#!/bin/sh\necho "make is not in the group build of apps/packages.txt" >&2\nexit 1\n'
 STAND_INS = {
-    # A reader with the group `build` has neither. Both are on the machines that run tests.
-    "make": '#!/bin/sh\necho "make is not in the group build of apps/packages.txt" >&2\nexit 1\n',
+    # A reader with the group `build` has neither make nor libbenchmark-dev. The machines that run tests do.
+    "make": ABSENT,
+    "gmake": ABSENT,  # CMake looks for it first
     "benchmarkConfig.cmake": 'message(FATAL_ERROR "libbenchmark-dev is not in the group build of apps/packages.txt")\n',
 }
 END = "END_OF_THE_BLOCK"
