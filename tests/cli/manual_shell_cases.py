@@ -96,7 +96,7 @@ def script_of(page):
         if section != last and (page.name, section) in FOLDERS:
             script.append(f"cd {FOLDERS[page.name, section]}")
         last = section
-        if language == "sh":
+        if language == "sh" and not pages.photographs(block):  # manual.commands_run_as_they_are_written photographs
             script += [line_for_shell(*pages.typed(line)) for line in pages.lines_of(block)]
         elif file or language == "python":
             script += [f"cat > {file} << '{END}'" if file else f"python3 - << '{END}'", block + END]
