@@ -117,32 +117,36 @@ std::string markdown_code(const std::string& text)
     return text.empty() ? "" : fmt::format("`{}`", replaced(text, "|", "\\|"));
 }
 
-// Returns the subcommand whose pictures stand beside an option: the option's own, or render where both mean the same.
-std::string pictured_command(const Command& command, const Option& option, const std::vector<Command>& commands)
+struct OptionPicture {
+    const char *command, *option, *words, *file;
+};
+constexpr OptionPicture kOptionPictures[] = {
+#define BN_PICTURE(command, option, words, file) {command, option, words, file},
+#include "apps/cli/option_pictures.def"
+};
+
+// Returns the pictures beside a subcommand's own option, as a cell's further lines.
+std::string own_pictures(const std::string& command, const std::string& option)
 {
+    std::string out;
+    for (const OptionPicture& row : kOptionPictures)
+        if (command == row.command && option == row.option)
+            out += fmt::format("<br>`{}` ![{}](../pictures/{})", row.words, row.words, row.file);
+    return out;
+}
+
+// Returns the pictures beside an option: its own, else those of an option of render that means the same.
+std::string markdown_pictures(const Command& command, const Option& option, const std::vector<Command>& commands)
+{
+    const std::string own = own_pictures(command.name, option.name);
+    if (!own.empty())
+        return own;
     for (const Command& render : commands)
         if (render.name == "render")
             for (const Option& same : render.options.options())
                 if (same.name == option.name && same.help == option.help && same.value_name == option.value_name)
-                    return render.name;
-    return command.name;
-}
-
-// Returns the pictures beside an option, as a cell's further lines.
-std::string markdown_pictures(const std::string& command, const std::string& option)
-{
-    struct Row {
-        const char *command, *option, *words, *file;
-    };
-    constexpr Row kRows[] = {
-#define BN_PICTURE(command, option, words, file) {command, option, words, file},
-#include "apps/cli/option_pictures.def"
-    };
-    std::string out;
-    for (const Row& row : kRows)
-        if (command == row.command && option == row.option)
-            out += fmt::format("<br>`{}` ![{}](../pictures/{})", row.words, row.words, row.file);
-    return out;
+                    return own_pictures(render.name, option.name);
+    return "";
 }
 
 std::string markdown_option(const Command& command, const Option& option, const std::vector<Command>& commands)
@@ -154,7 +158,7 @@ std::string markdown_option(const Command& command, const Option& option, const 
     const std::string at_first = option.required ? "must be given" : markdown_cell(option.default_text());
     const char* again = option.value.repeated && option.takes_value() ? "; may be given several times" : "";
     const std::string meaning = markdown_cell(option.meaning()) + (option.help.find("several times") == std::string::npos ? again : "") +
-                                markdown_pictures(pictured_command(command, option, commands), option.name);
+                                markdown_pictures(command, option, commands);
     return fmt::format("| {} | {} | {} | {} |\n", names, value, at_first, meaning);
 }
 
