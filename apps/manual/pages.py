@@ -64,8 +64,10 @@ def shell_of(text):
 
 
 def of_program(line):
-    """The parts of a line between `&&` that begin with `burnish ` or `mkdir `: they run without a shell. A line with a pipe has none."""
-    return [] if " | " in line else [part for part in line.split(" && ") if part.startswith(("burnish ", "mkdir "))]
+    """The parts of a line between `&&` that begin with `burnish `, `mkdir ` or `cp `: they run without a shell. A line with a pipe has none, nor
+    has one that copies files of the repository."""
+    parts = [part for part in line.split(" && ") if part.startswith(("burnish ", "mkdir ", "cp "))]
+    return [] if " | " in line else [part for part in parts if not part.startswith("cp tests/")]
 
 
 def commands_of(text):
@@ -77,6 +79,29 @@ def commands_of(text):
         elif language == "sh":
             found += [(shlex.split(part), code) for line, code in map(typed, lines_of(block)) for part in of_program(line)]
     return found
+
+
+def written_by(words):
+    """The files and folders that a command writes."""
+    flags = ["-o", "--risks", "--error-map", "--preview", "--plan-out", "--write", *(["--variance"] if words[1] == "render" else [])]
+    if words[0] == "bash":
+        return re.findall(r"\w+\.webp", words[2])
+    if words[0] == "cp":
+        return words[2:]
+    return [words[i + 1] for i, word in enumerate(words[:-1]) if word in flags] + (words[3:4] if "--draw" in words else [])
+
+
+def behind(text):
+    """{file or folder: words of all commands behind it}: of the command that writes it, and of those that write what that command reads. A
+    photograph NAME.webp is of the figure NAME.svg. A page's .svg is of its first chart."""
+    made = {}
+    for words, _ in commands_of(text):
+        for file in written_by(words):
+            read = {file.replace(".webp", ".svg")} if words[0] == "bash" else set(words) - {file}
+            of = [found for name, commands in made.items() if any(name.split("/")[0] == word.split("/")[0] for word in read) for found in commands]
+            made[file] = [words, *of]
+    charts = [words for words, _ in commands_of(text) if words[1] == "chart"]
+    return {**{name: charts[:1] for name in pictures_of(text) if name.endswith(".svg")}, **made}
 
 
 def inline_of(text):
