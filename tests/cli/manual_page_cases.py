@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 
-from harness import Skipped, case, check
+from harness import Skipped, case, check, lab_commands
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MANUAL = ROOT / "apps/manual"
@@ -16,7 +16,43 @@ sys.path.insert(0, str(MANUAL))
 import pages  # noqa: E402
 
 NEEDS = {"--backend": "a Vulkan device or Embree", "parity": "a Vulkan device", "--devices": "a Vulkan device"}
-MOST_BYTES, MOST_PICTURE = 14 << 18, 80 << 10
+MOST_BYTES, MOST_PICTURE = 16 << 18, 80 << 10
+SHOWN_BY = {("render", "--aov"): "--show"}  # an option without pictures of its own: one that shows the same
+# Options that change no picture, or that none can show: a subcommand, a group of options (up to "," or " of "), a subcommand's group, an option
+# of every subcommand or of one: the reason.
+WITHOUT_PICTURES = {
+    **dict.fromkeys(("golden", "info", "manual", "merge", "serve", "submit"), "judges, prints or passes on; draws what render draws"),
+    **dict.fromkeys(("atlas", "parity", "race", "train"), "measures and prints figures"),
+    "Limits on input": "refuse files",
+    "Limits": "refuse files",
+    "Pieces": "share a job among processes; the picture is the same",
+    "Bands": "share memory among bands; the picture is the same",
+    "Machine": "never changes a picture",
+    "With --backend vulkan": "needs a device that few machines have; exact samplers draw the same picture",
+    "Failing (exit code 1)": "judges figures",
+    "bake: With WHAT ltc": "changes the table's error, in which renders hardly differ; --report charts it",
+    "chart: Measurements": "changes figures and charts of a report, whose pictures are render's",
+    "chart: Mip filters": "figures and charts of a report",
+    "conform: Judge": "writes verdicts",
+    "conform: Write": "writes scenes; the samples lower noise alone",
+    **dict.fromkeys(("--output", "--quiet", "--verbose", "--threads", "--no-cache", "--json", "--csv", "--junit", "--html", "--svg", "--stats", "--trace", "--live",
+                     "--renderer", "--count-operations"), "files and words"),
+    "--budget-ms": "chooses by the machine's speed, and draws otherwise on each",
+    "--plan-out": "writes a file",
+    "--verify": "prints figures",
+    "--checkpoint": "writes a file",
+    "--checkpoint-seconds": "writes a file",
+    "bake --textures": "names files; their pixels are those of --format",
+    "bake --texels": "16 bits or 32; pictures of 8 bits are equal",
+    "compare --second-reference": "figures; the error map is the same",
+    "compare --variance": "figures; the error map is the same",
+    "compare --sequence": "figures of flicker",
+    "compare --significance": "figures of a test",
+    "chart --size": "the size of frames that are timed",
+    "chart --error-size": "the size of pictures that are compared",
+    "conform --without": "leaves out scenes",
+    "export --ltc": "adds a function to a text",
+}
 BOUNDS = ("free after 20 seconds", "longer than 10 seconds", "within 10 seconds", "at most 1.5 times the reference's")  # of contracts, measured nowhere
 
 
@@ -70,29 +106,65 @@ def options(bench):
     bench.run("manual", "fish", "--markdown").expect(2).expect_one_line("--markdown")
 
 
+def reference_page(bench, command):
+    """Returns the subcommand's page of the reference, or nothing where the laboratory that has it is absent."""
+    lab = lab_program(bench) if command in lab_commands() else None
+    return bench.run("manual", "markdown", command, program=lab).expect(0).out if lab is None or lab.exists() else ""
+
+
+def has_value(commands, option, value):
+    """True if a command gives the option this value, or if none gives the option one."""
+    values = [words[i + 1] for words in commands for i, word in enumerate(words[:-1]) if word == option]
+    return not values or value in values or value == "FILE"
+
+
 @case("manual.pictures_beside_options_show_them", tier="quick")
 def option_pictures(bench):
     """A command of the manual draws a picture with the option beside which it stands, and the page shows the picture."""
     drawn = {}
     for page in pages.pages():
-        for words, _ in pages.commands_of(page.read_text()):
-            drawn.update({words[i + 1]: words for i, word in enumerate(words[:-1]) if word in ("-o", "--risks", "--error-map")})
+        drawn |= pages.behind(page.read_text())
     rows = re.findall(r'^BN_PICTURE\("(\w+)", "([^"]+)", "([^"]+)", "([^"]+)"\)$', (ROOT / "apps/cli/option_pictures.def").read_text(), re.M)
-    check(len({(command, option) for command, option, _, _ in rows}) > 75, f"{rows}")
-    for command, option in {(command, option) for command, option, _, _ in rows}:
-        page = bench.run("manual", "markdown", command).expect(0).out
+    check(len({(command, option) for command, option, _, _ in rows}) > 120, f"{rows}")
+    for command, option in sorted({(command, option) for command, option, _, _ in rows}):
+        page = reference_page(bench, command)
+        if not page:
+            continue
         row = re.search(rf"^\| (?:`-\w`, )?`{option}` \|.*$", page, re.M)[0]
         own = [(words, file) for c, o, words, file in rows if (c, o) == (command, option)]
         check(all(f"`{words}` ![{words}](../pictures/{file})" in row for words, file in own), row)
-        check(any(option in drawn[file] for _, file in own), f"{option}: no picture was drawn with it")
+        name = SHOWN_BY.get((command, option), option)
+        check(any(name in words for _, file in own for words in drawn[file]), f"{command} {option}: no picture was drawn with it")
         for words, file in own:
-            given = dict(re.findall(r"(--[a-z-]+) (\S+)", words))
-            wrong = [f"{name} {value}" for name, value in given.items() if name in drawn[file] and drawn[file][drawn[file].index(name) + 1] != value]
+            given = re.findall(r"(--[a-z-]+) (\S+)", words)
+            wrong = [f"{name} {value}" for name, value in given if not has_value(drawn[file], name, value)]
             check(not wrong, f"{file} was not drawn by {wrong}")
     # Another subcommand's option shows them where it means the same
     row_of = lambda command, option: re.search(rf"^\| `{option}` \|.*$", bench.run("manual", "markdown", command).expect(0).out, re.M)[0]
     check("![" in row_of("chart", "--fov") and "![" in row_of("profile", "--tilt"), "options of render have pictures on render's page alone")
     check("![" not in row_of("bake", "--samples") and "![" not in row_of("golden", "--flip"), "an option has another one's pictures")
+
+
+@case("manual.options_without_pictures_say_why", tier="quick")
+def options_without_pictures(bench):
+    """An option that changes a picture shows it on its reference page. The tables at the top list all others."""
+    names = re.findall(r"^BN_(?:LAB_)?COMMAND\((\w+)", (ROOT / "apps/cli/commands.def").read_text(), re.M)
+    wrong, used, absent = [], set(), False
+    for command in names:
+        group, page = "", reference_page(bench, command)
+        absent |= not page
+        for line in page.splitlines():
+            group = line[3:] if line.startswith("## ") else group
+            option = re.match(r"\| (?:`-\w`, )?`(--[a-z0-9-]+)` \|", line)
+            if not option or "](../pictures/" in line:
+                continue
+            keys = [command, re.sub(r",.*| of .*", "", group), f"{command}: {group}", option[1], f"{command} {option[1]}"]
+            used |= set(keys)
+            if not any(key in WITHOUT_PICTURES for key in keys):
+                wrong.append(f"burnish {command} {option[1]}, under {group}: no picture beside it")
+    check(not wrong, "\n".join(wrong) + "\nadd pictures to apps/cli/option_pictures.def and a page of apps/manual, or a reason to WITHOUT_PICTURES")
+    stale = [] if absent else sorted(set(WITHOUT_PICTURES) - used)
+    check(not stale, f"no option without a picture is of {stale}")
 
 
 @case("manual.links_and_pictures_are_there")
@@ -195,12 +267,12 @@ def run_page(bench, page, left):
 
 def other_pictures(bench, page, folder):
     """Returns the page's pictures that its commands no longer draw as the manual holds them. References and devices may round otherwise."""
-    drawn = {word: words for words, _ in pages.commands_of(page.read_text()) for word in words}
+    drawn = pages.behind(page.read_text())
     for name in pages.pictures_of(page.read_text()):
         made, kept = next(iter(sorted(folder.rglob(name))), None), MANUAL / "pictures" / name
         if made is None or not name.endswith((".png", ".apng")):
             continue
-        limit = ("--fail-flip", "0.05") if {"--backend", "--risks"} & set(drawn.get(name, ["--backend"])) else ("--fail-max", "0")
+        limit = ("--fail-flip", "0.05") if name not in drawn or {"--backend", "--risks"} & {word for words in drawn[name] for word in words} else ("--fail-max", "0")
         if name.endswith(".apng"):
             equal = made.read_bytes() == kept.read_bytes()
         else:
