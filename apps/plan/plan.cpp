@@ -77,8 +77,8 @@ struct Choice {
     std::vector<std::size_t> at;
 };
 
-// Chooses again so that at most 1 % of the pixels have an error above a bound. A setting that errs more in the mean than the material's
-// choice is out where the mean has a budget, so that the mean stays within it.
+// Chooses again so that at most 1 % of the pixels have an error above a bound. Where the mean has a budget too, settings with a larger mean
+// error than the material's choice are out. So the mean stays within its budget.
 Choice within_tail(const Probe& probe, const std::vector<std::size_t>& seen, const Choice& mean, double pixels, const PlanBudget& budget)
 {
     Choice tail;

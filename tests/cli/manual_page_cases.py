@@ -18,8 +18,8 @@ import pages  # noqa: E402
 NEEDS = {"--backend": "a Vulkan device or Embree", "parity": "a Vulkan device", "--devices": "a Vulkan device"}
 MOST_BYTES, MOST_PICTURE = 16 << 18, 80 << 10
 SHOWN_BY = {("render", "--aov"): "--show"}  # an option without pictures of its own: one that shows the same
-# Options that change no picture, or that none can show: a subcommand, a group of options (up to "," or " of "), a subcommand's group, an option
-# of every subcommand or of one: the reason.
+# Options without pictures, and the reasons. A key is a subcommand, a group of options (up to "," or " of "), a subcommand's group, an option
+# of every subcommand, or one subcommand's option.
 WITHOUT_PICTURES = {
     **dict.fromkeys(("golden", "info", "manual", "merge", "serve", "submit"), "judges, prints or passes on; draws what render draws"),
     **dict.fromkeys(("atlas", "parity", "race", "train"), "measures and prints figures"),

@@ -11,8 +11,8 @@ from harness import Skipped, case, check
 from manual_page_cases import ROOT, pages
 
 LIMIT = 7000  # seconds that a page may take
-# Pages with lines for a shell, in the order of a reader who builds once, and what a line needs besides the group `build` of
-# apps/packages.txt: its name, and a command that fails where it is not there.
+# Pages with lines for a shell, in the order of a reader who builds once. Beside each: needs beyond the group `build` of apps/packages.txt,
+# by name, with a command that fails where the need is absent.
 PAGES = {
     "apps/manual/start.md": {},
     "README.md": {},
