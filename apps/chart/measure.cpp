@@ -69,7 +69,9 @@ Status Chart::load_all()
     out_.error_width = options_.error_width, out_.error_height = options_.error_height;
     out_.frame = frame;
     out_.display_flip = options_.display_flip;
-    out_.wanted = options_.budgets.empty() ? kWantedErrors : options_.budgets;
+    out_.wanted = options_.budgets;
+    if (out_.wanted.empty())
+        out_.wanted.assign(std::begin(kWantedErrors), std::end(kWantedErrors));
     out_.runs = options_.runs;
     out_.reference_samples = options_.reference_samples;
     if (options_.runs == 0)

@@ -84,7 +84,7 @@ void mark_pareto(std::vector<ChartRow>& rows); // by place, over median time and
 
 // Returns sentences on the fastest row of a place within each error (mean FLIP), largest error first. Empty without times.
 std::vector<std::string> wanted_settings(const std::vector<const ChartRow*>& rows, const ReferenceNoise& noise, std::vector<double> errors);
-inline const std::vector<double> kWantedErrors = {0.03, 0.01, 0.003}; // unless budgets say otherwise
+inline constexpr double kWantedErrors[] = {0.03, 0.01, 0.003}; // unless budgets say otherwise
 
 inline constexpr int kChartResultsVersion = 3; // file layout
 std::string chart_results_json(const ChartResults& results);

@@ -24,7 +24,7 @@ RENAMED = {
 LACKING = {
     "the program prints or writes: a script does so itself": "quiet verbose stats trace count-operations variance frames band-rows",
     "the program draws many pictures: a script loops": "animate steps turntable fps",
-    "a script chooses by comparisons": "budget budget-ms plan plan-out verify",
+    "a script chooses by comparisons": "budget budget-p99 budget-ms plan plan-out verify",
     "parts of the program beyond the library draw it": "show risks",
     "the picture does not change": "tile-size isa",
     "the library draws by the tile renderer and the reference alone": "backend device sampler pipeline validate",

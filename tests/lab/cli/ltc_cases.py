@@ -144,7 +144,7 @@ def wrong_beside_others(bench):
     """Tables and maps refuse each other's inputs and options."""
     for words, needles in ((("direction", "p.png", "--steps", "2", "-o", "d.png"), ("--steps", "ltc")), (("ltc", "p.png", "-o", "t.ltc"), ("PICTURE",)),
                            (("ltc", "--from", "hue", "-o", "t.ltc"), ("--from", "direction")), (("ltc", "--size", "4x4", "-o", "t.exr"), ("--size",)),
-                           ((), ("WHAT is required: ltc, direction, quaternion, tpr, displaced, half-vectors, brdf-lut, environment or mip",))):
+                           ((), ("WHAT is required: ltc, direction, quaternion, tpr, displaced, lobe, half-vectors, brdf-lut, environment or mip",))):
         done = bench.run("bake", *words).expect(2).expect_one_line(*needles)
         check(done.out == "" and not bench.left_behind(), f"left {bench.left_behind()}\n{done.describe()}")
 
