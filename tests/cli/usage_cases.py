@@ -44,7 +44,7 @@ def version(bench):
     check(name == "burnish" and len(number.split(".")) == 3, done.describe())
 
 
-WRITTEN = {"-o", "--json", "--svg", "--stats", "--trace", "--html", "--junit", "--csv", "--variance", "--error-map"}  # options that name a file
+WRITTEN = {"-o", "--json", "--svg", "--stats", "--trace", "--html", "--junit", "--csv", "--variance", "--error-map", "--write"}  # options that name a file or folder
 MORE = {"serve": ("-o", "file/pictures"), "render": ("-o", "file/a.png"), "parity": ("--json", "file/a"), "profile": ("--json", "file/a")}
 
 
