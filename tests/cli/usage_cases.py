@@ -78,7 +78,7 @@ def take_examples(bench, of_lab, more, least):
     check(not wrong, "\n".join(wrong))
 
 
-@case("usage.examples_of_the_pages_are_taken_as_they_are_written", budget=5)
+@case("usage.examples_of_the_pages_are_taken_as_they_are_written", budget=10)
 def every_example(bench):
     take_examples(bench, False, MORE, 80)
 
