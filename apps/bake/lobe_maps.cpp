@@ -10,6 +10,8 @@
 namespace burnish {
 namespace {
 
+constexpr double kMostSquares = 1 << 22; // of a lobe; a larger part is read in steps
+
 class Field {
   public:
     Field(const Image& heights, double depth) : heights_(heights), depth_(depth) {}
@@ -17,9 +19,10 @@ class Field {
     std::vector<glm::dvec2> slopes(int left, int right, int top, int bottom) const
     {
         const double across = depth_ * heights_.width, up = depth_ * heights_.height;
+        const int step = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(right - left) * (bottom - top) / kMostSquares)));
         std::vector<glm::dvec2> out;
-        for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x) {
+        for (int y = top; y < bottom; y += step)
+            for (int x = left; x < right; x += step) {
                 const double a = at(x, y), b = at(x + 1, y), c = at(x, y + 1), d = at(x + 1, y + 1);
                 out.emplace_back((b - a) * across, (a - c) * up);
                 out.emplace_back((d - c) * across, (b - d) * up);
