@@ -62,7 +62,7 @@ int run_lobe(const LobeArguments& a)
                  fmt::format("{}x{} of {}; the median: widths {:.3g} and {:.3g} at {:.0f} degrees, {:.2f} from its slopes", size.width,
                              size.height, a.brdf, middle.alpha_along, middle.alpha_across, middle.angle * 180.0 / kPi, middle.distance));
     if (made->clamped > 0)
-        report.warning(fmt::format("{}: {} are wider than 1, the widest that maps hold", a.heights,
+        report.warning(fmt::format("{}: {} with a width above 1, the widest that maps hold", a.heights,
                                    counted(static_cast<std::uint64_t>(made->clamped), "lobe")));
     if (middle.distance > kNoLobe)
         report.warning(fmt::format("{}: no single lobe reflects like these heights", a.heights));
