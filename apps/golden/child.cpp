@@ -182,8 +182,8 @@ bool wait_for(pid_t child, pid_t group, double seconds, const std::atomic<bool>*
     return false;
 }
 
-// A process group for a program. Its leader waits for this process to end, even by signal 9, and then kills the group. The group exists before
-// the program starts, so no signal finds the program without a guard.
+// A process group for a program. Its leader waits for this process to end, even by signal 9, and then kills the group. The group exists
+// before the program starts, so no signal finds the program without a guard.
 class Guard {
   public:
     Guard()
