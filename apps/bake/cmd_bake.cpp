@@ -52,9 +52,9 @@ and GLSL.
 mip: mip levels of normals, lobes, base colours, metalness and heights, for a scene's materials or a folder as render --material takes it.
 render --mip-pyramid reads them for the same maps. --format exr-mip and png-levels write a folder of glTF textures for other programs:
 half floats with mip levels, or one picture a level. The program prints their error against the levels, at texels and between four texels.
-lobe: maps of the lobes that heights reflect as, from their slopes: roughness.exr (widths), rotation.exr (the stretched highlight's
-direction) and normal.exr (tilts), in a folder, for render --roughness-map, --rotation-map and --normal-map. Masking is the model's own.
-The program prints the distance between the slopes and a lobe, and warns where heights have no single lobe, as in weave.
+lobe: a folder with maps of lobes, fitted to the slopes of heights: roughness.exr (widths), rotation.exr (the stretched highlight's
+direction) and normal.exr (tilts). See render --roughness-map, --rotation-map and --normal-map. Masking is the model's own.
+The program prints the distance between the slopes and a lobe, and warns where it is large, as in weave.
 displaced: a mesh whose triangles follow the heights, as render --height-map shows them by parallax. It has no materials.
 Components of quaternion and tpr lie from -1 to 1. In 8 bits, code 128 is 0 and 255 is 1; .exr and .pfm hold the numbers themselves.
 

@@ -65,7 +65,7 @@ int run_lobe(const LobeArguments& a)
         report.warning(fmt::format("{}: {} with a width above 1, the widest that maps hold", a.heights,
                                    counted(static_cast<std::uint64_t>(made->clamped), "lobe")));
     if (middle.distance > kNoLobe)
-        report.warning(fmt::format("{}: no single lobe reflects like these heights", a.heights));
+        report.warning(fmt::format("{}: no single lobe of {} reflects like these heights", a.heights, a.brdf));
     if (const Status written = write_preview(a.preview, preview, report); !written)
         return fail(written.error());
     return 0;

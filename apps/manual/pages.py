@@ -54,7 +54,7 @@ def typed(line):
 
 
 def photographs(block):
-    """True for lines that photograph a page in a browser."""
+    """Returns true for lines that photograph a page in a browser."""
     return any(line.startswith("chromium ") for line in lines_of(block))
 
 

@@ -237,7 +237,7 @@ std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
     if (wanted.empty())
         wanted = fmt::format("{:g} ms", *budget.cpu_ms);
     lines.push_back(fmt::format("{}: predicted {:.4f}{}{}, shading at {:.2f} of the default's instructions{}", wanted, plan.error,
-                                plan.p99 ? fmt::format(" and {:.4f}", *plan.p99) : "",
+                                plan.p99 ? fmt::format(", p99 {:.4f}", *plan.p99) : "",
                                 plan.cpu_ms ? fmt::format(" in {:.1f} ms of processor time", *plan.cpu_ms) : "", plan.cost / of_default,
                                 plan.default_error ? fmt::format("; the default: predicted {:.4f}", *plan.default_error) : ""));
     if (!budget.error && !budget.p99)

@@ -30,7 +30,7 @@ WITHOUT_PICTURES = {
     "Machine": "never changes a picture",
     "With --backend vulkan": "needs a device that few machines have; exact samplers draw the same picture",
     "Failing (exit code 1)": "judges figures",
-    "bake: With WHAT ltc": "changes the table's error, in which renders hardly differ; --report charts it",
+    "bake: With WHAT ltc": "makes a table, whose errors --report charts",
     "chart: Measurements": "changes figures and charts of a report, whose pictures are render's",
     "chart: Mip filters": "figures and charts of a report",
     "conform: Judge": "writes verdicts",
@@ -113,7 +113,7 @@ def reference_page(bench, command):
 
 
 def has_value(commands, option, value):
-    """True if a command gives the option this value, or if none gives the option one."""
+    """Returns true if a command gives the option this value, or if none gives the option one."""
     values = [words[i + 1] for words in commands for i, word in enumerate(words[:-1]) if word == option]
     return not values or value in values or value == "FILE"
 
