@@ -1,22 +1,19 @@
 #include "raster/frame/pyramids.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "core/jobs/activity.h"
 #include "core/scene/heights.h"
-#include "core/simd/half.h"
 #include "raster/frame/coat_normals.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/far_normals.h"
+#include "raster/frame/filtered_textures.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/filter.h"
-#include "shading/bake/mip/kept_light.h"
 #include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/slopes.h"
 #include "shading/bake/mipnet/weights.h"
-#include "shading/surface/tensor.k.h"
 
 namespace burnish {
 
@@ -54,11 +51,6 @@ bool alike(const Scene& scene, const TextureRef& a, const TextureRef& b)
 const Image* image_of(const Scene& scene, const TextureRef& ref)
 {
     return ref.used() ? &scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(ref.texture)].image)] : nullptr;
-}
-
-bool has_alpha(const Image& image)
-{
-    return image.channels == 2 || image.channels == 4;
 }
 
 // Maps that a mip filter reads.
@@ -241,112 +233,6 @@ Image moments_image(const Scene& scene, const SceneMips& all, const Texture& sam
                          key.tensor_power);
 }
 
-// Writes a level's texel as moments: see moments of all in shading/surface/lobe_shape.t.h. part: 2 or 4. reflected: gain for the
-// reflectances. own: perceptual roughness of the lobe before normals widened it.
-void put_moments(int part, float gain, float reflected, float own, real3 n, slope_covariance s, float* rgba)
-{
-    const float x = gain * n.x, y = gain * n.y;
-    if (part == 2)
-        rgba[0] = reflected, rgba[1] = n.z, rgba[2] = own, rgba[3] = kMomentScale * (s.xx + x * x);
-    else
-        rgba[0] = kSlopeScale * n.x, rgba[1] = kSlopeScale * n.y, rgba[2] = kMomentScale * (s.yy + y * y),
-        rgba[3] = kMomentScale * (s.xy + x * y);
-}
-
-MipPoint point_of(const MipTexel& t)
-{
-    const float z2 = 1.0f - (t.nx * t.nx + t.ny * t.ny);
-    return {vec3_of(t.nx, t.ny, std::sqrt(std::max(z2, 0.0f))), covariance_of_tensor({t.a, t.b, t.c})};
-}
-
-// Finds mean_alpha() of one lobe after another; equal lobes often follow each other.
-class MeanAlphas {
-  public:
-    float of(const slope_covariance& lobe)
-    {
-        if (!(lobe.xx == last_.xx && lobe.yy == last_.yy && lobe.xy == last_.xy))
-            last_ = lobe, alpha_ = mean_alpha(lobe);
-        return alpha_;
-    }
-
-  private:
-    slope_covariance last_{};
-    float alpha_ = mean_alpha({});
-};
-
-// Returns, by level from 1 on and then texel, the root mean square width of the underlying lobes, as perceptual roughness.
-std::vector<std::vector<float>> own_roughness_levels(const MipSource& source)
-{
-    MeanAlphas alphas;
-    std::vector<std::vector<float>> levels = mean_levels(source, [&](const MipPoint& p) {
-        const float alpha = alphas.of(p.s);
-        return alpha * alpha;
-    });
-    for (std::vector<float>& level : levels)
-        for (float& own : level)
-            own = std::sqrt(std::sqrt(std::max(own, 0.0f)));
-    return levels;
-}
-
-TexturePyramid filtered_pyramid(const Scene& scene, const SceneMips& all, const Texture& sampler, const PyramidKey& key,
-                                const MipLevels& levels)
-{
-    const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
-    const MaterialMips& mips = all.of(static_cast<std::size_t>(key.material));
-    const MipSource source = mip_source(scene, m);
-    const float gain = gain_of_taps(mips.filter, mips.kappa);
-    const bool gains = has_gains(m, mips);
-    // Normals as their map has them: what shading multiplies by the scale; alpha is the map's own.
-    const bool normals = key.tensor_power == 0;
-    const float unscale = std::abs(m.normal_scale) > 1e-3f ? 0.5f / m.normal_scale : 0.0f;
-    TexturePyramid own; // pyramid of the map, whose alpha may hold heights
-    const bool keeps = normals && kept_weights_of(scene, m, mips).any;
-    if (normals && !keeps && has_alpha(*image_of(scene, m.normal_tex))) {
-        const Image& map = *image_of(scene, m.normal_tex);
-        const MapLevels* heights =
-            m.heights ? given_map(scene, all, m, {MapPart::height, &m.normal_tex, ColourKernel::box, false}) : nullptr;
-        own = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, key.encoding);
-    }
-    // Average the light that facets keep, or the lobe widths
-    const bool same = own.width == source.width() && own.height == source.height();
-    const KeptShares& shares = kept_shares(mean_roughness(scene, m));
-    std::vector<std::vector<float>> means; // by level from 1 on, then texel
-    if (keeps)
-        means = mean_levels(source, [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
-    else if (key.tensor_power == 2)
-        means = own_roughness_levels(source);
-    // Write texels: level 0 from the maps, others from the filter's levels
-    std::vector<MipPoint> points(static_cast<std::size_t>(source.width()));
-    MeanAlphas alphas;
-    return make_texture_pyramid(source.width(), source.height(), sampler, key.encoding, [&](int level, int width, int y, float* rgba) {
-        if (level == 0)
-            source.row(y, points.data());
-        const MipLevel* made = level > 0 ? &levels.levels[static_cast<std::size_t>(level) - 1] : nullptr;
-        for (int x = 0; x < width; ++x, rgba += 4) {
-            const MipPoint p =
-                made ? point_of(made->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)])
-                     : points[static_cast<std::size_t>(x)];
-            const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            const float mean = made && !means.empty() ? means[static_cast<std::size_t>(level) - 1][place] : 1.0f;
-            if (!normals) {
-                const float own_roughness = gains  ? 1.0f
-                                            : made ? mean
-                                                   : std::sqrt(alphas.of(p.s)); // gains already include the lobe's width
-                put_moments(key.tensor_power, gain, made && gains ? made->gain : 1.0f, own_roughness, p.n, p.s, rgba);
-                continue;
-            }
-            // Write the normal, with kept light or the map's alpha in its alpha
-            const std::uint16_t* texel =
-                same ? own.texels.data() +
-                           4 * (static_cast<std::size_t>(own.offset[level]) +
-                                static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + static_cast<std::size_t>(x + 1))
-                     : nullptr;
-            rgba[3] = keeps ? made ? kept_share(shares, mean, p.n.z) : 1.0f : texel ? half_to_float(texel[3]) : 1.0f;
-            rgba[0] = 0.5f + unscale * p.n.x, rgba[1] = 0.5f + unscale * p.n.y, rgba[2] = 0.5f + 0.5f * p.n.z;
-        }
-    });
-}
-
 } // namespace
 
 bool is_filtered(const Scene& scene, const Material& m, const MaterialMips& mips)
@@ -502,11 +388,12 @@ void bind_textures(const Scene& scene, const SceneMips& all, std::size_t materia
     put_far_normals(scene, m, mips, to);
 }
 
-TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels)
+namespace {
+
+// Makes a pyramid of a key that is not filtered.
+TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key)
 {
     const Texture& texture = scene.textures[static_cast<std::size_t>(key.texture)];
-    if (key.filtered)
-        return filtered_pyramid(scene, mips, texture, key, *levels[static_cast<std::size_t>(key.material)]);
     if (key.coat) {
         const Material& m = scene.materials[static_cast<std::size_t>(key.material)];
         return coat_pyramid(scene, m, coat_gain(m, mips.of(static_cast<std::size_t>(key.material))));
@@ -531,6 +418,27 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
         return make_texture_pyramid(anisotropy_tensor(image, key.tensor_power), texture, key.encoding);
     return make_texture_pyramid(image, texture, key.encoding);
 }
+
+// Makes the filtered pyramids among the missing ones, by material.
+void put_filtered(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys, const std::vector<std::size_t>& missing,
+                  const MaterialLevels& levels, const Jobs& jobs, std::vector<std::shared_ptr<const TexturePyramid>>& pyramids)
+{
+    for (const std::size_t i : missing) {
+        if (!keys[i].filtered || pyramids[i])
+            continue;
+        std::vector<PyramidKey> together;
+        std::vector<std::size_t> places;
+        for (const std::size_t k : missing)
+            if (keys[k].filtered && keys[k].material == keys[i].material && keys[k].texture == keys[i].texture)
+                together.push_back(keys[k]), places.push_back(k);
+        std::vector<TexturePyramid> made =
+            filtered_textures(scene, mips, together, *levels[static_cast<std::size_t>(keys[i].material)], jobs);
+        for (std::size_t k = 0; k < places.size(); ++k)
+            pyramids[places[k]] = std::make_shared<const TexturePyramid>(std::move(made[k]));
+    }
+}
+
+} // namespace
 
 void PyramidCache::forget_material(std::int32_t material)
 {
@@ -557,9 +465,11 @@ std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& sc
     }
     // Make the others
     const MaterialLevels levels = filtered_levels(scene, mips, jobs, {}, &filtered);
+    put_filtered(scene, mips, keys, missing, levels, jobs, pyramids);
     jobs.parallel_for(missing.size(), [&](std::size_t k, int) {
         const std::size_t i = missing[k];
-        pyramids[i] = std::make_shared<const TexturePyramid>(make_pyramid(scene, mips, keys[i], levels));
+        if (!pyramids[i])
+            pyramids[i] = std::make_shared<const TexturePyramid>(make_pyramid(scene, mips, keys[i]));
     });
     if (!cache)
         return pyramids;

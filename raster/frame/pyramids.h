@@ -82,6 +82,4 @@ struct PyramidCache {
 std::vector<std::shared_ptr<const TexturePyramid>>
 make_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* cache);
 
-TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const PyramidKey& key, const MaterialLevels& levels);
-
 } // namespace burnish

@@ -158,11 +158,16 @@ std::vector<std::vector<float>> mean_levels(const MipSource& source, const Point
         for (const MipPoint& p : points)
             *to++ = of(p);
     }
+    return mean_levels(level0, Jobs(1));
+}
+
+std::vector<std::vector<float>> mean_levels(const Image& level0, const Jobs& jobs)
+{
     std::vector<std::vector<float>> levels;
     for (int l = 1; l <= levels_below(level0.width, level0.height); ++l)
         levels.emplace_back(static_cast<std::size_t>(std::max(1, level0.width >> l)) *
                             static_cast<std::size_t>(std::max(1, level0.height >> l)));
-    each_box_row(level0, TextureEncoding::linear, Jobs(1), [&](int level, int width, int y, const float* texels) {
+    each_box_row(level0, TextureEncoding::linear, jobs, [&](int level, int width, int y, const float* texels) {
         float* row = levels[static_cast<std::size_t>(level) - 1].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
         for (int x = 0; x < width; ++x)
             row[x] = texels[4 * x];
@@ -173,12 +178,6 @@ std::vector<std::vector<float>> mean_levels(const MipSource& source, const Point
 float kept_share(const KeptShares& shares, float mean, float nz)
 {
     return std::clamp(mean / std::max(shares.at(kKeptKnot, nz), 0.05f), 0.0f, 1.0f);
-}
-
-float mean_alpha(slope_covariance lobe)
-{
-    const slope_axes axes = axes_of_covariance(lobe);
-    return (axes.sigma_u + axes.sigma_v) * 0.70710678f;
 }
 
 } // namespace burnish

@@ -161,17 +161,10 @@ template <class Row> std::vector<float> box_filter(Size from, Size to, const Row
     return result;
 }
 
-// Returns the first interior texel of row y.
-std::uint16_t* row_of(TexturePyramid& p, int level, Size size, int y)
-{
-    const std::size_t stride = static_cast<std::size_t>(size.w) + 2;
-    return p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
-}
-
 // Stores row y of a level's interior as halves.
 void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
-    std::uint16_t* out = row_of(p, level, size, y);
+    std::uint16_t* out = texel_row(p, level, y);
     const std::size_t numbers = static_cast<std::size_t>(size.w) * 4;
     if (encoding == TextureEncoding::residual)
         residuals_to_halves(rgba, numbers, out);
@@ -227,6 +220,27 @@ void lay_out(TexturePyramid& p)
 }
 
 } // namespace
+
+TexturePyramid make_empty_pyramid(int width, int height, const Texture& sampler)
+{
+    TexturePyramid p;
+    p.width = width, p.height = height;
+    p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
+    lay_out(p);
+    return p;
+}
+
+std::uint16_t* texel_row(TexturePyramid& p, int level, int y)
+{
+    const std::size_t stride = static_cast<std::size_t>(p.level_width[level]) + 2;
+    return p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
+}
+
+void fill_borders(TexturePyramid& p)
+{
+    for (int l = 0; l < p.levels; ++l)
+        fill_border(p, l, {static_cast<int>(p.level_width[l]), static_cast<int>(p.level_height[l])});
+}
 
 ImageRow linear_rows(const Image& image, TextureEncoding encoding)
 {
@@ -304,15 +318,12 @@ void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs
 
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)
 {
-    TexturePyramid p;
-    p.width = image.width, p.height = image.height;
-    p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
-    lay_out(p);
+    TexturePyramid p = make_empty_pyramid(image.width, image.height, sampler);
     const Size full = {p.width, p.height};
     if (image.type == PixelType::u8) {
         const HalfDecoder decoder(image, encoding);
         for (int y = 0; y < p.height; ++y)
-            decoder.row(y, row_of(p, 0, full, y));
+            decoder.row(y, texel_row(p, 0, y));
     } else {
         const ImageRow decode = linear_rows(image, encoding);
         std::vector<float> row(static_cast<std::size_t>(p.width) * 4);
@@ -321,21 +332,16 @@ TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, 
             store_row(p, encoding, 0, full, y, row.data());
         }
     }
-    fill_border(p, 0, full);
     each_box_row(image, encoding, Jobs(1), [&](int l, int width, int y, const float* rgba) {
         store_row(p, encoding, l, {width, std::max(1, p.height >> l)}, y, rgba);
     });
-    for (int l = 1; l < p.levels; ++l)
-        fill_border(p, l, level_size(image, l));
+    fill_borders(p);
     return p;
 }
 
 TexturePyramid make_texture_pyramid(int width, int height, const Texture& sampler, TextureEncoding encoding, const TexelRow& row)
 {
-    TexturePyramid p;
-    p.width = width, p.height = height;
-    p.wrap_s = sampler.wrap_s, p.wrap_t = sampler.wrap_t, p.nearest = sampler.nearest;
-    lay_out(p);
+    TexturePyramid p = make_empty_pyramid(width, height, sampler);
     std::vector<float> texels(static_cast<std::size_t>(width) * 4);
     for (int l = 0; l < p.levels; ++l) {
         const Size size = {std::max(1, width >> l), std::max(1, height >> l)};
@@ -343,8 +349,8 @@ TexturePyramid make_texture_pyramid(int width, int height, const Texture& sample
             row(l, size.w, y, texels.data());
             store_row(p, encoding, l, size, y, texels.data());
         }
-        fill_border(p, l, size);
     }
+    fill_borders(p);
     return p;
 }
 
