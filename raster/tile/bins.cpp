@@ -49,10 +49,10 @@ constexpr std::size_t kMinClusters = 16, kChunks = 64, kChunksAThread = 4;
 
 void Bins::Chunk::make_room()
 {
-    const auto grow = [](auto& column, std::uint32_t count) { column.resize(std::max<std::size_t>(2 * column.size(), count + kGrowRoom)); };
+    const auto grow = [](auto& room, std::uint32_t count) { room.grow(std::max<std::size_t>(2 * room.size(), count + kGrowRoom), count); };
     if (output.count + kGrowRoom > entries.size()) {
         grow(entries, output.count);
-        runs.resize(entries.size());
+        runs.grow(entries.size(), output.run_count);
     }
     if (output.piece_count + kGrowRoom > pieces.size())
         grow(pieces, output.piece_count);
@@ -115,7 +115,8 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
         sum += count;
         BN_CHECK_OP(sum, <=, 0xffffffffu);
     }
-    list.resize(sum);
+    list.grow(sum, 0);
+    std::fill_n(list.data() + sum, kColumnPad, 0u); // lanes look past the end
     each_tile([&](std::uint32_t tile, std::uint32_t from, std::uint32_t n) {
         std::copy_n(entries.data() + from, n, list.data() + tile_begin[tile]);
         tile_begin[tile] += n;
@@ -212,7 +213,7 @@ std::span<const std::uint32_t> Bins::Chunk::entries_of(const TilePart& part) con
     const bool whole = part.cut < 0;
     const std::uint32_t* begin =
         whole ? tile_begin.data() + part.tile : part_begin.data() + part.cut * TilePart::kSide * TilePart::kSide + part.part;
-    return {(whole ? list : part_list).data() + begin[0], begin[1] - begin[0]};
+    return {(whole ? list.data() : part_list.data()) + begin[0], begin[1] - begin[0]};
 }
 
 std::size_t Bins::triangles_in(const TilePart& part) const
