@@ -10,13 +10,12 @@
 #include <cstring>
 
 #include "core/base/check.h"
+#include "core/image/tonemap_lanes.h"
 #include "core/jobs/jobs.h"
+#include "core/simd/dispatch.h"
 
 namespace burnish {
 namespace {
-
-// Upper bound of radiance before tonemapping. Larger values are white in every operator; the square stays finite.
-constexpr float kBrightest = 1e12f;
 
 // Returns t^(1/5) for t in [0.001, 1]. Newton's iteration from above converges monotonically to the last digits.
 double fifth_root(double t)
@@ -59,7 +58,7 @@ float clamp01(float x)
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN becomes 0
 }
 
-// Encodes 8-bit sRGB: compares a value with the 255 boundaries between codes, so that every code is correctly rounded.
+// Codes of 8-bit sRGB: compares a value with the 255 boundaries between codes, so that every code is correctly rounded.
 // A table over the float's upper bits gives the first candidate.
 class SrgbTable {
   public:
@@ -74,30 +73,31 @@ class SrgbTable {
         }
         least_[0] = 0.0f;
         least_[256] = 2.0f; // never reached
-        std::size_t code = 0;
-        for (std::uint32_t key = 0; key < kKeys; ++key) {
-            const float lowest = std::bit_cast<float>((key + kFirstKey) << kShift);
-            while (least_[code + 1] <= lowest)
+        std::int32_t code = 0;
+        for (std::uint32_t key = 1; key < kKeys; ++key) {
+            const float lowest = std::bit_cast<float>((key + kFirstKey) << tone::kKeyShift);
+            while (least_[static_cast<std::size_t>(code) + 1] <= lowest)
                 ++code;
-            start_[key] = static_cast<std::uint8_t>(code);
+            start_[key] = code;
         }
     }
+    tone::CodeTable table() const { return {static_cast<std::int32_t>(kFirstKey), start_.data(), least_.data()}; }
     std::uint8_t encode(float x) const
     {
         const float clamped = clamp01(x);
-        const std::uint32_t key = std::bit_cast<std::uint32_t>(clamped) >> kShift;
-        std::size_t code = key < kFirstKey ? 0 : start_[key - kFirstKey];
+        const std::uint32_t key = std::bit_cast<std::uint32_t>(clamped) >> tone::kKeyShift;
+        std::size_t code = key < kFirstKey ? 0 : static_cast<std::size_t>(start_[key - kFirstKey]);
         while (clamped >= least_[code + 1])
             ++code;
         return static_cast<std::uint8_t>(code);
     }
 
   private:
-    static constexpr std::uint32_t kShift = 16;                                     // 128 keys an octave
-    static constexpr std::uint32_t kFirstKey = 0x39000000u >> kShift;               // 2^-13, below the first boundary, 1/6588
-    static constexpr std::uint32_t kKeys = (0x3F800000u >> kShift) - kFirstKey + 1; // up to 1.0
+    // The first key lies below 2^-13, and so below the first boundary, 1/6588. Keys reach up to 1.
+    static constexpr std::uint32_t kFirstKey = (0x39000000u >> tone::kKeyShift) - 1;
+    static constexpr std::uint32_t kKeys = (0x3F800000u >> tone::kKeyShift) - kFirstKey + 1;
     std::array<float, 257> least_;
-    std::array<std::uint8_t, kKeys> start_;
+    std::array<std::int32_t, kKeys> start_{};
 };
 
 // Returns 2^ev by the Taylor series of e^(f ln 2), f in [-0.5, 0.5]: 18 terms reach double precision.
@@ -114,70 +114,27 @@ float exposure_scale(float ev)
     return static_cast<float>(std::ldexp(sum, whole)); // ldexp is exact
 }
 
-struct Rgb {
-    float r, g, b;
-};
-
-// Applies the Khronos PBR Neutral tone mapper, specification 1.0 (2024), after its reference GLSL.
-Rgb pbr_neutral(Rgb c)
+tone::Curve curve_of(Tonemap tonemap)
 {
-    constexpr float kStart = 0.8f - 0.04f; // compression begins here
-    constexpr float kDesaturation = 0.15f;
-    const float low = std::min(c.r, std::min(c.g, c.b));
-    const float offset = low < 0.08f ? low - 6.25f * low * low : 0.04f;
-    c = {c.r - offset, c.g - offset, c.b - offset};
-    const float peak = std::max(c.r, std::max(c.g, c.b));
-    if (peak < kStart)
-        return c;
-    constexpr float kRoom = 1.0f - kStart;
-    const float new_peak = 1.0f - kRoom * kRoom / (peak + kRoom - kStart);
-    const float scale = new_peak / peak;
-    const float to_white = 1.0f - 1.0f / (kDesaturation * (peak - new_peak) + 1.0f);
-    const auto mix = [&](float x) { return x * scale * (1.0f - to_white) + new_peak * to_white; };
-    return {mix(c.r), mix(c.g), mix(c.b)};
+    return tonemap == Tonemap::pbr_neutral ? tone::Curve::pbr_neutral : tonemap == Tonemap::aces ? tone::Curve::aces : tone::Curve::none;
 }
 
-Rgb multiply(const float (&m)[3][3], Rgb c)
-{
-    return {m[0][0] * c.r + m[0][1] * c.g + m[0][2] * c.b, m[1][0] * c.r + m[1][1] * c.g + m[1][2] * c.b,
-            m[2][0] * c.r + m[2][1] * c.g + m[2][2] * c.b};
-}
-
-// Applies Stephen Hill's fit of the ACES RRT and sRGB ODT (published with MJP's BakingLab, ACES.hlsl, 2016). As in that
-// source, there is no extra exposure factor.
-Rgb aces_hill(Rgb c)
-{
-    static constexpr float kIn[3][3] = {{0.59719f, 0.35458f, 0.04823f}, {0.07600f, 0.90834f, 0.01566f}, {0.02840f, 0.13383f, 0.83777f}};
-    static constexpr float kOut[3][3] = {
-        {1.60475f, -0.53108f, -0.07367f}, {-0.10208f, 1.10813f, -0.00605f}, {-0.00327f, -0.07276f, 1.07602f}};
-    const auto fit = [](float v) {
-        const float a = v * (v + 0.0245786f) - 0.000090537f;
-        const float b = v * (0.983729f * v + 0.4329510f) + 0.238081f;
-        return a / b;
-    };
-    const Rgb in = multiply(kIn, c);
-    return multiply(kOut, {fit(in.r), fit(in.g), fit(in.b)});
-}
-
-Rgb apply(Tonemap tonemap, Rgb c)
-{
-    switch (tonemap) {
-    case Tonemap::pbr_neutral:
-        return pbr_neutral(c);
-    case Tonemap::aces:
-        return aces_hill(c);
-    case Tonemap::none:
-        break;
+// Colours in planes, for lane code.
+class Colours {
+  public:
+    explicit Colours(std::size_t count) : stride_(count + tone::kSlots), planes_(3 * stride_) {}
+    float& at(std::size_t channel, std::size_t i) { return planes_[channel * stride_ + i]; }
+    // Exposes the first `count` colours, and tone maps them. clips: to [0,1].
+    void map(Tonemap tonemap, float scale, std::size_t count, bool clips = true)
+    {
+        float* const r = planes_.data();
+        pick<tone::Fns>().colours({curve_of(tonemap), scale, clips, count, r, r + stride_, r + 2 * stride_});
     }
-    return c;
-}
 
-// Returns exposed radiance as input for a tone mapper: NaN and negative values become 0, Inf a large finite value.
-float expose(float radiance, float scale)
-{
-    const float x = radiance * scale;
-    return x > 0.0f ? std::min(x, kBrightest) : 0.0f;
-}
+  private:
+    std::size_t stride_;
+    std::vector<float> planes_;
+};
 
 const SrgbTable& srgb_table()
 {
@@ -219,21 +176,24 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
     const float scale = exposure_scale(exposure_ev);
     Image out = make_image(linear.width, linear.height, linear.channels, PixelType::u8);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
-    const bool colour = channels >= 3, alpha = channels % 2 == 0;
-    const float* const in = linear.f32();
-    std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data());
     for_ranges(out.bytes.size() / std::max<std::size_t>(channels, 1), jobs, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin * channels; i < end * channels; i += channels) {
-            const float r = expose(in[i], scale);
-            const Rgb exposed = colour ? Rgb{r, expose(in[i + 1], scale), expose(in[i + 2], scale)} : Rgb{r, r, r};
-            const Rgb mapped = apply(tonemap, exposed);
-            to[i] = table.encode(mapped.r);
-            if (colour) {
-                to[i + 1] = table.encode(mapped.g);
-                to[i + 2] = table.encode(mapped.b);
-            }
-            if (alpha) // coverage is linear
-                to[i + channels - 1] = static_cast<std::uint8_t>(clamp01(in[i + channels - 1]) * 255.0f + 0.5f);
+        const float* const in = linear.f32() + begin * channels;
+        std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + begin * channels;
+        const std::size_t count = end - begin;
+        if (channels >= 3) {
+            pick<tone::Fns>().pixels({curve_of(tonemap), scale, table.table(), linear.channels, count, in, to});
+            return;
+        }
+        // Tone map grays as colours
+        Colours colours(count);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < count; ++i)
+                colours.at(c, i) = in[i * channels];
+        colours.map(tonemap, scale, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i * channels] = table.encode(colours.at(0, i));
+            if (channels == 2) // coverage is linear
+                to[i * channels + 1] = static_cast<std::uint8_t>(clamp01(in[i * channels + 1]) * 255.0f + 0.5f);
         }
     });
     return out;
@@ -241,14 +201,44 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
 
 namespace {
 
-Rgb clipped(const Rgb& c)
+// Resolves the pixels of parts [begin, end). Writes codes of `channels` a pixel.
+void resolve_parts(const std::vector<PixelPart>& parts, std::size_t begin, std::size_t end, Tonemap tonemap, float scale, bool weighted,
+                   std::size_t channels, std::uint8_t* to)
 {
-    return {clamp01(c.r), clamp01(c.g), clamp01(c.b)};
-}
-
-float luminance_of(const Rgb& c)
-{
-    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+    // Divide the colours by alpha, then expose and tone map them. A weighted average is tone mapped afterwards.
+    const auto alpha_of = [&](const PixelPart& part) { return channels == 4 ? part.alpha : 1.0f; };
+    Colours colours(end - begin);
+    for (std::size_t k = begin; k < end; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+            colours.at(c, k - begin) = parts[k].color[c] / alpha_of(parts[k]);
+    colours.map(weighted ? Tonemap::none : tonemap, scale, end - begin, !weighted);
+    // Average each pixel's parts
+    std::vector<std::size_t> pixels;
+    for (std::size_t k = begin; k < end;) {
+        const std::size_t pixel = parts[k].pixel;
+        float sum[3] = {}, weights = 0.0f;
+        for (; k < end && parts[k].pixel == pixel; ++k) {
+            const PixelPart& part = parts[k];
+            if (part.background && channels == 4)
+                continue;
+            const float rgb[3] = {colours.at(0, k - begin), colours.at(1, k - begin), colours.at(2, k - begin)};
+            const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+            const float weight = static_cast<float>(part.samples) * alpha_of(part) / (weighted ? 1.0f + luminance : 1.0f);
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] += rgb[c] * weight;
+            weights += weight;
+        }
+        if (!(weights > 0.0f))
+            continue;
+        for (std::size_t c = 0; c < 3; ++c)
+            colours.at(c, pixels.size()) = sum[c] / weights; // over a part that has been read
+        pixels.push_back(pixel);
+    }
+    if (weighted)
+        colours.map(tonemap, 1.0f, pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            to[channels * pixels[i] + c] = srgb_table().encode(colours.at(c, i));
 }
 
 } // namespace
@@ -257,47 +247,20 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
                        const Jobs* jobs)
 {
     Image out = tonemap_to_srgb8(linear, tonemap, exposure_ev, jobs);
-    if (resolve == Resolve::linear)
+    if (resolve == Resolve::linear || parts.empty())
         return out;
     const float scale = exposure_scale(exposure_ev);
     const std::size_t channels = static_cast<std::size_t>(linear.channels);
-    BN_CHECK(parts.empty() || channels >= 3);
-    const auto resolve_pixel = [&](std::size_t first, std::size_t end) {
-        // Average the pixel's parts
-        float sum[3] = {}, weights = 0.0f;
-        for (std::size_t k = first; k < end; ++k) {
-            const PixelPart& part = parts[k];
-            if (part.background && channels == 4)
-                continue;
-            // Divide the colour by alpha, and weigh it by alpha
-            const float alpha = channels == 4 ? part.alpha : 1.0f;
-            const auto whole = [&](std::size_t c) { return expose(part.color[c] / alpha, scale); };
-            const Rgb exposed = {whole(0), whole(1), whole(2)};
-            const bool weighted = resolve == Resolve::weighted;
-            const float weight = static_cast<float>(part.samples) * alpha / (weighted ? 1.0f + luminance_of(exposed) : 1.0f);
-            const Rgb kept = weighted ? exposed : clipped(apply(tonemap, exposed));
-            sum[0] += kept.r * weight, sum[1] += kept.g * weight, sum[2] += kept.b * weight;
-            weights += weight;
-        }
-        // Tonemap a weighted average after resolving
-        if (weights > 0.0f && resolve == Resolve::weighted) {
-            const Rgb mapped = clipped(apply(tonemap, {sum[0] / weights, sum[1] / weights, sum[2] / weights}));
-            sum[0] = mapped.r, sum[1] = mapped.g, sum[2] = mapped.b, weights = 1.0f;
-        }
-        std::uint8_t* const to = reinterpret_cast<std::uint8_t*>(out.bytes.data()) + channels * parts[first].pixel;
-        for (std::size_t c = 0; weights > 0.0f && c < 3; ++c)
-            to[c] = srgb_table().encode(sum[c] / weights);
-    };
+    BN_CHECK(channels >= 3);
+    const auto goes_on = [&](std::size_t k) { return k > 0 && k < parts.size() && parts[k].pixel == parts[k - 1].pixel; };
     // A range has the pixels whose first part lies in it
     for_ranges(parts.size(), jobs, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t first = begin; first < end;) {
-            std::size_t next = first + 1;
-            while (next < parts.size() && parts[next].pixel == parts[first].pixel)
-                ++next;
-            if (first == 0 || parts[first - 1].pixel != parts[first].pixel)
-                resolve_pixel(first, next);
-            first = next;
-        }
+        while (begin < end && goes_on(begin))
+            ++begin;
+        while (begin < end && goes_on(end))
+            ++end;
+        resolve_parts(parts, begin, end, tonemap, scale, resolve == Resolve::weighted, channels,
+                      reinterpret_cast<std::uint8_t*>(out.bytes.data()));
     });
     return out;
 }

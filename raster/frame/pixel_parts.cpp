@@ -23,10 +23,31 @@ void merge_parts(std::span<const std::span<const PixelPart>> lists, int width, i
     for (const std::span<const PixelPart> list : lists)
         for (const PixelPart& part : list)
             to[next[row_of(part)]++] = part;
-    // Order each row
-    jobs.parallel_for(rows, [&](std::size_t row, int) {
-        const auto at = [&](std::size_t i) { return to.begin() + static_cast<std::ptrdiff_t>(i); };
-        std::sort(at(begin[row]), at(begin[row + 1]), part_before);
+    // Order each row: count its parts by column, and move them there; then a pixel's few parts among each other
+    constexpr std::size_t kBand = 16;
+    const std::size_t columns = static_cast<std::size_t>(width);
+    jobs.parallel_for((rows + kBand - 1) / kBand, [&](std::size_t band, int) {
+        std::vector<std::size_t> first(columns + 1), end(columns + 1); // by column, into the row's parts
+        std::vector<PixelPart> row_parts;
+        for (std::size_t row = band * kBand; row < std::min(rows, (band + 1) * kBand); ++row) {
+            PixelPart* const parts = to.data() + begin[row];
+            row_parts.assign(parts, to.data() + begin[row + 1]);
+            if (row_parts.empty())
+                continue;
+            const auto column_of = [&](const PixelPart& part) { return part.pixel - row * columns; };
+            std::fill(first.begin(), first.end(), std::size_t{0});
+            for (const PixelPart& part : row_parts)
+                ++first[column_of(part) + 1];
+            for (std::size_t x = 0; x < columns; ++x)
+                first[x + 1] += first[x];
+            end = first;
+            for (const PixelPart& part : row_parts) {
+                std::size_t place = end[column_of(part)]++;
+                for (; place > first[column_of(part)] && part_before(part, parts[place - 1]); --place)
+                    parts[place] = parts[place - 1];
+                parts[place] = part;
+            }
+        }
     });
 }
 

@@ -7,13 +7,19 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <set>
 
+#include "core/simd/dispatch.h"
+#include "core/simd/half.h"
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/map_levels.h"
+#include "shading/bake/mip/mean_fns.h"
+#include "shading/bake/mip/moment_rows.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
 #include "shading/bake/mipnet/shipped.h"
+#include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
 #include "tests/unit/bake/bake_test.h"
 
@@ -451,6 +457,58 @@ TEST(mip, files_give_back_what_was_written_and_refuse_the_rest)
     Maps other = maps;
     other.roughness.f32()[1] += 0.01f;
     EXPECT_NE(MipSource(other.of()).hash(Jobs(1)), a.source);
+}
+
+// Rows of textures: the numbers of each texel as floats, rounded to halves, with what halves leave.
+TEST(moment_rows, hold_the_numbers_of_each_point_by_every_instruction_set)
+{
+    constexpr std::size_t kCount = 149, kStride = 160; // no whole registers, and more than are written at once
+    std::mt19937 random(7);
+    const auto number = [&] { return static_cast<float>(random() % 4096) / 4096.0f; };
+    std::vector<MipTexel> texels(kCount);
+    for (MipTexel& t : texels)
+        t = {0.9f * number() - 0.45f, 0.9f * number() - 0.45f, 0.01f + number(), 0.01f + number(), 0.0f};
+    std::vector<float> width2(kStride), alpha(kStride);
+    for (std::size_t x = 0; x < kCount; ++x)
+        width2[x] = number(), alpha[x] = number();
+    for (const Isa isa : isas_with<mip::MomentFns>()) {
+        const mip::MomentFns& fns = pick<mip::MomentFns>(isa);
+        std::vector<float> points(mip::kPointPlanes * kStride, -1.0f), widths(kStride);
+        fns.points({kCount, kStride, &texels[0].nx, points.data()});
+        fns.widths({kCount, kStride, points.data(), widths.data()});
+        for (const bool of_level0 : {true, false})
+            for (const bool gained : {true, false}) {
+                std::vector<std::uint16_t> made[mip::kFilteredTextures];
+                mip::MomentWork work{kCount, kStride, points.data(), of_level0 ? nullptr : width2.data(), gained,
+                                     0.7f,   0.9f,    0.4f,          of_level0 ? nullptr : alpha.data(),  {}};
+                for (std::size_t k = 0; k < mip::kFilteredTextures; ++k)
+                    made[k].assign(4 * kCount + 1, 77), work.to[k] = made[k].data();
+                fns.moments(work);
+                for (std::size_t x = 0; x < kCount; ++x) {
+                    const MipTexel& t = texels[x];
+                    const float nz = std::sqrt(1.0f - (t.nx * t.nx + t.ny * t.ny)), gx = 0.7f * t.nx, gy = 0.7f * t.ny;
+                    const slope_covariance s = covariance_of_tensor({t.a, t.b, t.c});
+                    const slope_axes axes = axes_of_covariance(s);
+                    const float width = (axes.sigma_u + axes.sigma_v) * 0.70710678f;
+                    EXPECT_EQ(widths[x], width * width);
+                    const float own = gained ? 1.0f : std::sqrt(of_level0 ? width : std::sqrt(width2[x]));
+                    const float wanted[3][4] = {
+                        {0.5f + 0.4f * t.nx, 0.5f + 0.4f * t.ny, 0.5f + 0.5f * nz, of_level0 ? 1.0f : alpha[x]},
+                        {0.9f, nz, own, kMomentScale * (s.xx + gx * gx)},
+                        {kSlopeScale * t.nx, kSlopeScale * t.ny, kMomentScale * (s.yy + gy * gy), kMomentScale * (s.xy + gx * gy)}};
+                    for (std::size_t k = 0; k < 3; ++k)
+                        for (std::size_t c = 0; c < 4; ++c) {
+                            const std::uint16_t half = float_to_half(wanted[k][c]);
+                            EXPECT_EQ(made[k][4 * x + c], half) << isa_name(isa) << ", texture " << k << ", channel " << c;
+                            if (k > 0) {
+                                EXPECT_EQ(made[k + 2][4 * x + c], float_to_half(wanted[k][c] - half_to_float(half))) << isa_name(isa);
+                            }
+                        }
+                }
+                for (const std::vector<std::uint16_t>& row : made)
+                    EXPECT_EQ(row.back(), 77) << "the number after the last texel";
+            }
+    }
 }
 
 } // namespace

@@ -6,7 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/image/tonemap_lanes.h"
 #include "core/jobs/jobs.h"
+#include "core/simd/dispatch.h"
 
 namespace burnish {
 namespace {
@@ -220,6 +222,37 @@ TEST(resolve, gives_the_same_bytes_on_all_threads)
             }
         }
     }
+}
+
+TEST(tonemap, gives_the_same_bytes_by_every_instruction_set)
+{
+    // Every magnitude, both signs, and numbers that are not finite, in a count that fills no whole registers
+    constexpr std::size_t kPixels = 4099;
+    const float special[] = {0.0f, -0.0f, std::nanf(""), INFINITY, -INFINITY, 1e30f, -1.0f, 1e-40f, 1.0f, 0.76f, 0.08f};
+    std::vector<float> pixels(4 * kPixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = i % 5 == 0 ? special[i / 5 % std::size(special)]
+                               : std::ldexp(1.0f + static_cast<float>(i * 2654435761u % 4096) / 4096.0f, static_cast<int>(i % 40) - 25);
+    // Boundaries that rise, with a first candidate of 0 for all
+    std::vector<float> least(257);
+    for (std::size_t code = 0; code < 256; ++code)
+        least[code] = static_cast<float>(code * code) / 65025.0f;
+    least[256] = 2.0f;
+    constexpr std::int32_t kFirstKey = 0x3700, kLastKey = 0x3F80;
+    const std::vector<std::int32_t> start(kLastKey - kFirstKey + 1, 0);
+    const tone::CodeTable table = {kFirstKey, start.data(), least.data()};
+    for (const tone::Curve curve : {tone::Curve::none, tone::Curve::pbr_neutral, tone::Curve::aces})
+        for (const int channels : {3, 4}) {
+            const auto bytes_by = [&](Isa isa) {
+                std::vector<std::uint8_t> bytes(static_cast<std::size_t>(channels) * kPixels + 1, 77);
+                pick<tone::Fns>(isa).pixels({curve, 1.5f, table, channels, kPixels, pixels.data(), bytes.data()});
+                return bytes;
+            };
+            const std::vector<std::uint8_t> wanted = bytes_by(Isa::scalar);
+            EXPECT_EQ(wanted.back(), 77) << "the byte after the last pixel";
+            for (const Isa isa : isas_with<tone::Fns>())
+                EXPECT_EQ(bytes_by(isa), wanted) << isa_name(isa) << ", channels " << channels;
+        }
 }
 
 } // namespace
