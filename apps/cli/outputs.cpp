@@ -193,7 +193,9 @@ Status make_output_folder(const std::string& folder)
 Image display_picture(const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts, Resolve resolve,
                       const Jobs* jobs)
 {
-    return tonemap_to_srgb8(linear.channels == 4 ? unassociated(linear) : linear, tonemap, exposure_ev, parts, resolve, jobs);
+    if (linear.channels == 4)
+        return tonemap_to_srgb8(unassociated(linear), tonemap, exposure_ev, parts, resolve, jobs);
+    return tonemap_to_srgb8(linear, tonemap, exposure_ev, parts, resolve, jobs);
 }
 
 Status write_picture(const std::string& path, const Image& linear, Tonemap tonemap, float exposure_ev, const std::vector<PixelPart>& parts,

@@ -34,6 +34,13 @@ KeptWeights kept_weights_of(const Scene& scene, const Material& m, const Materia
     return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
 }
 
+std::vector<KeptWeights> kept_weights_by_material(const Scene& scene, const SceneMips& mips, const Jobs& jobs)
+{
+    std::vector<KeptWeights> kept(scene.materials.size());
+    jobs.parallel_for(kept.size(), [&](std::size_t i, int) { kept[i] = kept_weights_of(scene, scene.materials[i], mips.of(i)); });
+    return kept;
+}
+
 TexturePyramid kept_pyramid(const Scene& scene, const Material& m, const Texture& sampler, TextureEncoding encoding)
 {
     const KeptShares& shares = kept_shares(mean_roughness(scene, m));
@@ -88,9 +95,8 @@ void put_facets(const Scene& scene, const Material& m, const MaterialMips& mips,
 
 } // namespace
 
-void put_far_normals(const Scene& scene, const Material& m, const MaterialMips& mips, MaterialRecord& to)
+void put_far_normals(const Scene& scene, const Material& m, const MaterialMips& mips, const KeptWeights& kept, MaterialRecord& to)
 {
-    const KeptWeights kept = kept_weights_of(scene, m, mips);
     to.keeps = kept.any ? 1 : 0;
     std::copy(std::begin(kept.of), std::end(kept.of), to.kept);
     put_facets(scene, m, mips, kept, to);

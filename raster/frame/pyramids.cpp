@@ -189,7 +189,8 @@ struct Held {
     PyramidKey key;
     const TextureRef* place;
 };
-std::optional<Held> held_by(const Scene& scene, const SceneMips& all, std::size_t material, const TextureUse& use, bool overridden)
+std::optional<Held> held_by(const Scene& scene, const SceneMips& all, const std::vector<KeptWeights>& kept, std::size_t material,
+                            const TextureUse& use, bool overridden)
 {
     const Material& m = scene.materials[material];
     const MaterialMips& mips = all.of(material);
@@ -203,7 +204,7 @@ std::optional<Held> held_by(const Scene& scene, const SceneMips& all, std::size_
     if (!ref.used())
         return std::nullopt;
     Held held = {{ref.texture, use.encoding, use.tensor_power}, &ref};
-    if (use.slot == kNormalTex && kept_weights_of(scene, m, mips).any)
+    if (use.slot == kNormalTex && kept[material].any)
         held.key.keeps = true, held.key.material = first_that_keeps(scene, all, material);
     if (use.slot == kCoatNormalTex && coat_gain(m, mips) > 0.0f)
         held.key.coat = true, held.key.material = first_with_coat(scene, all, material);
@@ -349,26 +350,26 @@ std::string levels_name(const Material& m, const MaterialMips& mips)
     return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(mips.filter)].name;
 }
 
-std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips)
+std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept)
 {
     std::vector<PyramidKey> keys;
     for (int overridden = 0; overridden <= (mips.frames_override ? 1 : 0); ++overridden)
         for (std::size_t i = 0; i < scene.materials.size(); ++i)
             for (const TextureUse& use : kTextureUses)
-                if (const std::optional<Held> held = held_by(scene, mips, i, use, overridden != 0);
+                if (const std::optional<Held> held = held_by(scene, mips, kept, i, use, overridden != 0);
                     held && std::find(keys.begin(), keys.end(), held->key) == keys.end())
                     keys.push_back(held->key);
     return keys;
 }
 
-void bind_textures(const Scene& scene, const SceneMips& all, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys,
-                   MaterialRecord& to)
+void bind_textures(const Scene& scene, const SceneMips& all, const std::vector<KeptWeights>& kept, std::size_t material, bool overridden,
+                   const std::vector<PyramidKey>& keys, MaterialRecord& to)
 {
     for (const TextureUse& use : kTextureUses) {
         TextureBinding& b = to.textures[use.slot];
         b = {};
         b.texture = -1;
-        const std::optional<Held> held = held_by(scene, all, material, use, overridden);
+        const std::optional<Held> held = held_by(scene, all, kept, material, use, overridden);
         if (!held)
             continue;
         b.texture = static_cast<int>(std::find(keys.begin(), keys.end(), held->key) - keys.begin());
@@ -385,7 +386,7 @@ void bind_textures(const Scene& scene, const SceneMips& all, std::size_t materia
     to.coat_spread = coat_gain(m, mips) > 0.0f;
     to.frame_map = is_filtered(scene, m, mips) ? kFrameQuaternion : -1;
     to.anisotropic |= to.moments != kNoMoments;
-    put_far_normals(scene, m, mips, to);
+    put_far_normals(scene, m, mips, kept[material], to);
 }
 
 namespace {

@@ -30,6 +30,7 @@ namespace burnish {
 std::string levels_name(const Material& m, const MaterialMips& mips); // "material 'steel' by kappa"
 
 class MipSource;
+struct KeptWeights;
 struct MipHelp;
 
 struct PyramidKey {
@@ -46,11 +47,12 @@ struct PyramidKey {
     bool operator==(const PyramidKey&) const = default;
 };
 
-std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips); // each once
+// kept: kept_weights_by_material(), here and below.
+std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept); // each once
 
 // Textures, by their places in `keys`, and moments of a material. overridden: in frames that override roughness or anisotropy.
-void bind_textures(const Scene& scene, const SceneMips& mips, std::size_t material, bool overridden, const std::vector<PyramidKey>& keys,
-                   MaterialRecord& to);
+void bind_textures(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept, std::size_t material, bool overridden,
+                   const std::vector<PyramidKey>& keys, MaterialRecord& to);
 
 // Levels by material, null if no filter makes any. They come from the scene, or are made here. Materials share equal levels.
 using MaterialLevels = std::vector<std::shared_ptr<const MipLevels>>;

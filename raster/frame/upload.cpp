@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/math/scalar_math.h"
 #include "raster/frame/bodies.h"
+#include "raster/frame/far_normals.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/light_picture.h"
@@ -169,13 +170,14 @@ int central_sample(const SamplePattern& p)
     return nearest;
 }
 
-std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, bool overridden)
+std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept,
+                                             bool overridden)
 {
-    const std::vector<PyramidKey> keys = used_pyramids(scene, mips);
+    const std::vector<PyramidKey> keys = used_pyramids(scene, mips, kept);
     std::vector<MaterialRecord> records;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         records.push_back(material_record(scene.materials[i]));
-        bind_textures(scene, mips, i, overridden, keys, records.back());
+        bind_textures(scene, mips, kept, i, overridden, keys, records.back());
     }
     for (const Primitive& p : scene.primitives)
         if (p.has_color)
@@ -255,14 +257,15 @@ SceneTables upload_scene(const RenderInput& input)
     const DrawTables& tables = input.tables;
     const Jobs& jobs = input.jobs;
     SceneTables s;
-    s.pyramids = make_pyramids(scene, mips, used_pyramids(scene, mips), jobs, input.pyramids);
+    const std::vector<KeptWeights> kept = kept_weights_by_material(scene, mips, jobs);
+    s.pyramids = make_pyramids(scene, mips, used_pyramids(scene, mips, kept), jobs, input.pyramids);
     s.area_lights = area_light_records(tables);
     add_light_pictures(scene, jobs, s);
     for (const auto& p : s.pyramids)
         s.textures.push_back(texture_params(*p));
-    s.materials = material_records(scene, mips, false);
+    s.materials = material_records(scene, mips, kept, false);
     if (mips.frames_override)
-        s.overridden = material_records(scene, mips, true);
+        s.overridden = material_records(scene, mips, kept, true);
     put_bodies(scene, tables, jobs, s.materials, s.overridden);
     s.lights = light_records(tables);
     put_light_columns(s);

@@ -10,6 +10,8 @@
 
 namespace burnish {
 
+struct KeptWeights;
+
 struct SceneTables { // owns the data that the records point to
     std::vector<std::shared_ptr<const TexturePyramid>> pyramids;
     std::vector<TextureParams> textures;
@@ -22,7 +24,9 @@ struct SceneTables { // owns the data that the records point to
 };
 
 // Textures are numbered as in SceneTables::textures. A material that blends, whose alpha is 1 everywhere, is opaque.
-std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, bool overridden);
+// kept: kept_weights_by_material().
+std::vector<MaterialRecord> material_records(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept,
+                                             bool overridden);
 bool any_blends(const std::vector<MaterialRecord>& materials); // whether a material's alpha mode is kAlpha_blend
 std::vector<LightRecord> light_records(const DrawTables& tables);
 std::vector<AreaLightRecord> area_light_records(const DrawTables& tables); // pictures are texture indices of the scene

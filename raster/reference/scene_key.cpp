@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/hash.h"
+#include "raster/frame/far_normals.h"
 #include "raster/frame/frame_record.h"
 #include "raster/reference/sobol.h"
 #include "shading/bake/mip/settings.h"
@@ -113,7 +114,8 @@ std::uint64_t reference_key(const RenderInput& input, const FrameDesc& d, const 
     std::fill(std::begin(frame.extracted_lights), std::end(frame.extracted_lights), ExtractedLightRecord{});
     frame.ltc = {};
     add_records(key, std::vector<FrameRecord>{frame});
-    add_records(key, in_frame(material_records(input.scene, input.mips, overrides(input.scene, input.mips, d)), d));
+    const std::vector<KeptWeights> kept = kept_weights_by_material(input.scene, input.mips, input.jobs);
+    add_records(key, in_frame(material_records(input.scene, input.mips, kept, overrides(input.scene, input.mips, d)), d));
     add_records(key, light_records(input.tables));
     add_records(key, area_light_records(input.tables));
     add_textures(key, input.scene);
