@@ -44,6 +44,14 @@ template <class T> class Column {
             std::memset(static_cast<void*>(data_ + from), 0, (n + kColumnPad - from) * sizeof(T));
         size_ = n;
     }
+    // Changes the size. New elements are undefined until they are written.
+    void resize_for_overwrite(std::size_t n)
+    {
+        reserve(n);
+        if (data_)
+            std::memset(static_cast<void*>(data_ + n), 0, kColumnPad * sizeof(T));
+        size_ = n;
+    }
     // Leaves memory past the pad untouched: large columns own no pages there.
     void reserve(std::size_t n)
     {

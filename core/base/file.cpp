@@ -24,7 +24,7 @@ Error unreadable(const std::string& path, const std::string& reason)
 
 } // namespace
 
-Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes, Links links)
+Result<FileReader> FileReader::open(const std::string& path, std::uint64_t max_bytes, Links links)
 {
     // Open without blocking: a pipe without a writer would hang the call.
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | (links == Links::refuse ? O_NOFOLLOW : 0)));
@@ -42,17 +42,30 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
     const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
     if (size > max_bytes)
         return unreadable(path, "has " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(max_bytes));
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-    for (std::size_t have = 0; have < bytes.size();) {
-        const ssize_t n = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+    return FileReader(std::move(file), path, size);
+}
+
+Status FileReader::read(void* to, std::size_t bytes)
+{
+    for (std::size_t have = 0; have < bytes;) {
+        const ssize_t n = ::read(file_.get(), static_cast<std::uint8_t*>(to) + have, bytes - have);
         if (n < 0 && errno == EINTR)
             continue;
         if (n < 0)
-            return unreadable(path, "cannot be read: " + system_reason(errno));
+            return unreadable(path_, "cannot be read: " + system_reason(errno));
         if (n == 0)
-            return unreadable(path, "became shorter while it was read");
+            return unreadable(path_, "became shorter while it was read");
         have += static_cast<std::size_t>(n);
     }
+    return {};
+}
+
+Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes, Links links)
+{
+    Result<FileReader> file = FileReader::open(path, max_bytes, links);
+    BN_TRY(file);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(file->size()));
+    BN_TRY(file->read(bytes.data(), bytes.size()));
     return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/descriptor.h"
@@ -18,6 +19,21 @@ enum class Links { follow, refuse };
 // Returns the bytes of a regular file of 1 to `max_bytes` bytes. Anything else (missing, folder, pipe, empty, too
 // large, or a refused link) is an Error with ExitCode::bad_input.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64_t max_bytes, Links links = Links::follow);
+
+// A regular file that is read part by part, from its begin to its end. Errors are those of read_file().
+class FileReader {
+  public:
+    static Result<FileReader> open(const std::string& path, std::uint64_t max_bytes, Links links = Links::follow);
+    std::uint64_t size() const { return size_; }
+    Status read(void* to, std::size_t bytes); // fails where fewer bytes are left
+
+  private:
+    FileReader(Descriptor file, std::string path, std::uint64_t size) : file_(std::move(file)), path_(std::move(path)), size_(size) {}
+
+    Descriptor file_;
+    std::string path_;
+    std::uint64_t size_;
+};
 
 // Writes a file so that the name `path` only ever shows a complete file. The bytes go to an unnamed file where the file
 // system has such files, else to a randomly named one in the folder of `path`. The file gets its name once its bytes

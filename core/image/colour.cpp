@@ -58,7 +58,7 @@ float clamp01(float x)
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; // NaN becomes 0
 }
 
-// Codes of 8-bit sRGB: compares a value with the 255 boundaries between codes, so that every code is correctly rounded.
+// Encodes 8-bit sRGB: compares a value with the 255 boundaries between codes, so that every code is correctly rounded.
 // A table over the float's upper bits gives the first candidate.
 class SrgbTable {
   public:
@@ -157,14 +157,16 @@ Result<Tonemap> parse_tonemap(const std::string& name)
 
 namespace {
 
-// Runs body(begin, end) over ranges of `count`, on all threads where there are jobs.
+// Runs body(begin, end) over ranges of `count`, on all threads where there are jobs. A range's scratch memory is small.
 template <class Body> void for_ranges(std::size_t count, const Jobs* jobs, const Body& body)
 {
     constexpr std::size_t kRange = std::size_t{1} << 15;
     const std::size_t ranges = (count + kRange - 1) / kRange;
-    if (!jobs || ranges < 2)
-        return body(std::size_t{0}, count);
-    jobs->parallel_for_whole(ranges, [&](std::size_t i, int) { body(i * kRange, std::min(count, (i + 1) * kRange)); });
+    const auto run = [&](std::size_t i, int) { body(i * kRange, std::min(count, (i + 1) * kRange)); };
+    if (jobs && ranges > 1)
+        return jobs->parallel_for_whole(ranges, run);
+    for (std::size_t i = 0; i < ranges; ++i)
+        run(i, 0);
 }
 
 } // namespace
@@ -201,7 +203,7 @@ Image tonemap_to_srgb8(const Image& linear, Tonemap tonemap, float exposure_ev, 
 
 namespace {
 
-// Resolves the pixels of parts [begin, end). Writes codes of `channels` a pixel.
+// Resolves the pixels of parts [begin, end). to: the picture's codes, `channels` a pixel.
 void resolve_parts(const std::vector<PixelPart>& parts, std::size_t begin, std::size_t end, Tonemap tonemap, float scale, bool weighted,
                    std::size_t channels, std::uint8_t* to)
 {

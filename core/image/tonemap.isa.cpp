@@ -6,6 +6,7 @@ inline namespace BN_ISA_NS {
 namespace {
 
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes);
+static_assert(kLane <= tone::kSlots);
 
 struct Rgb {
     real r, g, b;

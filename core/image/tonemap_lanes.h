@@ -7,10 +7,10 @@
 
 namespace burnish::tone {
 
-enum class Curve : std::uint32_t { none, pbr_neutral, aces }; // as Tonemap
+enum class Curve : std::uint32_t { none, pbr_neutral, aces }; // Tonemap, for code that sees no containers
 
-// Codes of 8-bit sRGB. The bits of a float in [0,1], but the last kKeyShift, give the first candidate. `least` holds each code's smallest
-// float, and one above 1 at the end.
+// Tables for codes of 8-bit sRGB. A float's bits above the last kKeyShift are its key, which gives the first candidate. `least` holds the
+// smallest float of each code, and a float above 1 at the end.
 inline constexpr int kKeyShift = 16; // 128 keys an octave
 struct CodeTable {
     std::int32_t first_key; // of floats below the first boundary

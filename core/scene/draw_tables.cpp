@@ -97,7 +97,7 @@ bool append_vertices(const VertexTable& v, const Primitive& primitive, const Pla
     const std::size_t base = out.px.size(), count = primitive.vertex_count;
     const auto resize = [&](std::size_t n) {
         for (Column<float>* column : {&out.px, &out.py, &out.pz})
-            column->resize(n);
+            column->resize_for_overwrite(n);
     };
     resize(base + count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -111,7 +111,7 @@ bool append_vertices(const VertexTable& v, const Primitive& primitive, const Pla
         out.py[base + k] = p.y;
         out.pz[base + k] = p.z;
     }
-    out.shading.resize(base + count);
+    out.shading.resize_for_overwrite(base + count);
     for (std::size_t k = 0; k < count; ++k)
         out.shading[base + k] = place_shading(v, primitive.first_vertex + k, place);
     return true;
@@ -120,8 +120,8 @@ bool append_vertices(const VertexTable& v, const Primitive& primitive, const Pla
 void append_triangles(const Scene& scene, const Primitive& primitive, bool mirrored, Draw& draw, DrawTables& out)
 {
     const std::size_t base = out.indices.size(), base_triangle = base / 3;
-    out.indices.resize(base + primitive.index_count);
-    out.triangle_material.resize(base_triangle + draw.triangle_count);
+    out.indices.resize_for_overwrite(base + primitive.index_count);
+    out.triangle_material.resize_for_overwrite(base_triangle + draw.triangle_count);
     draw.bounds_min = glm::vec3(std::numeric_limits<float>::max());
     draw.bounds_max = -draw.bounds_min;
     for (std::size_t t = 0; t < draw.triangle_count; ++t) {

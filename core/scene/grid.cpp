@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kBlockQuads = 8; // 8 * 8 * 2 triangles are one cluster
 
-void push_vertex(VertexTable& v, const SurfacePoint& p)
+void put_vertex(VertexTable& v, std::size_t at, const SurfacePoint& p)
 {
     const glm::dvec3 n = p.normal / std::sqrt(glm::dot(p.normal, p.normal));
     const glm::dvec3 across = p.tangent - n * glm::dot(n, p.tangent);
     const glm::dvec3 t = across / std::sqrt(glm::dot(across, across));
-    const auto put = [](Column<float>& column, double value) { column.push_back(static_cast<float>(value)); };
+    const auto put = [at](Column<float>& column, double value) { column[at] = static_cast<float>(value); };
     put(v.px, p.position.x);
     put(v.py, p.position.y);
     put(v.pz, p.position.z);
@@ -64,11 +64,17 @@ void add_grid(Scene& scene, int columns, int rows, const Surface& surface)
     BN_CHECK(!scene.primitives.empty());
     Primitive& primitive = scene.primitives.back();
     const auto base = static_cast<std::uint32_t>(scene.vertices.size());
+    VertexTable& v = scene.vertices;
+    const std::size_t vertices = base + static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1);
+    for (Column<float>* column :
+         {&v.px, &v.py, &v.pz, &v.nx, &v.ny, &v.nz, &v.tx, &v.ty, &v.tz, &v.tw, &v.u0, &v.v0, &v.u1, &v.v1, &v.cr, &v.cg, &v.cb, &v.ca})
+        column->resize_for_overwrite(vertices);
+    std::size_t at = base;
     for (int row = 0; row <= rows; ++row)
         for (int column = 0; column <= columns; ++column) {
             const SurfacePoint p = surface(column, row);
             primitive.has_color = primitive.has_color || p.shade != 1.0;
-            push_vertex(scene.vertices, p);
+            put_vertex(v, at++, p);
         }
     const auto id = [&](int column, int row) { return base + static_cast<std::uint32_t>(row * (columns + 1) + column); };
     for (int row0 = 0; row0 < rows; row0 += kBlockQuads)

@@ -37,7 +37,7 @@ KeptWeights kept_weights_of(const Scene& scene, const Material& m, const Materia
 std::vector<KeptWeights> kept_weights_by_material(const Scene& scene, const SceneMips& mips, const Jobs& jobs)
 {
     std::vector<KeptWeights> kept(scene.materials.size());
-    jobs.parallel_for(kept.size(), [&](std::size_t i, int) { kept[i] = kept_weights_of(scene, scene.materials[i], mips.of(i)); });
+    jobs.parallel_for_whole(kept.size(), [&](std::size_t i, int) { kept[i] = kept_weights_of(scene, scene.materials[i], mips.of(i)); });
     return kept;
 }
 
@@ -47,8 +47,7 @@ TexturePyramid kept_pyramid(const Scene& scene, const Material& m, const Texture
     const auto means = mean_levels(normals_of(scene, m), [&](const MipPoint& p) { return shares.at(kKeptKnot, p.n.z); });
     const TexturePyramid own = make_texture_pyramid(map_image(scene, m.normal_tex), sampler, encoding);
     return make_texture_pyramid(own.width, own.height, sampler, encoding, [&](int level, int width, int y, float* rgba) {
-        const std::uint16_t* from = own.texels.data() + 4 * (static_cast<std::size_t>(own.offset[level]) +
-                                                             static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width + 2) + 1);
+        const std::uint16_t* from = texel_row(own, level, y);
         for (int x = 0; x < width; ++x, rgba += 4, from += 4) {
             for (int c = 0; c < 3; ++c)
                 rgba[c] = half_to_float(from[c]);

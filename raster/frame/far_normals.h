@@ -16,6 +16,7 @@ float mean_roughness(const Scene& scene, const Material& material); // estimated
 
 // Returns the share of light that each facet of the normal map keeps. Returns none where alpha holds heights, or where gains are measured.
 KeptWeights kept_weights_of(const Scene& scene, const Material& material, const MaterialMips& mips);
+// Returns these shares for every material, in order.
 std::vector<KeptWeights> kept_weights_by_material(const Scene& scene, const SceneMips& mips, const Jobs& jobs);
 
 // Makes the normal map's pyramid, with the facets' light share in its levels' alpha.

@@ -45,7 +45,8 @@ struct Means {
 
 class RowWriter {
   public:
-    RowWriter(const Scene& scene, const SceneMips& all, const std::vector<PyramidKey>& keys, const MipLevels& levels, const Jobs& jobs)
+    RowWriter(const Scene& scene, const SceneMips& all, const KeptWeights& kept, const std::vector<PyramidKey>& keys,
+              const MipLevels& levels, const Jobs& jobs)
         : keys_(keys), levels_(levels), jobs_(jobs), material_(scene.materials[static_cast<std::size_t>(keys.front().material)]),
           source_(mip_source(scene, material_))
     {
@@ -54,12 +55,13 @@ class RowWriter {
         work_.gained = has_gains(material_, mips), work_.gain = gain_of_taps(mips.filter, mips.kappa);
         // Write normals as their map has them: what shading multiplies by the scale
         work_.unscale = std::abs(material_.normal_scale) > 1e-3f ? 0.5f / material_.normal_scale : 0.0f;
-        made_.assign(keys.size(), make_empty_pyramid(source_.width(), source_.height(), sampler));
         bool normals = false, widths = false;
-        for (const PyramidKey& key : keys)
+        for (const PyramidKey& key : keys) {
+            made_.push_back(make_empty_pyramid(source_.width(), source_.height(), sampler));
             normals |= key.tensor_power == 0, widths |= key.tensor_power == 2 && !work_.gained;
+        }
         // Prepare the alpha of normals: the light that facets keep, or the map's own, which may hold heights
-        if (normals && kept_weights_of(scene, material_, mips).any)
+        if (normals && kept.any)
             shares_ = &kept_shares(mean_roughness(scene, material_)), kept_.emplace(source_);
         else if (normals)
             take_alpha(scene, all, sampler);
@@ -83,6 +85,7 @@ class RowWriter {
     // The planes of a row: points, then a mean width and alpha.
     static constexpr std::size_t kWidthPlane = mip::kPointPlanes, kAlphaPlane = kWidthPlane + 1, kPlanes = kAlphaPlane + 1;
 
+    // Takes the alpha of the normal map's own levels, if it covers the grid.
     void take_alpha(const Scene& scene, const SceneMips& all, const Texture& sampler)
     {
         const Image& map = map_image(scene, material_.normal_tex);
@@ -91,7 +94,15 @@ class RowWriter {
         const MapLevels* heights =
             material_.heights ? given_map(scene, all, material_, {MapPart::height, &material_.normal_tex, ColourKernel::box, false})
                               : nullptr;
-        own_ = heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, TextureEncoding::linear);
+        const TexturePyramid own =
+            heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, TextureEncoding::linear);
+        for (int level = 0; level < own.levels; ++level) {
+            const int width = std::max(1, map.width >> level), height = std::max(1, map.height >> level);
+            std::vector<std::uint16_t>& to = own_alpha_.emplace_back();
+            for (int y = 0; y < height; ++y)
+                for (const std::uint16_t *at = texel_row(own, level, y), *end = at + 4 * width; at < end; at += 4)
+                    to.push_back(at[3]);
+        }
     }
 
     void write_level(int level)
@@ -120,14 +131,14 @@ class RowWriter {
         }
         if (width2_)
             work.width2 = put_widths(level, y, width, stride, planes);
-        if (kept_ || !own_.texels.empty())
+        if (kept_ || !own_alpha_.empty())
             work.alpha = put_alpha(level, y, width, stride, planes);
         for (std::size_t k = 0; k < keys_.size(); ++k)
             work.to[texture_of(keys_[k])] = texel_row(made_[k], level, y);
         fns_.moments(work);
     }
 
-    // Returns the mean squares of the widths; null at level 0, whose lobes have their own.
+    // Keeps the squared widths of level 0. Returns another level's mean squares, or null at level 0.
     const float* put_widths(int level, int y, std::size_t width, std::size_t stride, float* planes)
     {
         float *const plane = planes + kWidthPlane * stride, *const row = width2_->row(level, y);
@@ -140,6 +151,7 @@ class RowWriter {
         return plane;
     }
 
+    // Returns the alpha of normals. Keeps the light of level 0's facets.
     const float* put_alpha(int level, int y, std::size_t width, std::size_t stride, float* planes)
     {
         float *const alpha = planes + kAlphaPlane * stride, *const nz = planes + 2 * stride;
@@ -152,9 +164,9 @@ class RowWriter {
             }
             return alpha;
         }
-        const std::uint16_t* const own = texel_row(own_, level, y);
+        const std::uint16_t* const own = own_alpha_[static_cast<std::size_t>(level)].data() + static_cast<std::size_t>(y) * width;
         for (std::size_t x = 0; x < width; ++x)
-            alpha[x] = half_to_float(own[4 * x + 3]);
+            alpha[x] = half_to_float(own[x]);
         return alpha;
     }
 
@@ -165,18 +177,18 @@ class RowWriter {
     const MipSource source_;
     const mip::MomentFns& fns_ = pick<mip::MomentFns>();
     mip::MomentWork work_{};
-    std::vector<TexturePyramid> made_; // by key
-    TexturePyramid own_;               // of the normal map, if its alpha holds heights
+    std::vector<TexturePyramid> made_;                  // by key
+    std::vector<std::vector<std::uint16_t>> own_alpha_; // of the normal map, by level: halves
     const KeptShares* shares_ = nullptr;
     std::optional<Means> kept_, width2_; // light that facets keep; squared widths of lobes
 };
 
 } // namespace
 
-std::vector<TexturePyramid> filtered_textures(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys,
-                                              const MipLevels& levels, const Jobs& jobs)
+std::vector<TexturePyramid> filtered_textures(const Scene& scene, const SceneMips& mips, const KeptWeights& kept,
+                                              const std::vector<PyramidKey>& keys, const MipLevels& levels, const Jobs& jobs)
 {
-    return RowWriter(scene, mips, keys, levels, jobs).write();
+    return RowWriter(scene, mips, kept, keys, levels, jobs).write();
 }
 
 } // namespace burnish

@@ -8,8 +8,8 @@
 namespace burnish {
 
 // Returns the pyramid of each key. The keys are filtered, and name one material and texture. All are written in one pass over the maps'
-// rows. levels: those of the material.
-std::vector<TexturePyramid> filtered_textures(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys,
-                                              const MipLevels& levels, const Jobs& jobs);
+// rows. kept, levels: those of the material.
+std::vector<TexturePyramid> filtered_textures(const Scene& scene, const SceneMips& mips, const KeptWeights& kept,
+                                              const std::vector<PyramidKey>& keys, const MipLevels& levels, const Jobs& jobs);
 
 } // namespace burnish

@@ -23,7 +23,7 @@ void merge_parts(std::span<const std::span<const PixelPart>> lists, int width, i
     for (const std::span<const PixelPart> list : lists)
         for (const PixelPart& part : list)
             to[next[row_of(part)]++] = part;
-    // Order each row: count its parts by column, and move them there; then a pixel's few parts among each other
+    // Count each row's parts by column. Move them there. Order a pixel's parts by insertion.
     constexpr std::size_t kBand = 16;
     const std::size_t columns = static_cast<std::size_t>(width);
     jobs.parallel_for((rows + kBand - 1) / kBand, [&](std::size_t band, int) {

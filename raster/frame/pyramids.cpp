@@ -421,8 +421,9 @@ TexturePyramid make_pyramid(const Scene& scene, const SceneMips& mips, const Pyr
 }
 
 // Makes the filtered pyramids among the missing ones, by material.
-void put_filtered(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys, const std::vector<std::size_t>& missing,
-                  const MaterialLevels& levels, const Jobs& jobs, std::vector<std::shared_ptr<const TexturePyramid>>& pyramids)
+void put_filtered(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept, const std::vector<PyramidKey>& keys,
+                  const std::vector<std::size_t>& missing, const MaterialLevels& levels, const Jobs& jobs,
+                  std::vector<std::shared_ptr<const TexturePyramid>>& pyramids)
 {
     for (const std::size_t i : missing) {
         if (!keys[i].filtered || pyramids[i])
@@ -432,8 +433,8 @@ void put_filtered(const Scene& scene, const SceneMips& mips, const std::vector<P
         for (const std::size_t k : missing)
             if (keys[k].filtered && keys[k].material == keys[i].material && keys[k].texture == keys[i].texture)
                 together.push_back(keys[k]), places.push_back(k);
-        std::vector<TexturePyramid> made =
-            filtered_textures(scene, mips, together, *levels[static_cast<std::size_t>(keys[i].material)], jobs);
+        std::vector<TexturePyramid> made = filtered_textures(scene, mips, kept[static_cast<std::size_t>(keys[i].material)], together,
+                                                             *levels[static_cast<std::size_t>(keys[i].material)], jobs);
         for (std::size_t k = 0; k < places.size(); ++k)
             pyramids[places[k]] = std::make_shared<const TexturePyramid>(std::move(made[k]));
     }
@@ -447,7 +448,8 @@ void PyramidCache::forget_material(std::int32_t material)
 }
 
 std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
-                                                                 const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* cache)
+                                                                 const std::vector<KeptWeights>& kept, const std::vector<PyramidKey>& keys,
+                                                                 const Jobs& jobs, PyramidCache* cache)
 {
     // Take those that are cached
     std::vector<std::shared_ptr<const TexturePyramid>> pyramids(keys.size());
@@ -466,7 +468,7 @@ std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& sc
     }
     // Make the others
     const MaterialLevels levels = filtered_levels(scene, mips, jobs, {}, &filtered);
-    put_filtered(scene, mips, keys, missing, levels, jobs, pyramids);
+    put_filtered(scene, mips, kept, keys, missing, levels, jobs, pyramids);
     jobs.parallel_for(missing.size(), [&](std::size_t k, int) {
         const std::size_t i = missing[k];
         if (!pyramids[i])

@@ -47,7 +47,7 @@ struct PyramidKey {
     bool operator==(const PyramidKey&) const = default;
 };
 
-// kept: kept_weights_by_material(), here and below.
+// Takes kept_weights_by_material(), as the functions below do.
 std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept); // each once
 
 // Textures, by their places in `keys`, and moments of a material. overridden: in frames that override roughness or anisotropy.
@@ -81,7 +81,8 @@ struct PyramidCache {
     void forget_material(std::int32_t material); // call after a change to its fields
 };
 // Returns the pyramids of the keys. Makes those that are not cached, in parallel, and caches exactly these.
-std::vector<std::shared_ptr<const TexturePyramid>>
-make_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<PyramidKey>& keys, const Jobs& jobs, PyramidCache* cache);
+std::vector<std::shared_ptr<const TexturePyramid>> make_pyramids(const Scene& scene, const SceneMips& mips,
+                                                                 const std::vector<KeptWeights>& kept, const std::vector<PyramidKey>& keys,
+                                                                 const Jobs& jobs, PyramidCache* cache);
 
 } // namespace burnish

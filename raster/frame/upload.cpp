@@ -258,7 +258,7 @@ SceneTables upload_scene(const RenderInput& input)
     const Jobs& jobs = input.jobs;
     SceneTables s;
     const std::vector<KeptWeights> kept = kept_weights_by_material(scene, mips, jobs);
-    s.pyramids = make_pyramids(scene, mips, used_pyramids(scene, mips, kept), jobs, input.pyramids);
+    s.pyramids = make_pyramids(scene, mips, kept, used_pyramids(scene, mips, kept), jobs, input.pyramids);
     s.area_lights = area_light_records(tables);
     add_light_pictures(scene, jobs, s);
     for (const auto& p : s.pyramids)

@@ -49,13 +49,18 @@ constexpr std::size_t kMinClusters = 16, kChunks = 64, kChunksAThread = 4;
 
 void Bins::Chunk::make_room()
 {
-    const auto grow = [](auto& room, std::uint32_t count) { room.grow(std::max<std::size_t>(2 * room.size(), count + kGrowRoom), count); };
+    // Grows a column, and keeps its first elements. Pages that nothing writes stay untouched.
+    const auto grow = [](auto& column, std::size_t kept, std::size_t size) {
+        column.resize_for_overwrite(kept);
+        column.resize_for_overwrite(size);
+    };
+    const auto more = [](std::size_t size, std::uint32_t count) { return std::max<std::size_t>(2 * size, count + kGrowRoom); };
     if (output.count + kGrowRoom > entries.size()) {
-        grow(entries, output.count);
-        runs.grow(entries.size(), output.run_count);
+        const std::size_t size = more(entries.size(), output.count);
+        grow(entries, output.count, size), grow(runs, output.run_count, size);
     }
     if (output.piece_count + kGrowRoom > pieces.size())
-        grow(pieces, output.piece_count);
+        grow(pieces, output.piece_count, more(pieces.size(), output.piece_count));
     output.entries = entries.data(), output.runs = runs.data(), output.pieces = pieces.data();
     output.capacity = static_cast<std::uint32_t>(entries.size());
     output.piece_capacity = static_cast<std::uint32_t>(pieces.size());
@@ -115,8 +120,8 @@ void Bins::Chunk::sort_by_tile(const FrameParams& f)
         sum += count;
         BN_CHECK_OP(sum, <=, 0xffffffffu);
     }
-    list.grow(sum, 0);
-    std::fill_n(list.data() + sum, kColumnPad, 0u); // lanes look past the end
+    list.resize_for_overwrite(0);
+    list.resize_for_overwrite(sum);
     each_tile([&](std::uint32_t tile, std::uint32_t from, std::uint32_t n) {
         std::copy_n(entries.data() + from, n, list.data() + tile_begin[tile]);
         tile_begin[tile] += n;

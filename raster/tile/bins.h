@@ -1,11 +1,9 @@
 // Triangle lists per tile, without locks. Clusters are split into chunks, and each chunk fills its lists. A tile reads the chunks in
 // order, so it sees triangles in draw order for any thread schedule.
 #pragma once
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/base/column.h"
@@ -20,28 +18,6 @@ struct TilePart {
     std::uint32_t tile;
     std::int32_t cut = -1; // index among the cut tiles, in the given order; -1: a whole tile
     std::int32_t part = 0; // index among its parts, row by row
-};
-
-// Memory whose elements are undefined until they are written. Pages that nothing writes take no memory.
-template <class T> class Room {
-  public:
-    // Makes room for n elements, and copies the first `kept` ones. Reads up to kColumnPad past the end are legal.
-    void grow(std::size_t n, std::size_t kept)
-    {
-        if (at_ && n <= size_)
-            return;
-        auto grown = std::make_unique_for_overwrite<T[]>(n + kColumnPad);
-        std::copy_n(at_.get(), kept, grown.get());
-        at_ = std::move(grown), size_ = n;
-    }
-    std::size_t size() const { return size_; }
-    T* data() { return at_.get(); }
-    const T* data() const { return at_.get(); }
-    const T& operator[](std::size_t i) const { return at_[i]; }
-
-  private:
-    std::unique_ptr<T[]> at_;
-    std::size_t size_ = 0;
 };
 
 class Bins {
@@ -62,11 +38,11 @@ class Bins {
 
   private:
     struct Chunk {
-        Room<std::uint32_t> entries; // see ChunkOutput
-        Room<TileRun> runs;
-        Room<ClippedPiece> pieces;
+        Column<std::uint32_t> entries; // see ChunkOutput
+        Column<TileRun> runs;
+        Column<ClippedPiece> pieces;
         Column<std::uint32_t> tile_begin;            // by tile, into `list`; one more at the end
-        Room<std::uint32_t> list;                    // entries by tile, in draw order
+        Column<std::uint32_t> list;                  // entries by tile, in draw order
         Column<std::uint32_t> part_begin, part_list; // the same by part of the cut tiles
         Column<std::uint32_t> first_part, last_part; // for entries of a tile that is being cut: see TileRun
         ChunkOutput output = {};

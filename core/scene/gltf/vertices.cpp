@@ -1,8 +1,10 @@
 #include "core/scene/gltf/vertices.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/scene/tangents.h"
@@ -154,16 +156,48 @@ class Welder {
 
 } // namespace
 
+namespace {
+
+// For each of the file's vertices, a corner that has it and is finished.
+class FirstCorners {
+  public:
+    static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+    explicit FirstCorners(const Corners& corners)
+        : first_(corners.vertices.empty() ? 0 : *std::max_element(corners.vertices.begin(), corners.vertices.end()) + std::size_t{1}, kNone)
+    {
+    }
+    std::size_t& of(std::uint32_t vertex) { return first_[vertex]; }
+
+  private:
+    std::vector<std::size_t> first_;
+};
+
+template <class Vector> bool same_bits(const Vector& a, const Vector& b)
+{
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+} // namespace
+
 bool make_normals(Corners& corners)
 {
     bool replaced = false;
+    const AccessorView& normal = corners.attributes.normal;
     corners.normals.resize(corners.vertices.size());
+    FirstCorners first(corners);
     for (std::size_t i = 0; i < corners.vertices.size(); i += 3) {
         glm::vec3 flat(0.0f);
         for (std::size_t k = i; k < i + 3; ++k) {
-            const AccessorView& normal = corners.attributes.normal;
-            if (normal && normalize(glm::dvec3(read_vec3(normal, corners.vertices[k])), corners.normals[k]))
+            std::size_t& own = first.of(corners.vertices[k]);
+            if (own != FirstCorners::kNone) {
+                corners.normals[k] = corners.normals[own];
                 continue;
+            }
+            if (normal && normalize(glm::dvec3(read_vec3(normal, corners.vertices[k])), corners.normals[k])) {
+                own = k;
+                continue;
+            }
             replaced = replaced || normal;
             if (flat == glm::vec3(0.0f))
                 flat = flat_normal(corners, i);
@@ -181,9 +215,17 @@ TangentSource make_tangents(Corners& corners, int uv_set)
         return TangentSource::texture_coordinates;
     }
     corners.tangents.resize(corners.vertices.size());
-    for (std::size_t i = 0; i < corners.vertices.size(); ++i)
+    FirstCorners first(corners);
+    for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
+        std::size_t& own = first.of(corners.vertices[i]);
+        if (own != FirstCorners::kNone && same_bits(corners.normals[own], corners.normals[i])) {
+            corners.tangents[i] = corners.tangents[own];
+            continue;
+        }
+        own = i;
         corners.tangents[i] = a.tangent ? clean_tangent(a.tangent, corners.vertices[i], corners.normals[i])
                                         : glm::vec4(any_tangent(corners.normals[i]), 1.0f);
+    }
     return a.tangent ? TangentSource::file : TangentSource::none;
 }
 
@@ -198,7 +240,15 @@ void append_welded(Document& doc, const Corners& corners, Primitive& primitive, 
     primitive.first_vertex = static_cast<std::uint32_t>(table.size());
     Welder welder(table);
     indices.reserve(indices.size() + corners.vertices.size());
+    FirstCorners first(corners);
     for (std::size_t i = 0; i < corners.vertices.size(); ++i) {
+        std::size_t& own = first.of(corners.vertices[i]);
+        if (own != FirstCorners::kNone && same_bits(corners.normals[own], corners.normals[i]) &&
+            same_bits(corners.tangents[own], corners.tangents[i])) {
+            indices.push_back(indices[primitive.first_index + own]);
+            continue;
+        }
+        own = i;
         bool added = false;
         indices.push_back(static_cast<std::uint32_t>(welder.find_or_add(vertex_at(corners, i), added)));
         if (added)

@@ -212,6 +212,13 @@ CubeMap box_filtered_chain(const CubeMap& environment, const Jobs& jobs)
 
 CubeMap make_cube_map(int size, int levels, float scale)
 {
+    CubeMap cube = make_unfilled_cube_map(size, levels, scale);
+    std::fill(cube.texels.begin(), cube.texels.end(), std::uint16_t{0});
+    return cube;
+}
+
+CubeMap make_unfilled_cube_map(int size, int levels, float scale)
+{
     BN_CHECK(size > 0 && levels > 0 && (size >> (levels - 1)) > 0);
     CubeMap cube;
     cube.size = size, cube.levels = levels, cube.scale = scale;
@@ -221,7 +228,7 @@ CubeMap make_cube_map(int size, int levels, float scale)
         texels += cube_texels((size >> l) + 2);
     }
     BN_CHECK_OP(texels, <, std::size_t{1} << 31);
-    cube.texels.resize(texels * 4);
+    cube.texels.resize_for_overwrite(texels * 4);
     return cube;
 }
 

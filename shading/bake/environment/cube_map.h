@@ -36,6 +36,7 @@ double mean_luminance(const CubeMap& cube);    // of the stored level 0, times i
 
 // Allocates `levels` black levels.
 CubeMap make_cube_map(int size, int levels, float scale);
+CubeMap make_unfilled_cube_map(int size, int levels, float scale); // whose texels are undefined
 // Writes a level's texels, divided by the cube's scale, and the border.
 void store_cube_level(CubeMap& cube, int level, const float* rgb, const Jobs& jobs);
 // Returns the power of two that scales `peak` into [2^14, 2^15). Most of half's range lies below this, and texel sums stay finite.

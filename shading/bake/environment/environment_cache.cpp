@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 
 #include "core/base/cache.h"
@@ -93,57 +94,94 @@ std::string environment_cache_path(const EnvironmentOptions& options, std::uint6
     return folder.empty() ? "" : fmt::format("{}/environment-{:016x}.bnenv", folder, content_hash);
 }
 
-std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
-                                                   int levels)
+namespace {
+
+// A cache file's bytes, in order. read: returns false if there are too few.
+struct CacheBytes {
+    std::uint64_t size;
+    std::function<bool(void* to, std::size_t bytes)> read;
+};
+
+std::size_t cube_bytes(int size, int levels)
 {
-    Environment e;
-    e.specular = make_cube_map(size, levels, 1.0f);
-    e.irradiance = make_cube_map(kIrradianceSize, 1, 1.0f);
-    CubeMap whole = make_cube_map(size, 1, 1.0f);
-    const std::size_t specular = bytes_of(e.specular), irradiance = bytes_of(e.irradiance);
-    const std::size_t least = sizeof(Header) + specular + irradiance, most = least + bytes_of(whole);
-    if (bytes != least && bytes != most)
-        return std::nullopt;
-    Header h;
-    std::memcpy(&h, data, sizeof(h));
-    const std::uint8_t* payload = data + sizeof(h);
-    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
-        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
-        h.extracted_light_count < 0 || h.extracted_light_count > kMaxExtractedLights || (h.extracted_light_count > 0) != (bytes == most) ||
-        h.payload_hash != hash_bytes(payload, bytes - sizeof(h)))
-        return std::nullopt;
+    std::size_t texels = 0;
+    for (int l = 0; l < levels; ++l)
+        texels += cube_texels((size >> l) + 2);
+    return texels * 4 * sizeof(std::uint16_t);
+}
+
+// Returns true if all figures and extracted lights are in range for drawing.
+bool holds_figures(const Header& h)
+{
     // Largest scale with which every half float up to 65504 gives a finite float.
     constexpr float kMostScale = 0x1p111f;
     for (const double figure : {static_cast<double>(h.specular_scale), static_cast<double>(h.irradiance_scale),
                                 static_cast<double>(h.whole_scale), static_cast<double>(h.peak_source), h.energy_source, h.energy_cube})
         if (!std::isfinite(figure) || figure < 0.0)
-            return std::nullopt;
-    if (!(std::max({h.specular_scale, h.irradiance_scale, h.whole_scale}) <= kMostScale) ||
-        !std::all_of(h.extracted_lights, h.extracted_lights + h.extracted_light_count, is_extracted_light))
+            return false;
+    return std::max({h.specular_scale, h.irradiance_scale, h.whole_scale}) <= kMostScale &&
+           std::all_of(h.extracted_lights, h.extracted_lights + h.extracted_light_count, is_extracted_light);
+}
+
+// Reads the texels into their cubes.
+std::optional<Environment> parse(const CacheBytes& file, std::uint64_t content_hash, int size, int levels)
+{
+    const std::uint64_t least = sizeof(Header) + cube_bytes(size, levels) + cube_bytes(kIrradianceSize, 1);
+    const std::uint64_t most = least + cube_bytes(size, 1);
+    Header h;
+    if ((file.size != least && file.size != most) || !file.read(&h, sizeof(h)))
         return std::nullopt;
-    std::memcpy(e.specular.texels.data(), payload, specular);
-    std::memcpy(e.irradiance.texels.data(), payload + specular, irradiance);
-    if (h.extracted_light_count > 0) {
-        std::memcpy(whole.texels.data(), payload + specular + irradiance, bytes_of(whole));
-        whole.scale = h.whole_scale;
-        e.whole = std::move(whole);
-        e.extracted_lights.assign(h.extracted_lights, h.extracted_lights + h.extracted_light_count);
-    }
-    if (!holds_light(e.specular) || !holds_light(e.irradiance) || !holds_light(e.whole))
+    if (std::memcmp(h.magic, kMagic, sizeof(kMagic)) != 0 || h.version != kBakeVersion || h.size != size || h.levels != levels ||
+        h.irradiance_size != kIrradianceSize || h.content_hash != content_hash || h.header_hash != hash_of(h) ||
+        h.extracted_light_count < 0 || h.extracted_light_count > kMaxExtractedLights ||
+        (h.extracted_light_count > 0) != (file.size == most) || !holds_figures(h))
         return std::nullopt;
-    e.specular.scale = h.specular_scale, e.irradiance.scale = h.irradiance_scale;
+    Environment e;
+    HashStream hash;
+    const auto take = [&](CubeMap& cube, int side, int side_levels, float scale) {
+        cube = make_unfilled_cube_map(side, side_levels, scale);
+        const bool whole = file.read(cube.texels.data(), bytes_of(cube));
+        if (whole)
+            hash.add(cube.texels.data(), bytes_of(cube));
+        return whole;
+    };
+    if (!take(e.specular, size, levels, h.specular_scale) || !take(e.irradiance, kIrradianceSize, 1, h.irradiance_scale) ||
+        (h.extracted_light_count > 0 && !take(e.whole, size, 1, h.whole_scale)) || hash.value() != h.payload_hash ||
+        !holds_light(e.specular) || !holds_light(e.irradiance) || !holds_light(e.whole))
+        return std::nullopt;
+    e.extracted_lights.assign(h.extracted_lights, h.extracted_lights + h.extracted_light_count);
     e.energy_source = h.energy_source, e.energy_cube = h.energy_cube, e.peak_source = h.peak_source;
     e.content_hash = content_hash;
     e.from_cache = true;
     return e;
 }
 
+CacheBytes bytes_in(const std::uint8_t* data, std::size_t bytes)
+{
+    return {bytes, [data, bytes, at = std::size_t{0}](void* to, std::size_t some) mutable {
+                if (some > bytes - at)
+                    return false;
+                std::memcpy(to, data + at, some);
+                at += some;
+                return true;
+            }};
+}
+
+} // namespace
+
+std::optional<Environment> parse_environment_cache(const std::uint8_t* data, std::size_t bytes, std::uint64_t content_hash, int size,
+                                                   int levels)
+{
+    return parse(bytes_in(data, bytes), content_hash, size, levels);
+}
+
 std::optional<Environment> read_environment_cache(const std::string& path, std::uint64_t content_hash, int size, int levels)
 {
-    const Result<std::vector<std::uint8_t>> file = read_file(path, kMostBytes, Links::refuse);
-    std::optional<Environment> found;
-    if (file)
-        found = parse_environment_cache(file->data(), file->size(), content_hash, size, levels);
+    Result<FileReader> file = FileReader::open(path, kMostBytes, Links::refuse);
+    if (!file)
+        return std::nullopt;
+    const auto read = [&](void* to, std::size_t bytes) { return static_cast<bool>(file->read(to, bytes)); };
+    std::optional<Environment> found = parse({file->size(), read}, content_hash, size, levels);
     if (found)
         note_cache_use(path);
     return found;

@@ -44,7 +44,8 @@ KeptWeights kept_weights(const MipSource& source, const KeptShares& shares);
 // Returns, by level from 1 on, the mean over the level 0 texels under each texel. of: a point's quantity.
 using PointQuantity = std::function<float(const MipPoint& point)>;
 std::vector<std::vector<float>> mean_levels(const MipSource& source, const PointQuantity& of);
-std::vector<std::vector<float>> mean_levels(const Image& level0, const Jobs& jobs); // level0: one channel of floats
+// Returns the same for a quantity at level 0, in an image of one channel of floats.
+std::vector<std::vector<float>> mean_levels(const Image& level0, const Jobs& jobs);
 
 // Returns the light share that a level's texel keeps, [0,1]. mean: its facets' mean share; nz: for the texel's normal.
 float kept_share(const KeptShares& shares, float mean, float nz);

@@ -14,7 +14,7 @@ enum FilteredTexture { kFilteredNormals, kFilteredMoments2, kFilteredMoments4, k
 struct PointWork { // converts a level's texels to points
     std::size_t count, stride;
     const float* texels; // kLobeChannels numbers per texel
-    float* points;       // kPointPlanes planes; the padding counts as texels of zeros
+    float* points;       // kPointPlanes planes, in whole slots
 };
 
 struct WidthWork { // squares mean widths of lobes, (alpha_u + alpha_v) / 2

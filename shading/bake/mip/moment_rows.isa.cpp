@@ -13,12 +13,13 @@ namespace work = burnish::mip;
 
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes);
 constexpr std::size_t kAtOnce = 64; // texels whose numbers become halves together
+static_assert(kAtOnce % kLane == 0 && static_cast<std::size_t>(work::kRowSlots) % kLane == 0);
 
 void points(const work::PointWork& w)
 {
     alignas(64) float texels[work::kLobeChannels][kAtOnce] = {};
     for (std::size_t first = 0; first < w.stride; first += kAtOnce) {
-        const std::size_t left = first < w.count ? w.count - first : 0, some = left < kAtOnce ? left : kAtOnce;
+        const std::size_t some = w.count - first < kAtOnce ? w.count - first : kAtOnce;
         const float* from = w.texels + work::kLobeChannels * first;
         for (std::size_t i = 0; i < some; ++i)
             for (auto& channel : texels)
@@ -62,7 +63,7 @@ BN_FN void put(texel_run& run, std::size_t i, real r, real g, real b, real a)
     store_quads(run.rgba + 4 * i, texels, kLanes);
 }
 
-// Writes a row's moments as shading/surface/lobe_shape.t.h reads them: moments of all.
+// Writes a row of each wanted texture. shading/surface/lobe_shape.t.h reads the moments.
 void moments(const work::MomentWork& w)
 {
     const real gain = splat(w.gain), reflected = splat(w.reflected), unscale = splat(w.unscale), half = lit(0.5), one = lit(1.0);

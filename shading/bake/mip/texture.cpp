@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/image/colour.h"
@@ -216,7 +217,7 @@ void lay_out(TexturePyramid& p)
             texels += static_cast<std::int64_t>(w + 2) * (h + 2);
         BN_CHECK_OP(texels, <, std::int64_t{1} << 31);
     }
-    p.texels.resize(static_cast<std::size_t>(texels) * 4);
+    p.texels.resize_for_overwrite(static_cast<std::size_t>(texels) * 4);
 }
 
 } // namespace
@@ -230,10 +231,15 @@ TexturePyramid make_empty_pyramid(int width, int height, const Texture& sampler)
     return p;
 }
 
-std::uint16_t* texel_row(TexturePyramid& p, int level, int y)
+const std::uint16_t* texel_row(const TexturePyramid& p, int level, int y)
 {
     const std::size_t stride = static_cast<std::size_t>(p.level_width[level]) + 2;
     return p.texels.data() + 4 * (static_cast<std::size_t>(p.offset[level]) + (static_cast<std::size_t>(y) + 1) * stride + 1);
+}
+
+std::uint16_t* texel_row(TexturePyramid& p, int level, int y)
+{
+    return const_cast<std::uint16_t*>(texel_row(std::as_const(p), level, y));
 }
 
 void fill_borders(TexturePyramid& p)

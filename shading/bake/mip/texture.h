@@ -30,10 +30,11 @@ struct TexturePyramid {
     Column<std::uint16_t> texels; // 4 halves per texel
 };
 
-// Returns a pyramid of zeros. Write each level's rows, then fill the borders.
+// Returns a pyramid whose texels are undefined. Write each level's rows, then fill the borders.
 TexturePyramid make_empty_pyramid(int width, int height, const Texture& sampler);
 // Returns the first texel inside the border of row y.
 std::uint16_t* texel_row(TexturePyramid& pyramid, int level, int y);
+const std::uint16_t* texel_row(const TexturePyramid& pyramid, int level, int y);
 void fill_borders(TexturePyramid& pyramid);
 
 // Makes a pyramid. Each level is level 0, box-filtered with exact footprints, also for sides that are not powers of two.

@@ -77,10 +77,10 @@ def aims_are_measured(bench):
     check(float(reached["lobe_line to bent_normal, both with extracted lights"]) < 0.7, f"{reached}")
 
 
-@case("flame.chart_joins_equal_stacks_and_leaves_gaps", tier="quick")
-def flame_chart(_):
-    """Draws bench/lab/flame.py's chart of two threads, from samples as perf writes them."""
-    import flame  # noqa: PLC0415
+@case("timeline.joins_equal_stacks_and_leaves_gaps", tier="quick")
+def timeline_of_samples(_):
+    """Draws bench/lab/timeline.py's chart of two threads, from samples as perf writes them."""
+    import timeline  # noqa: PLC0415
     def sample(thread, ms, *names):
         return f"{thread:>6} {ms / 1000:.6f}: \n" + "".join(f"\t{0x5000 + k:16x} {name}\n" for k, name in enumerate(names))
     inner = "std::vector<int, std::allocator<int> > burnish::(anonymous namespace)::decode_png<3>(int, char const*)"
@@ -88,12 +88,12 @@ def flame_chart(_):
                       sample(7, 3, "burnish::run(int)", "tbb::detail::task::execute", "main"), sample(7, 9, "burnish::run(int)", "main"),
                       "".join(f"     8 0.00{ms}000: \n\tffffffff81000130 asm_exc_page_fault\n\tffffffffffffffff [unknown]\n\n" for ms in (2, 3))])
     found = {}
-    for thread, time, names in flame.samples_of(text):
+    for thread, time, names in timeline.samples_of(text):
         found.setdefault(thread, []).append((time, names))
-    boxes = [[(depth, round(1000 * (end - begin)), name) for depth, begin, end, name, _ in flame.boxes_of(samples, 0.001)] for samples in found.values()]
+    boxes = [[(depth, round(1000 * (end - begin)), name) for depth, begin, end, name, _ in timeline.boxes_of(samples, 0.001)] for samples in found.values()]
     check(sorted(boxes[0]) == [(0, 1, "main"), (0, 3, "main"), (1, 1, "run"), (1, 3, "run"), (2, 2, "decode_png")], f"{boxes[0]}")
     check(boxes[1] == [(0, 2, "kernel")], f"{boxes[1]}")
-    drawn = flame.chart([flame.boxes_of(samples, 0.001) for samples in found.values()], 0.0, 0.01, "a & b")
+    drawn = timeline.chart([timeline.boxes_of(samples, 0.001) for samples in found.values()], 0.0, 0.01, "a & b")
     check("a &amp; b" in drawn and "decode_png: 2.0 ms" in drawn and drawn.count("thread ") == 2, drawn[:300])
 
 

@@ -467,7 +467,7 @@ TEST(moment_rows, hold_the_numbers_of_each_point_by_every_instruction_set)
     const auto number = [&] { return static_cast<float>(random() % 4096) / 4096.0f; };
     std::vector<MipTexel> texels(kCount);
     for (MipTexel& t : texels)
-        t = {0.9f * number() - 0.45f, 0.9f * number() - 0.45f, 0.01f + number(), 0.01f + number(), 0.0f};
+        t = {0.9f * number() - 0.45f, 0.9f * number() - 0.45f, 0.5f + number(), 0.5f + number(), number() - 0.5f};
     std::vector<float> width2(kStride), alpha(kStride);
     for (std::size_t x = 0; x < kCount; ++x)
         width2[x] = number(), alpha[x] = number();
@@ -484,6 +484,14 @@ TEST(moment_rows, hold_the_numbers_of_each_point_by_every_instruction_set)
                 for (std::size_t k = 0; k < mip::kFilteredTextures; ++k)
                     made[k].assign(4 * kCount + 1, 77), work.to[k] = made[k].data();
                 fns.moments(work);
+                for (std::size_t k = 0; k < mip::kFilteredTextures; ++k) { // each alone
+                    std::vector<std::uint16_t> alone(4 * kCount + 1, 77);
+                    mip::MomentWork one = work;
+                    std::fill(std::begin(one.to), std::end(one.to), nullptr);
+                    one.to[k] = alone.data();
+                    fns.moments(one);
+                    EXPECT_EQ(alone, made[k]) << isa_name(isa) << ", texture " << k;
+                }
                 for (std::size_t x = 0; x < kCount; ++x) {
                     const MipTexel& t = texels[x];
                     const float nz = std::sqrt(1.0f - (t.nx * t.nx + t.ny * t.ny)), gx = 0.7f * t.nx, gy = 0.7f * t.ny;

@@ -224,6 +224,28 @@ TEST(resolve, gives_the_same_bytes_on_all_threads)
     }
 }
 
+// More pixels than one range of the loop has.
+TEST(tonemap, shows_grays_as_colours_of_three_equal_channels)
+{
+    constexpr int kWidth = 331, kHeight = 257;
+    Image colours = make_image(kWidth, kHeight, 3, PixelType::f32), gray = make_image(kWidth, kHeight, 1, PixelType::f32);
+    Image with_alpha = make_image(kWidth, kHeight, 2, PixelType::f32);
+    for (std::size_t i = 0; i < std::size_t{kWidth} * kHeight; ++i) {
+        const float value = static_cast<float>(i * 2654435761u % 4096) / 1024.0f;
+        std::fill_n(colours.f32() + 3 * i, 3, value);
+        gray.f32()[i] = with_alpha.f32()[2 * i] = value, with_alpha.f32()[2 * i + 1] = 0.25f;
+    }
+    const Jobs jobs(3);
+    for (const Tonemap tonemap : {Tonemap::none, Tonemap::pbr_neutral}) {
+        const Image wanted = tonemap_to_srgb8(colours, tonemap, 0.5f);
+        for (const Jobs* threads : {static_cast<const Jobs*>(nullptr), &jobs}) {
+            const Image a = tonemap_to_srgb8(gray, tonemap, 0.5f, threads), b = tonemap_to_srgb8(with_alpha, tonemap, 0.5f, threads);
+            for (std::size_t i = 0; i < a.bytes.size(); ++i)
+                ASSERT_TRUE(a.bytes[i] == wanted.bytes[3 * i] && b.bytes[2 * i] == a.bytes[i] && b.bytes[2 * i + 1] == std::byte{64}) << i;
+        }
+    }
+}
+
 TEST(tonemap, gives_the_same_bytes_by_every_instruction_set)
 {
     // Every magnitude, both signs, and numbers that are not finite, in a count that fills no whole registers

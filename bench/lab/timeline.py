@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws a flame chart of a command: what each thread does from its start to its exit, along time.
+"""Draws a timeline of a command: what each thread does from its start to its exit, along time.
 
-Usage: flame.py -o CHART.svg [--title TEXT] [--rate HZ] COMMAND...
-for instance: flame.py -o helmet.svg build/release/burnish render FlightHelmet.gltf --size 1920x1080 --msaa 4 -o helmet.png
+Usage: timeline.py -o CHART.svg [--title TEXT] [--rate HZ] COMMAND...
+for instance: timeline.py -o helmet.svg build/release/burnish render FlightHelmet.gltf --size 1920x1080 --msaa 4 -o helmet.png
 
 Samples call stacks by perf (Linux), which needs no rights where kernel.perf_event_paranoid is at most 2. --rate: samples a second of each thread (4000).
 A row is a depth of the stack, callers above. Gaps are waits. Exit code: 0; 1 the command failed; 2 perf is missing or took no samples.
@@ -28,7 +28,7 @@ KINDS = (
     ("rest", "#e6d9b8", r""),
 )
 # Frames that only pass on a call
-PASSED_ON = re.compile(r"^(std::|tbb::|__libc_start|_start|start_thread|__clone|clone3|\[unknown\]|__invoke|operator\(\)|parallel_for)|_Function_handler|guarded")
+PASSED_ON = re.compile(r"^(std::|tbb::|__libc_start|_start|start_thread|__clone|clone3|\[unknown\]|__invoke|operator$|parallel_for)|_Function_handler|guarded")
 
 
 def qualified(name):
@@ -129,12 +129,15 @@ def main():
     parser.add_argument("command", nargs=argparse.REMAINDER)
     options = parser.parse_args()
     if not options.command or not shutil.which("perf"):
-        print("flame.py: " + ("perf is not installed" if options.command else "no command"), file=sys.stderr)
+        print("timeline.py: " + ("perf is not installed" if options.command else "no command"), file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory() as folder:
         data = folder + "/perf.data"
         done = subprocess.run(["perf", "record", "-q", "-F", str(options.rate), "-e", "cpu-clock", "--call-graph", "dwarf,16384", "-o", data, "--",
                                *options.command], check=False)
+        if not pathlib.Path(data).exists() or not pathlib.Path(data).stat().st_size:
+            print("timeline.py: perf took no samples", file=sys.stderr)
+            return 2
         if done.returncode:
             return 1
         text = subprocess.run(["perf", "script", "-i", data, "-F", "tid,time,ip,sym"], capture_output=True, text=True, check=False).stdout
@@ -142,7 +145,7 @@ def main():
     for thread, time, names in samples_of(text):
         threads.setdefault(thread, []).append((time, names))
     if not threads:
-        print("flame.py: perf took no samples", file=sys.stderr)
+        print("timeline.py: perf took no samples", file=sys.stderr)
         return 2
     period = 1.0 / options.rate
     begin = min(s[0][0] for s in threads.values()) - period
