@@ -12,7 +12,7 @@
 #include "shading/bake/mip/kept_light.h"
 #include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/mean_fns.h"
-#include "shading/bake/mip/moment_rows.h"
+#include "shading/bake/mip/texture_rows.h"
 
 namespace burnish {
 
@@ -175,7 +175,7 @@ class RowWriter {
     const Jobs& jobs_;
     const Material& material_;
     const MipSource source_;
-    const mip::MomentFns& fns_ = pick<mip::MomentFns>();
+    const mip::TextureFns& fns_ = pick<mip::TextureFns>();
     mip::MomentWork work_{};
     std::vector<TexturePyramid> made_;                  // by key
     std::vector<std::vector<std::uint16_t>> own_alpha_; // of the normal map, by level: halves

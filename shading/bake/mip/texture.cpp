@@ -9,9 +9,10 @@
 
 #include "core/base/check.h"
 #include "core/image/colour.h"
+#include "core/simd/dispatch.h"
 #include "core/simd/half.h"
-#include "core/simd/half_rows.h"
 #include "shading/bake/mip/grid.h"
+#include "shading/bake/mip/texture_rows.h"
 
 namespace burnish {
 namespace {
@@ -134,9 +135,24 @@ AxisWeights box_weights(int source, int target)
     return a;
 }
 
+// Returns box_filter() of a level with twice the sides.
+template <class Row> std::vector<float> halved(Size from, Size to, const Row& source_row)
+{
+    const mip::TextureFns& fns = pick<mip::TextureFns>();
+    const std::size_t numbers = static_cast<std::size_t>(from.w) * 4, made = static_cast<std::size_t>(to.w) * 4;
+    std::vector<float> result(static_cast<std::size_t>(to.h) * made), top(numbers);
+    for (int y = 0; y < to.h; ++y) {
+        std::copy_n(source_row(2 * y), numbers, top.begin()); // the next row may be written over it
+        fns.halve({top.data(), source_row(2 * y + 1), static_cast<std::size_t>(to.w), result.data() + static_cast<std::size_t>(y) * made});
+    }
+    return result;
+}
+
 // Applies a box filter to source rows (float RGBA): rows first, then columns. Sums are doubles, in index order.
 template <class Row> std::vector<float> box_filter(Size from, Size to, const Row& source_row)
 {
+    if (from.w == 2 * to.w && from.h == 2 * to.h)
+        return halved(from, to, source_row);
     const AxisWeights ax = box_weights(from.w, to.w), ay = box_weights(from.h, to.h);
     std::vector<float> result(static_cast<std::size_t>(to.w) * static_cast<std::size_t>(to.h) * 4);
     std::vector<double> column(static_cast<std::size_t>(from.w) * 4);
@@ -165,12 +181,8 @@ template <class Row> std::vector<float> box_filter(Size from, Size to, const Row
 // Stores row y of a level's interior as halves.
 void store_row(TexturePyramid& p, TextureEncoding encoding, int level, Size size, int y, const float* rgba)
 {
-    std::uint16_t* out = texel_row(p, level, y);
-    const std::size_t numbers = static_cast<std::size_t>(size.w) * 4;
-    if (encoding == TextureEncoding::residual)
-        residuals_to_halves(rgba, numbers, out);
-    else
-        floats_to_halves(rgba, numbers, out);
+    pick<mip::TextureFns>().halves(
+        {rgba, static_cast<std::size_t>(size.w) * 4, encoding == TextureEncoding::residual, texel_row(p, level, y)});
 }
 
 // Returns the texel that border texel -1 (`high` false) or n (`high` true) repeats. Mirroring reflects at the outer edge of the last

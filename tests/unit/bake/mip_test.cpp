@@ -15,9 +15,9 @@
 #include "shading/bake/mip/filter.h"
 #include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/mean_fns.h"
-#include "shading/bake/mip/moment_rows.h"
 #include "shading/bake/mip/net_levels.h"
 #include "shading/bake/mip/pyramid_file.h"
+#include "shading/bake/mip/texture_rows.h"
 #include "shading/bake/mipnet/shipped.h"
 #include "shading/lang/records.h"
 #include "shading/surface/tensor.k.h"
@@ -471,8 +471,8 @@ TEST(moment_rows, hold_the_numbers_of_each_point_by_every_instruction_set)
     std::vector<float> width2(kStride), alpha(kStride);
     for (std::size_t x = 0; x < kCount; ++x)
         width2[x] = number(), alpha[x] = number();
-    for (const Isa isa : isas_with<mip::MomentFns>()) {
-        const mip::MomentFns& fns = pick<mip::MomentFns>(isa);
+    for (const Isa isa : isas_with<mip::TextureFns>()) {
+        const mip::TextureFns& fns = pick<mip::TextureFns>(isa);
         std::vector<float> points(mip::kPointPlanes * kStride, -1.0f), widths(kStride);
         fns.points({kCount, kStride, &texels[0].nx, points.data()});
         fns.widths({kCount, kStride, points.data(), widths.data()});

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/image/colour.h"
+#include "core/simd/dispatch.h"
+#include "core/simd/half.h"
 #include "shading/bake/mip/map_levels.h"
 #include "shading/bake/mip/texture.h"
+#include "shading/bake/mip/texture_rows.h"
 #include "tests/unit/bake/bake_test.h"
 
 namespace burnish {
@@ -198,6 +202,34 @@ TEST(texture_pyramid, of_weighted_levels_does_not_depend_on_threads)
     for (const ColourKernel kernel : {ColourKernel::box, ColourKernel::kaiser}) {
         const MapId of = {MapPart::base_color, kernel, 0, 1};
         EXPECT_EQ(make_map_levels(image, {}, of, &facing, Jobs(1)).levels, make_map_levels(image, {}, of, &facing, Jobs(3)).levels);
+    }
+}
+
+TEST(texture_rows, are_halved_and_rounded_alike_by_every_instruction_set)
+{
+    constexpr std::size_t kTexels = 37;
+    std::vector<float> top(8 * kTexels), bottom(8 * kTexels);
+    for (std::size_t i = 0; i < top.size(); ++i) {
+        const auto number = [&](std::size_t k) {
+            return static_cast<float>(k * 2654435761u % 8191 + 1) * std::ldexp(1.0f, static_cast<int>(k % 40) - 30);
+        };
+        top[i] = number(2 * i), bottom[i] = i % 3 ? -number(2 * i + 1) : number(2 * i + 1);
+    }
+    for (const Isa isa : isas_with<mip::TextureFns>()) {
+        const mip::TextureFns& fns = pick<mip::TextureFns>(isa);
+        std::vector<float> made(4 * kTexels);
+        fns.halve({top.data(), bottom.data(), kTexels, made.data()});
+        std::vector<std::uint16_t> halves(made.size()), rests(made.size());
+        fns.halves({made.data(), made.size(), false, halves.data()});
+        fns.halves({made.data(), made.size(), true, rests.data()});
+        for (std::size_t i = 0; i < kTexels; ++i)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const auto column = [&](std::size_t k) { return 0.5 * static_cast<double>(top[k]) + 0.5 * static_cast<double>(bottom[k]); };
+                const float wanted = static_cast<float>(0.5 * column(8 * i + c) + 0.5 * column(8 * i + 4 + c));
+                EXPECT_EQ(made[4 * i + c], wanted) << isa_name(isa);
+                EXPECT_EQ(halves[4 * i + c], float_to_half(wanted)) << isa_name(isa);
+                EXPECT_EQ(rests[4 * i + c], float_to_half(wanted - half_to_float(float_to_half(wanted)))) << isa_name(isa);
+            }
     }
 }
 

@@ -1,5 +1,5 @@
-// Lane code that writes rows of filtered textures: normals, and moments of slopes. Points are planes as in mean_fns.h. Rows do not depend
-// on the lane width.
+// Lane code for rows of textures: box filters, halves, and filtered textures, which hold normals and moments of slopes. Points are planes
+// as in mean_fns.h. Rows do not depend on the lane width.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +35,22 @@ struct MomentWork { // writes a row of each texture
     std::uint16_t* to[kFilteredTextures]; // 4 halves per texel; null: not wanted
 };
 
-struct MomentFns {
+struct HalveWork {             // averages squares of four texels, 4 floats each, in doubles: rows first, then columns
+    const float *top, *bottom; // rows of 2 * count texels
+    std::size_t count;
+    float* to;
+};
+
+struct HalfWork { // rounds numbers to halves
+    const float* from;
+    std::size_t count;
+    bool rest; // the remainder after rounding, in place of the number
+    std::uint16_t* to;
+};
+
+struct TextureFns {
+    void (*halve)(const HalveWork& work);
+    void (*halves)(const HalfWork& work);
     void (*points)(const PointWork& work);
     void (*widths)(const WidthWork& work);
     void (*moments)(const MomentWork& work);
@@ -44,5 +59,5 @@ struct MomentFns {
 } // namespace burnish::mip
 
 namespace burnish {
-BN_DECLARE_FNS(mip::MomentFns);
+BN_DECLARE_FNS(mip::TextureFns);
 } // namespace burnish

@@ -1,4 +1,4 @@
-#include "shading/bake/mip/moment_rows.h"
+#include "shading/bake/mip/texture_rows.h"
 
 #include "core/simd/half_rows.h"
 #include "shading/bake/mip/mean_fns.h"
@@ -14,6 +14,26 @@ namespace work = burnish::mip;
 constexpr std::size_t kLane = static_cast<std::size_t>(kLanes);
 constexpr std::size_t kAtOnce = 64; // texels whose numbers become halves together
 static_assert(kAtOnce % kLane == 0 && static_cast<std::size_t>(work::kRowSlots) % kLane == 0);
+
+void halve(const work::HalveWork& w)
+{
+    for (std::size_t i = 0; i < w.count; ++i) {
+        const float *const top = w.top + 8 * i, *const bottom = w.bottom + 8 * i;
+        double column[8];
+        for (std::size_t k = 0; k < 8; ++k)
+            column[k] = 0.5 * static_cast<double>(top[k]) + 0.5 * static_cast<double>(bottom[k]);
+        for (std::size_t c = 0; c < 4; ++c)
+            w.to[4 * i + c] = static_cast<float>(0.5 * column[c] + 0.5 * column[4 + c]);
+    }
+}
+
+void halves(const work::HalfWork& w)
+{
+    if (w.rest)
+        residuals_to_halves(w.from, w.count, w.to);
+    else
+        floats_to_halves(w.from, w.count, w.to);
+}
 
 void points(const work::PointWork& w)
 {
@@ -107,11 +127,11 @@ void moments(const work::MomentWork& w)
     }
 }
 
-constexpr work::MomentFns kMomentFns = {points, widths, moments};
+constexpr work::TextureFns kTextureFns = {halve, halves, points, widths, moments};
 
 } // namespace
 
-BN_DEFINE_FNS(mip::MomentFns, kMomentFns)
+BN_DEFINE_FNS(mip::TextureFns, kTextureFns)
 
 } // namespace BN_ISA_NS
 } // namespace burnish
