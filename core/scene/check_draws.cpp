@@ -12,6 +12,7 @@ namespace {
 
 // Bound on coordinates in metres. Doubles clip triangles right up to here, with near planes from 1e-6 m on.
 constexpr float kFarthest = 1e12f;
+constexpr float kSmallest = 1e-15f; // metres across: squares of shorter lengths leave the range of floats
 
 bool within(const glm::vec3& v, float most)
 {
@@ -141,6 +142,9 @@ Status check_draw_range(const Scene& scene, const DrawTables& tables, const std:
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].mesh != kNone && leaves_floats(scene, scene.nodes[i], drawn[i]))
             return Error{ExitCode::bad_input, file, fmt::format("/nodes/{}", i), "its mesh leaves the range of floats"};
+    if (const float side = tables.longest_side(); side > 0.0f && side < kSmallest)
+        return Error{ExitCode::bad_input, file, "/nodes",
+                     fmt::format("the scene is {:g} m across, less than {:g} m; scale the scene up", side, kSmallest)};
     return {};
 }
 

@@ -1,6 +1,7 @@
 // DrawTables: a Scene with its node graph resolved to world space, the input of every renderer. Instances are expanded:
 // each triangle has one global id, each vertex one place, and renderers never see a node.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -60,6 +61,11 @@ struct DrawTables {
     std::vector<PlacedAreaLight> area_lights;
     glm::vec3 bounds_min{0.0f}, bounds_max{0.0f};
     std::size_t triangle_count() const { return indices.size() / 3; }
+    float longest_side() const // of the bounds
+    {
+        const glm::vec3 sides = bounds_max - bounds_min;
+        return std::max(sides.x, std::max(sides.y, sides.z));
+    }
 };
 
 // Returns an Error where a scene's tables exceed the limits: a small file can ask for any number of instances. `file`

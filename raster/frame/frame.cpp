@@ -52,6 +52,8 @@ float tan_half(float fov_rad)
     return static_cast<float>(s / c);
 }
 
+constexpr float kLeastNear = 1e-30f; // metres: the least that glTF's cameras may have
+
 } // namespace
 
 View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, int width, int height)
@@ -67,7 +69,7 @@ View make_view(const glm::vec3& eye, const glm::vec3& target, float fov_y_rad, i
     view.up = b.up;
     view.forward = b.forward;
     set_fov(view, tan_half(fov_y_rad), width, height);
-    view.znear = std::max(1e-4f, 1e-3f * glm::length(target - eye));
+    view.znear = std::max(kLeastNear, 1e-3f * glm::length(target - eye));
     return view;
 }
 
@@ -89,7 +91,7 @@ Result<View> make_view(const Scene& scene, int camera, int width, int height)
     view.right = glm::normalize(glm::cross(view.forward, glm::vec3(world[1])));
     view.up = glm::cross(view.right, view.forward);
     view.orthographic = c.orthographic;
-    view.znear = std::max(c.znear, 1e-5f);
+    view.znear = std::max(c.znear, kLeastNear);
     if (c.orthographic) {
         view.tan_half_x = c.ymag * static_cast<float>(width) / static_cast<float>(height);
         view.tan_half_y = c.ymag;
@@ -110,7 +112,7 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
 {
     constexpr float kMargin = 1.08f;
     const glm::vec3 center = target ? *target : 0.5f * (tables.bounds_min + tables.bounds_max);
-    const float radius = std::max(1e-6f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
+    const float radius = std::max(1e-30f, 0.5f * glm::length(tables.bounds_max - tables.bounds_min));
     View view = make_view(center + from, center, fov_y_rad, width, height);
     const float tx = view.tan_half_x / kMargin, ty = view.tan_half_y / kMargin;
     // Find the outermost vertex for each side plane
@@ -139,7 +141,7 @@ View framed_from(const DrawTables& tables, int width, int height, const glm::vec
     // Step back until every plane fits
     const float back = std::min({-(right + left) / (2 * tx), -(top + bottom) / (2 * ty), nearest - 0.05f * radius});
     view.eye = center + view.right * (0.5f * (right - left)) + view.up * (0.5f * (top - bottom)) + view.forward * back;
-    view.znear = std::max(1e-6f, 0.5f * (nearest - back));
+    view.znear = std::max(std::max(kLeastNear, 1e-6f * std::min(radius, 1.0f)), 0.5f * (nearest - back));
     return view;
 }
 

@@ -26,6 +26,10 @@ Status check_ray_range(const DrawTables& tables)
         for (std::size_t i = 0; i < column->size(); ++i)
             if (const float coordinate = column->data()[i]; !is_near(coordinate))
                 return too_far("a vertex", coordinate);
+    constexpr float kShortest = 5e-7f; // metres across: rays of the reference miss what is smaller
+    if (const float side = tables.longest_side(); side > 0.0f && side < kShortest)
+        return Error{ExitCode::bad_input, "", "",
+                     fmt::format("the scene is {:g} m across, and the reference needs {:g}: scale the scene up", side, kShortest)};
     return {};
 }
 

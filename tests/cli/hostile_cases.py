@@ -80,9 +80,33 @@ def degenerate_reference(bench):
     refused = run_degenerate(bench, REFERENCE)
     for name in ("scale_1e+18", "orthographic_1e+30", "eye_1e+20", "eye_1e+38"):
         check(name in refused, f"{name} was not refused, and rays go no further than 1e17")
-    for name in ("scale_1e+12", "scale_1e-09", "eye_1e+09"):
+    for name in ("scale_1e-30", "scale_1e-18", "scale_1e-09"):
+        check(name in refused, f"{name} was not refused, and rays miss what is small")
+    for name in ("scale_1e+12", "scale_1e-06", "eye_1e+09"):
         check(name not in refused, f"{name} was refused")
     bench.run("render", "scale_1e+18.gltf", *REFERENCE).expect(4).expect_one_line("1e+12", "scale the scene down")
+    bench.run("render", "scale_1e-09.gltf", *REFERENCE).expect(4).expect_one_line("scale the scene up")
+
+
+@case("hostile.tiny_scenes_are_drawn_as_large_ones_or_refused", "program", "input")
+def tiny(bench):
+    """Draws triangles of a metre and less, by views that scale with them: framed, by --eye, by a camera of the file."""
+    def draw(scale, name):
+        camera = {"type": "perspective", "perspective": {"yfov": 1.0, "znear": 1e-3 * scale}}
+        for way, gltf, view in (("framed", scaled(scale), ()), ("camera", scaled(scale, camera=camera), ()),
+                                ("eye", scaled(scale), ("--eye", f"0,{0.5 * scale:g},{2 * scale:g}", "--target", f"0,{0.5 * scale:g},0"))):
+            if way == "camera":
+                gltf["nodes"][-1]["translation"] = [0, 0.5 * scale, 2 * scale]
+            scratch(bench, f"{name}.gltf", files.text(gltf))
+            bench.run("render", f"{name}.gltf", *TILE, "--no-background", *view, "-q", "-o", f"{name}_{way}.exr").expect(0)
+            yield way
+    ways = list(draw(1.0, "metre"))
+    check(len(ways) == 3, f"{ways}")
+    for scale in (1e-5, 1e-9, 1e-14):
+        for way in list(draw(scale, "small")):
+            bench.run("compare", f"metre_{way}.exr", f"small_{way}.exr", "--metric", "flip-hdr", "--fail-flip", "0.002").expect(0)
+    scratch(bench, "atom.gltf", files.text(scaled(1e-20)))
+    bench.run("render", "atom.gltf", *TILE, "-q", "-o", "atom.exr").expect(4).expect_one_line("/nodes", "scale the scene up")
 
 
 @case("hostile.what_an_environment_needed_is_said", budget=4)
