@@ -30,6 +30,8 @@ by HDR-FLIP. Without a --fail option the exit code says only whether the picture
 
 Of two folders, the pictures of equal relative paths are compared.
 
+Where one picture alone has alpha, alpha must be 1 everywhere. Colours are compared then, and a note says so.
+
 Exit codes: 0 compared, 1 differ by more than a --fail option or the z-test allows, 2 wrong option, 3 size or channels
 do not match, 4 unreadable or missing picture, 6 NaN or Inf in a picture, 7 output not written.
 

@@ -31,6 +31,8 @@ Status compare_one(const CompareOptions& options, const Jobs& jobs, Report& repo
     BN_TRY(pictures);
     for (const std::string& warning : pictures->warnings)
         report.warning(warning);
+    if (!pictures->note.empty())
+        report.event("note", pictures->note);
     const CompareFigures figures = compare_pictures(options, *pictures, jobs);
     row = compare_json(options, figures);
     return judge_pictures(options, figures, *pictures);

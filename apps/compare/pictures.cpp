@@ -57,13 +57,17 @@ Result<Pictures> read_pictures(const CompareOptions& options, const Jobs& jobs)
             pictures.warnings.push_back(names[i] + ": " + warning);
     pictures.reference = std::move(*images[0]);
     pictures.test = std::move(*images[1]);
-    pictures.note = drop_lone_alpha(pictures.reference, options.reference, pictures.test, options.test);
+    Result<std::string> note = drop_lone_alpha(pictures.reference, options.reference, pictures.test, options.test);
+    BN_TRY(note);
+    pictures.note = std::move(*note);
     BN_TRY(check_match(options.test, pictures.test, options.reference, pictures.reference));
     if (colours > 2) {
         Image& second = pictures.second_reference.emplace(std::move(*images[2]));
-        if (second.channels > pictures.reference.channels)
-            pictures.note += (pictures.note.empty() ? "" : "; ") +
-                             drop_lone_alpha(second, options.second_reference, pictures.reference, options.reference);
+        if (second.channels > pictures.reference.channels) {
+            const Result<std::string> more = drop_lone_alpha(second, options.second_reference, pictures.reference, options.reference);
+            BN_TRY(more);
+            pictures.note += (pictures.note.empty() || more->empty() ? "" : "; ") + *more;
+        }
         BN_TRY(check_match(options.second_reference, second, options.reference, pictures.reference));
     }
     for (std::size_t i = colours; i < images.size(); ++i) {

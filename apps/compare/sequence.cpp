@@ -96,7 +96,10 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
                 report.warning(name + ": " + warning);
         *to = std::move(*image);
     }
-    frames.note = drop_lone_alpha(frames.reference, options.reference, frames.test, options.test);
+    Result<std::string> note =
+        drop_lone_alpha(frames.reference, numbered(options.reference, number), frames.test, numbered(options.test, number));
+    BN_TRY(note);
+    frames.note = std::move(*note);
     const Image& like = first ? *first : frames.reference;
     for (const auto& [pattern, image] : {std::pair{&options.reference, &frames.reference}, {&options.test, &frames.test}})
         BN_TRY(check_like(numbered(*pattern, number), *image, options.reference, like));
@@ -119,14 +122,14 @@ int compare_sequences(const CompareOptions& options)
     int worst_number = numbers->front();
     std::optional<Frames> before;
     std::set<std::string> said;
-    bool floats = false;
+    bool floats = false, noted = false;
     // Compare each frame with its reference and with the previous frame
     for (const int number : *numbers) {
         Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
         if (!frames)
             return fails_unread(options, frames.error());
-        if (!frames->note.empty() && !before)
-            report.event("note", frames->note);
+        if (!frames->note.empty() && !noted)
+            report.event("note", frames->note), noted = true; // once, for the first picture
         floats = frames->reference.type == PixelType::f32;
         if (options.metrics && options.metrics->flip_hdr && !floats)
             return fail(usage_error("--metric", "flip-hdr needs float pictures"));

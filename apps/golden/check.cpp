@@ -111,7 +111,9 @@ void judge_hash(const GoldenRow& row, const std::string& golden, const Image& pi
     std::string wanted(text->begin(), text->end());
     wanted.erase(std::remove_if(wanted.begin(), wanted.end(), [](char c) { return c == '\n' || c == '\r' || c == ' '; }), wanted.end());
     const std::string now = golden_hash(picture);
-    if (now != wanted)
+    if (now == wanted)
+        set_equal(result);
+    else
         result.verdict = GoldenVerdict::differs, result.reason = fmt::format("its hash is {}, the golden's {}", now, wanted.substr(0, 16));
 }
 

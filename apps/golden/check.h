@@ -1,6 +1,7 @@
 // Makes the pictures of a manifest and judges them by their goldens.
 #pragma once
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,18 +20,24 @@ struct GoldenResult {
     GoldenVerdict verdict = GoldenVerdict::passed;
     std::string reason; // one sentence; empty: every value is equal
     int width = 0, height = 0;
-    double flip = 0.0, flip_p99 = 0.0, differing = 0.0, largest = 0.0; // zeros for equal pictures; differing: share of pixels
-    double operations = 0.0;                                           // of a frame, where a limit on these is given
-    std::string golden;                                                // path as bless writes it
-    std::string picture;                                               // in the results' folder: the new picture
-    std::string log;                                                   // in the results' folder: output of the program; empty: none
-    std::string golden_copy;                                           // in the results' folder: the golden, unless the row passed
+    std::optional<double> flip, flip_p99, differing, largest; // none: not measured, zeros for equal pictures; differing: share of pixels
+    double operations = 0.0;                                  // of a frame, where a limit on these is given
+    std::string golden;                                       // path as bless writes it
+    std::string picture;                                      // in the results' folder: the new picture
+    std::string log;                                          // in the results' folder: output of the program; empty: none
+    std::string golden_copy;                                  // in the results' folder: the golden, unless the row passed
     bool hash_alone = false;
     bool linear = false;        // values are linear: HDR-FLIP judges
     bool by_operations = false; // operations alone exceed their limit: a new golden changes nothing
     bool not_finite = false;    // the new picture holds NaN or Inf, and fails
     bool of_machine = false;    // not written: the machine failed, as by a full disk, rather than the row
 };
+
+// Sets the figures of a picture that equals its golden.
+inline void set_equal(GoldenResult& result)
+{
+    result.flip = result.flip_p99 = result.differing = result.largest = 0.0;
+}
 
 struct GoldenSetting {
     std::string results; // folder; pictures, shown and logs are made below it

@@ -99,11 +99,11 @@ std::string percent(double share)
     return share < 0.001 ? "less than 0.1 %" : fmt::format("{:.1f} %", 100.0 * share);
 }
 
-// Tells the difference in words.
+// Tells a measured difference in words.
 std::string words_of(const Image& golden, const Image& picture, const GoldenResult& result)
 {
-    std::string text = fmt::format("{} of the pixels differ, {}, by {:.3g} at most; mean FLIP {:.4f}", percent(result.differing),
-                                   place_of_difference(golden, picture), result.largest, result.flip);
+    std::string text = fmt::format("{} of the pixels differ, {}, by {:.3g} at most; mean FLIP {:.4f}", percent(*result.differing),
+                                   place_of_difference(golden, picture), *result.largest, *result.flip);
     const Spot before = highlight_of(golden), now = highlight_of(picture);
     if (const double moved = std::hypot(now.x - before.x, now.y - before.y); moved >= kMoved)
         text += fmt::format("; the highlights moved by {:.1f} pixels", moved);
@@ -143,7 +143,7 @@ void judge(const GoldenLimits& limits, DifferenceInput input, const Jobs& jobs, 
         apply_mask(*input.mask, golden, picture);
     }
     if (golden.bytes == picture.bytes)
-        return;
+        return set_equal(result);
     if (const std::int64_t bad = not_finite_pixels(golden, picture))
         return fails(GoldenVerdict::differs, fmt::format("{} pixels of the golden are NaN or Inf", bad));
     // Measure

@@ -110,6 +110,12 @@ std::string row_html(const GoldenResult& r, const std::string& folder, int wall,
         verdict_name(r.verdict), escaped(r.reason), r.reason.empty() ? "" : "<br>", links);
 }
 
+// Returns a result's mean FLIP in words. Results may come from somebody else, with a map and no figures.
+std::string figures_of(const GoldenResult& r)
+{
+    return r.flip ? fmt::format("{}-FLIP {:.4f}", r.linear ? "HDR" : "LDR", *r.flip) : "not measured";
+}
+
 // Returns a row's place in the page: failed rows first, then those that differ, those without a golden, and those that passed.
 int rank_of(GoldenVerdict verdict)
 {
@@ -157,7 +163,7 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
         rows += row_html(*r, folder, wall, bytes_left);
         if (wall < 0)
             continue;
-        const std::string key = std::to_string(wall), figures = fmt::format("{}-FLIP {:.4f}", r->linear ? "HDR" : "LDR", r->flip);
+        const std::string key = std::to_string(wall), figures = figures_of(*r);
         walls += fmt::format("<section class=\"pair\" id=\"wall-{}\"><h2>{}</h2><p>{}</p>\n<div class=\"place\" data-place=\"{}\"><div "
                              "class=\"wall\"></div></div></section>\n",
                              wall, escaped(r->name), escaped(r->reason), wall);

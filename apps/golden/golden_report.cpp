@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -53,6 +54,16 @@ std::string markdown_text(const std::string& name)
     return out;
 }
 
+Json number_or_null(const std::optional<double>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
+std::optional<double> optional_number(const Json& json)
+{
+    return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
 Json json_of(const GoldenResult& r)
 {
     return {{"name", r.name},
@@ -60,10 +71,10 @@ Json json_of(const GoldenResult& r)
             {"reason", r.reason},
             {"width", r.width},
             {"height", r.height},
-            {"flip_mean", r.flip},
-            {"flip_p99", r.flip_p99},
-            {"differing_fraction", r.differing},
-            {"max_abs", r.largest},
+            {"flip_mean", number_or_null(r.flip)},
+            {"flip_p99", number_or_null(r.flip_p99)},
+            {"differing_fraction", number_or_null(r.differing)},
+            {"max_abs", number_or_null(r.largest)},
             {"operations", r.operations},
             {"golden", r.golden},
             {"picture", r.picture},
@@ -87,8 +98,8 @@ GoldenResult result_of(const Json& json)
     if (!known)
         throw Json::other_error::create(501, "unknown verdict", &json);
     r.width = json.at("width").get<int>(), r.height = json.at("height").get<int>();
-    r.flip = json.at("flip_mean").get<double>(), r.flip_p99 = json.at("flip_p99").get<double>();
-    r.differing = json.at("differing_fraction").get<double>(), r.largest = json.at("max_abs").get<double>();
+    r.flip = optional_number(json.at("flip_mean")), r.flip_p99 = optional_number(json.at("flip_p99"));
+    r.differing = optional_number(json.at("differing_fraction")), r.largest = optional_number(json.at("max_abs"));
     r.operations = json.at("operations").get<double>();
     r.golden = json.at("golden").get<std::string>(), r.picture = json.at("picture").get<std::string>();
     r.log = json.at("log").get<std::string>(), r.hash_alone = json.at("hash_alone").get<bool>();

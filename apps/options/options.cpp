@@ -73,27 +73,25 @@ std::string why_not_in_bands(const RenderOptions& o, std::int64_t rows, bool lar
 // Draws the picture in bands: makes the frame the first window. large: the picture needs bands.
 Status choose_bands(const RenderArguments& in, const OptionTable& given, bool large, RenderOptions& out)
 {
-    const std::string option = in.band_rows ? "--band-rows" : "--size";
-    const std::string why = in.band_rows ? "" : fmt::format("of {}x{} is drawn in bands, and ", in.size.width, in.size.height);
     if (out.backend != "tile")
-        return usage_error(option, why + "is for --backend tile alone");
+        return no_bands_error(in, "is for --backend tile alone");
     for (const char* other :
          {"--risks", "--budget", "--budget-p99", "--budget-ms", "--plan", "--plan-out", "--verify", "--count-operations"})
         if (given.given(other))
-            return usage_error(option, fmt::format("{}cannot be combined with {}", why, other));
+            return no_bands_error(in, fmt::format("cannot be combined with {}", other));
     if (out.frames > 1 || out.show != Shown::light)
-        return usage_error(option, fmt::format("{}cannot be combined with {}", why, out.frames > 1 ? "--frames" : "--show"));
+        return no_bands_error(in, fmt::format("cannot be combined with {}", out.frames > 1 ? "--frames" : "--show"));
     if (out.floor == FloorChoice::mirror)
-        return usage_error(option, why + "cannot be combined with --floor mirror");
+        return no_bands_error(in, "cannot be combined with --floor mirror");
     for (const std::string& path : out.outputs)
         if (!writes_rows(path))
-            return usage_error(option, fmt::format("{}cannot be written to {}: .exr and .png are written by rows", why, path));
+            return no_bands_error(in, fmt::format("cannot be written to {}: .exr and .png are written by rows", path));
     // Find the rows
     std::int64_t rows = in.band_rows.value_or(kBandRows);
     while (!in.band_rows && rows > kBandTile && !why_not_in_bands(out, rows, large).empty())
         rows /= 2;
     if (const std::string fault = why_not_in_bands(out, rows, large); !fault.empty())
-        return usage_error(in.band_rows ? "--band-rows" : "--size", in.band_rows ? fault : why + "its bands: " + fault);
+        return no_bands_error(in, (in.band_rows ? "" : "its bands: ") + fault);
     out.band_rows = static_cast<int>(rows);
     FrameDesc& frame = out.frame;
     frame.window = {frame.width, frame.height, 0, 0};
@@ -274,6 +272,13 @@ bool needs_parts(const RenderOptions& options)
     const bool displayed =
         std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) { return !stores_floats(path); });
     return displayed && options.resolve != Resolve::linear && options.backend != "reference";
+}
+
+Error no_bands_error(const RenderArguments& arguments, const std::string& reason)
+{
+    if (arguments.band_rows)
+        return usage_error("--band-rows", reason);
+    return usage_error("--size", fmt::format("of {}x{} is drawn in bands, and {}", arguments.size.width, arguments.size.height, reason));
 }
 
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given)

@@ -118,6 +118,9 @@ std::string reference_mode_name(const RenderOptions& options); // in --reference
 // table counts as not given.
 Result<RenderOptions> check_render_options(const RenderArguments& arguments, const OptionTable& given);
 
+// Returns the error for a picture that cannot be drawn in bands, at the option that asks for bands.
+Error no_bands_error(const RenderArguments& arguments, const std::string& reason);
+
 // Checks the options that belong to one backend.
 Status check_reference_options(const RenderArguments& arguments, const OptionTable& given, RenderOptions& out);
 Status check_vulkan_options(RenderOptions& out);

@@ -25,9 +25,13 @@
 namespace burnish {
 namespace {
 
-Result<DrawnBand> draw_band(const Bands& bands, int index)
+// Errors of a scene that is drawn as a whole are at the option that asks for bands.
+Result<DrawnBand> draw_band(const Bands& bands, const RenderArguments& arguments, int index)
 {
-    return draw_rows(bands, index * bands.options.band_rows, bands.rows(index));
+    Result<DrawnBand> band = draw_rows(bands, index * bands.options.band_rows, bands.rows(index));
+    if (!band && band.error().field == "FrameDesc::window")
+        return no_bands_error(arguments, "cannot be combined with this scene: " + band.error().reason);
+    return band;
 }
 
 // The outputs of a picture, open from its first band on.
@@ -124,7 +128,7 @@ Result<DrawnBand> read_band(const std::string& file, const std::string& key)
     return band;
 }
 
-std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
+std::vector<JobPiece> band_pieces(const Bands& bands, const RenderArguments& arguments, const OptionTable& given)
 {
     const SessionParts& parts = bands.session.parts();
     const std::string text =
@@ -136,17 +140,17 @@ std::vector<JobPiece> band_pieces(const Bands& bands, const OptionTable& given)
     std::vector<JobPiece> pieces;
     for (int i = 0; i < bands.count(); ++i) {
         const std::string key = piece_key(fmt::format("band {} {}", i, text));
-        const auto seconds = [&bands, rate, i]() -> Result<double> {
+        const auto seconds = [&bands, &arguments, rate, i]() -> Result<double> {
             if (!*rate) {
                 const int middle = bands.count() / 2;
                 const double begin = wall_ms();
-                BN_TRY(draw_band(bands, middle));
+                BN_TRY(draw_band(bands, arguments, middle));
                 *rate = (wall_ms() - begin) * 1e-3 / bands.rows(middle);
             }
             return **rate * bands.rows(i);
         };
-        const auto make = [&bands, i, key](const std::string& file) -> Status {
-            Result<DrawnBand> band = draw_band(bands, i);
+        const auto make = [&bands, &arguments, i, key](const std::string& file) -> Status {
+            Result<DrawnBand> band = draw_band(bands, arguments, i);
             BN_TRY(band);
             return write_piece(file, key, packed_band(std::move(*band)));
         };
@@ -212,9 +216,9 @@ int run_bands(const RenderArguments& arguments, const OptionTable& given, const 
     if (!any_pieces(arguments.pieces)) {
         report.release();
         return write_bands(
-            bands, [&](int i) { return draw_band(bands, i); }, figures, report);
+            bands, [&](int i) { return draw_band(bands, arguments, i); }, figures, report);
     }
-    const std::vector<JobPiece> pieces = band_pieces(bands, given);
+    const std::vector<JobPiece> pieces = band_pieces(bands, arguments, given);
     if (!arguments.pieces.merge)
         return run_pieces(arguments.pieces, command_words(), pieces, report);
     const auto files = finished_pieces(arguments.pieces, command_words(), pieces);

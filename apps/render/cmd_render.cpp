@@ -237,7 +237,8 @@ Command render_command()
     table.add("Bands, for pictures larger than memory",
               {{"--band-rows", "N",
                 "Draw the picture in bands of N rows, with the memory of one band; the default for sides above 16384 pixels, "
-                "up to 65536, and for more than 2^28 samples",
+                "up to 65536, and for more than 2^28 samples. N is a multiple of 16 from 16 to 16384. Outputs are .exr or .png, drawn "
+                "by --backend tile. Not with --frames, --show, --risks, --floor mirror, nor materials that let light through",
                 integer(arguments->band_rows, 16, kMaxPictureSide), "the whole picture, else at most 256"}});
     table.add("Pieces, for several processes", piece_options(arguments->pieces));
     return {"render", "Render a scene to pictures", std::move(table), kFooter,

@@ -300,7 +300,7 @@ Status FrameMaker::check(const FrameDesc& desc) const
         return ok;
     if ((picture_width(desc) > desc.width || picture_height(desc) > desc.height) && shows_behind(desc))
         return Error{ExitCode::usage, "", "",
-                     "surfaces that let light through show the whole picture behind them, and this frame is a window of it "
+                     "surfaces that let light through show the whole picture behind them, and a window shows a part "
                      "(FrameDesc::glass interface draws them by the environment alone)",
                      "FrameDesc::window"};
     if (const Status ok = check_prepared(input_.mips, desc); !ok)

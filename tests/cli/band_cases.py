@@ -132,7 +132,11 @@ def refused(bench):
     bench.run("parity", "builtin:teapot", "--size", "20000x20").expect(2).expect_one_line("--size", "16384")
     # Surfaces that let light through show what is behind them
     bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "64", "-q").expect(0)
-    bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "-q").expect(2).expect_one_line("--size", "whole picture", "--glass interface")
+    bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "-q").expect(2).expect_one_line("--band-rows: cannot be combined with", "whole picture", "--glass interface")
+    listed = bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "--pieces", "-q").expect(2)
+    listed.expect_one_line("--band-rows: cannot be combined with")
+    large = bench.run("render", "builtin:glass", "--size", "16x20000", "-q").expect(2)
+    large.expect_one_line("--size: of 16x20000 is drawn in bands, and cannot be combined with", "--glass interface")
 
 
 @case("band.large_pictures_are_drawn_in_cells", tier="nightly")

@@ -206,23 +206,40 @@ def mismatch(bench):
     check(found["verdict"] == "failed" and "flip_mean" not in found, f"figures of pictures that cannot be compared: {found}")
 
 
-@case("compare.alpha_of_one_alone_is_left_out", tier="nightly")
+@case("compare.alpha_of_one_alone_must_be_1_everywhere", "input")
 def lone_alpha(bench):
     pictures(bench)
-    for alpha in (255, 40):
-        scratch(bench, "alpha.png", png(24, 16, lambda x, y: (*ramp(x, y), alpha), channels=4))
-        for pair in (("a.png", "alpha.png"), ("alpha.png", "a.png")):
+    clear = lambda x, y: (*ramp(x, y), 255)
+    holed = lambda x, y: (*ramp(x, y), 40 if (x, y) == (23, 15) else 255)
+    scratch(bench, "wide.png", png(24, 16, lambda x, y: tuple(257 * v for v in clear(x, y)), channels=4, bits=16))
+    scratch(bench, "gray.png", png(24, 16, lambda x, y: (x,), channels=1))
+    scratch(bench, "gray_alpha.png", png(24, 16, lambda x, y: (x, 255), channels=2))
+    scratch(bench, "gray_holed.png", png(24, 16, lambda x, y: (x, y), channels=2))
+    scratch(bench, "clear.png", png(24, 16, clear, channels=4))
+    for name, other in (("clear.png", "a.png"), ("wide.png", "a.png"), ("gray_alpha.png", "gray.png")):
+        for pair in ((other, name), (name, other)):
             done = bench.run("compare", *pair, "--json", "-").expect(0)
             found = json.loads(done.out)
             check(found["max_abs"] == 0 and found["flip_mean"] == 0, f"{found}")
-            check(done.err.startswith("note        alpha.png alone has alpha: colours are compared\n"), done.describe())
-    scratch(bench, "narrow.png", png(23, 16, lambda x, y: (*ramp(x, y), 255), channels=4))  # it differs in size as well
+            check(done.err.startswith(f"note        {name} alone has alpha, 1 everywhere: colours are compared\n"), done.describe())
+            check(bench.run("compare", *pair, "-q").expect(0).err == "", "--quiet notes alpha")
+    # Another alpha is another picture, whatever the limits and with -q
+    scratch(bench, "holed.png", png(24, 16, holed, channels=4))
+    limits = ("--fail-max", "0", "--fail-flip", "0", "-q")
+    for name, other, count in (("holed.png", "a.png", 1), ("gray_holed.png", "gray.png", 384)):
+        for pair in ((other, name), (name, other)):
+            bench.run("compare", *pair, *limits, "--json", "j.json").expect(3).expect_one_line(f"{name}: alpha is not 1 in {count} of 384 pixels, and {other} has no alpha")
+            check(json.loads((bench.folder / "j.json").read_text())["verdict"] == "failed", "the verdict")
+    scratch(bench, "narrow.png", png(23, 16, clear, channels=4))  # it differs in size as well
     bench.run("compare", "a.png", "narrow.png").expect(3).expect_one_line("23x16, 4 channels")
-    for name in ("r", "t"):  # rows too
-        for number in (1, 2):
-            scratch(bench, f"{name}{number}.png", png(24, 16, lambda x, y: (*ramp(x, y), 9)[: 4 if name == "t" else 3], channels=4 if name == "t" else 3))
+    bench.run("compare", "gray.png", "clear.png").expect(3).expect_one_line("24x16, 4 channels")
+    for number in (1, 2):  # rows too
+        scratch(bench, f"r{number}.png", png(24, 16, ramp))
+        scratch(bench, f"t{number}.png", png(24, 16, clear, channels=4))
     done = bench.run("compare", "--sequence", "r%d.png", "t%d.png").expect(0)
     check(done.err.count("alone has alpha") == 1 and "FLIP mean   0.000000" in done.out, done.describe())
+    scratch(bench, "t2.png", png(24, 16, holed, channels=4))
+    bench.run("compare", "--sequence", "r%d.png", "t%d.png", "-q").expect(3).expect_one_line("t2.png: alpha is not 1", "r2.png")
 
 
 @case("compare.unreadable_pictures_are_refused", "input", tier="nightly")

@@ -80,6 +80,24 @@ def folders(bench):
     bench.run("compare", "none", "none").expect(4).expect_one_line("holds no picture")
 
 
+@case("compare.folders_tell_of_alpha_that_one_picture_alone_has", "input")
+def folder_alpha(bench):
+    for name, alpha in (("clear.png", 255), ("holed.png", 40)):
+        scratch(bench, "expected/" + name, png(24, 16, ramp))
+        scratch(bench, "actual/" + name, png(24, 16, lambda x, y: (*ramp(x, y), alpha), channels=4))
+    words = ("compare", "expected", "actual", "--fail-max", "0", "--fail-flip", "0", "--json", "j.json", "--junit", "u.xml")
+    done = bench.run(*words).expect(3)
+    check("note        actual/clear.png alone has alpha" in done.err and done.err.count("alone has alpha") == 1 and "1 of 2 fail" in done.out, done.describe())
+    reason = "alpha is not 1 in 384 of 384 pixels, and expected/holed.png has no alpha"
+    rows = {row["name"]: row for row in json.loads((bench.folder / "j.json").read_text())["pictures"]}
+    check((rows["clear.png"]["verdict"], rows["clear.png"]["max_abs"]) == ("passed", 0), str(rows))
+    check((rows["holed.png"]["verdict"], rows["holed.png"]["reason"]) == ("failed", reason) and "max_abs" not in rows["holed.png"], str(rows))
+    told, counts = junit_of(bench, "u.xml")
+    check(counts == (2, 0, 1) and told["holed.png"] == ("error", reason) and told["clear.png"] is None, str(told))
+    done = bench.run(*words, "-q").expect(3)
+    check("note" not in done.err and reason in done.err, done.describe())
+
+
 @case("compare.sequences_have_a_page_of_their_worst_frame", budget=3)
 def sequence_page(bench):
     for frame in range(1, 6):

@@ -121,6 +121,51 @@ def not_finite(bench):
     bench.run("golden", "check", "e", "a").expect(0)
 
 
+FIGURES = ("flip_mean", "flip_p99", "differing_fraction", "max_abs")
+
+
+@case("golden.figures_are_null_unless_they_were_measured", budget=4)
+def unmeasured(bench):
+    """Equal pictures have zeros. Reports, pages, merge and bless take nulls."""
+    ppm = lambda width, value: b"P6 %d 1 255\n" % width + bytes([value, 0, 0] * width)
+    pfm = lambda value: b"PF\n1 1\n-1.0\n" + struct.pack("<3f", value, 0.5, 0.5)
+    put = lambda name, content: (bench.folder / name).write_bytes(content)
+    kept = {"equal.ppm": ppm(2, 9), "other.ppm": ppm(2, 9), "size.ppm": ppm(2, 9), "hash.ppm": ppm(2, 9), "changed.ppm": ppm(2, 9), "nan.pfm": pfm(0.5)}
+    rows = [{"name": name[:-4], "picture": name, **({"keep": "hash"} if name in ("hash.ppm", "changed.ppm") else {})} for name in kept]
+    for name, content in kept.items():
+        put(name, content)
+    write(bench, rows)
+    bench.run("golden", "check", "m.json").expect(5)
+    none = dict.fromkeys(FIGURES)
+    figures = lambda folder="golden-results": {name: {key: row[key] for key in FIGURES} for name, row in results(bench, folder).items()}
+    check(all(row == none for row in figures().values()), f"figures without goldens: {figures()}")
+    bench.run("golden", "bless", "m.json").expect(0)
+    zeros = dict.fromkeys(FIGURES, 0)
+    bench.run("golden", "check", "m.json").expect(0)
+    check(all(row == zeros for row in figures().values()), f"figures of equal pictures: {figures()}")
+    for name, content in (("other.ppm", ppm(2, 99)), ("size.ppm", ppm(3, 9)), ("changed.ppm", ppm(2, 99)), ("nan.pfm", pfm(float("nan")))):
+        put(name, content)
+    write(bench, [*rows, {"name": "absent", "picture": "absent.ppm"}])
+    bench.run("golden", "check", "m.json").expect(4)
+    found = figures()
+    check(found["equal"] == found["hash"] == zeros and all(value > 0 for value in found["other"].values()), f"{found}")
+    check(all(found[name] == none for name in ("size", "changed", "nan", "absent")), f"{found}")
+    # Shards give the same files
+    texts = lambda folder: [(bench.folder / folder / name).read_bytes() for name in ("results.jsonl", "junit.xml", "summary.md", "index.html")]
+    for i in (1, 2):
+        bench.run("golden", "check", "m.json", "--shard", f"{i}/2", "-o", f"s{i}")
+    bench.run("golden", "merge", "s1", "s2", "-o", "merged").expect(4)
+    check(texts("merged") == texts("golden-results"), "merged shards have other files")
+    bench.run("golden", "check", "m.json", "--take", "--work", "w").expect(0)
+    bench.run("golden", "check", "m.json", "--merge", "--work", "w", "-o", "pieces").expect(4)
+    check(figures("pieces") == found, f"pieces have other figures: {figures('pieces')}")
+    write(bench, rows)
+    bench.run("golden", "check", "m.json").expect(6)
+    (bench.folder / "list.txt").write_text("size\nother\nchanged\n")
+    bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0)
+    check((bench.folder / "goldens/size.ppm").read_bytes() == ppm(3, 9), "a picture of another size is not blessed")
+
+
 @case("golden.a_stopped_check_keeps_the_earlier_results", budget=4)
 def interrupted(bench):
     for name in "ab":

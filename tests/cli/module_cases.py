@@ -15,8 +15,10 @@ import threading
 import time
 
 from browser import Browser
+from compare_cases import png
 from export_cases import undefined
 from harness import Skipped, case, check
+from model_cases import read_pfm
 from reference_cases import needs_embree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -281,6 +283,13 @@ def node_pictures(bench, folder):
     return [folder / "with.pfm", folder / "without.pfm"]
 
 
+def shown_over_black(linear, to):
+    """Writes floats as a picture of 8 bits without alpha, as screenshots are."""
+    width, height, values = read_pfm(linear)
+    codes = [round(255 * (12.92 * v if v <= 0.0031308 else 1.055 * v ** (1 / 2.4) - 0.055)) for v in (min(max(v, 0.0), 1.0) for v in values)]
+    to.write_bytes(png(width, height, lambda x, y: codes[3 * ((height - 1 - y) * width + x):3 * ((height - 1 - y) * width + x) + 3]))
+
+
 @case("export.example_projects_draw_near_the_reference", tier="nightly")
 def near_the_reference(bench):
     needs_embree(bench)
@@ -294,7 +303,8 @@ def near_the_reference(bench):
                 "writeFileSync('studio.hdr', Buffer.from(await studio_file().arrayBuffer())); console.log('1');")
     far = 2.2 * math.sqrt(3.3 ** 2 + 2) / math.sqrt(1 + 0.25 ** 2)  # where main.js puts the camera
     bench.run("render", "balls.gltf", "--env", "studio.hdr", "--eye", f"0,{0.25 * far},{far}", "--target", "0,0,0", "--fov", "30", "--size", "900x420",
-              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "reference.png", "-o", "reference.pfm", "-q", timeout=600).expect(0)
+              "--no-background", "--tonemap", "none", "--backend", "reference", "--samples", "256", "-o", "reference.pfm", "-q", timeout=600).expect(0)
+    shown_over_black(bench.folder / "reference.pfm", bench.folder / "reference.png")
     for engine, pictures_of in (("babylon", screenshots), ("three", screenshots), ("three", node_pictures)):
         folder = bench.folder / engine if (bench.folder / engine).exists() else project(bench, engine)
         if not (folder / "node_modules").exists():
