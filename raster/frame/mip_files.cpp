@@ -181,6 +181,11 @@ Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limit
     BN_TRY(mips);
     if (mips->materials.empty())
         return Error{ExitCode::bad_input, asked.pyramid, "", "holds no levels of normals and lobes"};
+    const MipFilter held = mips->materials.front().filter;
+    if (asked.box_asked && held != kMipFilter_box)
+        return Error{ExitCode::bad_input, asked.pyramid, "",
+                     std::string("holds levels by ") + mip_filters()[static_cast<std::size_t>(held)].name +
+                         ", and MipSettings::filter is box"};
     if (asked.filter == MipFilter{})
         asked.filter = mips->materials.front().filter, asked.kappa = mips->materials.front().kappa;
     return std::make_shared<const MipFile>(std::move(*mips));
