@@ -5,6 +5,7 @@
 
 #include "apps/options/options.h"
 #include "core/image/io/image_io.h"
+#include "shading/bake/environment/environment_cache.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
@@ -33,23 +34,33 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
             if (out.frame.background || option != std::string_view("--msaa")) // of which alpha is the share
                 warn(option, of_backend);
+    if (!out.env.starts_with("builtin:") && is_baked_environment(out.env))
+        for (const char* option : {"--env-size", "--env-samples", "--key-lights"})
+            warn(option, "--env " + out.env + ", whose bake has its own");
+    if (reference && out.frame.area_way != kAreaWay_off) // off leaves the lights out of the reference too
+        warn("--area-lights", of_backend);
+    if (reference || out.frame.area_way != kAreaWay_mc)
+        warn("--light-samples",
+             reference ? of_backend : std::string("--area-lights ") + area_ways()[static_cast<std::size_t>(out.frame.area_way)].name);
     if (out.frame.area_way == kAreaWay_off && out.shadows == Shadows::ratio)
         warn("--shadows", "--area-lights off");
     if (!out.moment.seconds)
         if (given.given("--animation"))
             out.warnings.push_back("--animation has no effect without --time");
     const std::string of_filter = std::string("--mip-filter ") + mip_filters()[static_cast<std::size_t>(out.mips.filter)].name;
-    if (!takes_kappa(out.mips.filter))
-        warn("--mip-kappa", of_filter);
-    if (!out.mips.pyramid.empty() && !given.given("--mip-filter"))
-        for (const char* option : {"--mip-gain", "--couple", "--color-kernel"})
+    if (!out.mips.pyramid.empty() && !given.given("--mip-filter")) {
+        for (const char* option : {"--mip-kappa", "--mip-gain", "--mip-net", "--fallback", "--couple", "--color-kernel"})
             warn(option, "--mip-pyramid, whose file says its filter");
-    else if (!takes_gains(out.mips.filter))
-        warn("--mip-gain", of_filter);
-    if (!takes_net(out.mips.filter))
-        warn("--mip-net", of_filter);
-    if (out.mips.filter != kMipFilter_mipnet)
-        warn("--fallback", of_filter);
+    } else {
+        if (!takes_kappa(out.mips.filter))
+            warn("--mip-kappa", of_filter);
+        if (!takes_gains(out.mips.filter))
+            warn("--mip-gain", of_filter);
+        if (!takes_net(out.mips.filter))
+            warn("--mip-net", of_filter);
+        if (out.mips.filter != kMipFilter_mipnet)
+            warn("--fallback", of_filter);
+    }
     if (out.backend == "vulkan")
         warn("--tile-size", of_backend);
     if (out.backend != "tile")

@@ -24,7 +24,7 @@ std::vector<Option> environment_rows(RenderArguments& to)
         {"--env-rotation", "DEG", "Rotation of the environment about +Y in degrees, counter-clockwise seen from above",
          number(e.rotation_deg, -36000.0, 36000.0)},
         {"--env-exposure", "EV", "Exposure of the environment in stops: multiplies its radiance by 2^EV",
-         number(e.exposure_ev, -kMaxExposure, kMaxExposure)},
+         number(e.exposure_ev, -kMaxEnvironmentExposure, kMaxEnvironmentExposure)},
         {"--env-size", "N", "Texels along an edge of the environment's cube map: {}",
          choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
         {"--key-lights", "N", "Small strong lights to extract from the environment and shade one by one, at most: {}",

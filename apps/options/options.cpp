@@ -294,6 +294,7 @@ Result<RenderOptions> check_render_options(const RenderArguments& arguments, con
         out.resolve = Resolve::linear;
     out.mips.brdf = out.frame.brdf, out.mips.use_cache = out.environment.use_cache;
     out.mips.threads = out.threads;
+    out.mips.box_asked = given.given("--mip-filter") && out.mips.filter == kMipFilter_box;
     const Result<Isa> isa = choose_isa(given, out.isa);
     BN_TRY(isa);
     out.isa = *isa;

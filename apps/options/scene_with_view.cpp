@@ -22,21 +22,23 @@ Result<SceneWithView> load_scene_with_view(const std::string& name, const Render
 
 void warn_of_glass(const SceneData& data, Report& report)
 {
+    const Scene& scene = data.scene;
     const Material *glass = nullptr, *blended = nullptr;
     for (std::uint32_t id : data.tables.triangle_material) {
-        const Material& m = data.scene.materials[id];
+        const Material& m = scene.materials[id];
         if (m.transmission > 0.0f)
             glass = &m;
         else if (m.alpha_mode == AlphaMode::blend)
             blended = &m;
     }
     if (glass && blended)
-        report.warning("material '" + blended->name + "' is blended: glass ('" + glass->name + "') does not show it behind itself");
-    for (std::size_t i = 0; i < data.scene.materials.size(); ++i) {
-        const Material& m = data.scene.materials[i];
+        report.warning(material_text(scene, *blended) + " is blended: glass (" + material_text(scene, *glass) +
+                       ") does not show it behind itself");
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
         const bool volume = m.transmission > 0.0f && (m.thickness > 0.0f || m.attenuation_distance > 0.0f);
         if (volume && !is_closed_body(data.tables, i))
-            report.warning("material '" + m.name + "' has a volume on an open mesh: drawn as a thin sheet, which absorbs nothing");
+            report.warning(material_text(scene, m) + " has a volume on an open mesh: drawn as a thin sheet, which absorbs nothing");
     }
 }
 

@@ -53,7 +53,7 @@ class Animation {
             if (given.given(other))
                 return usage_error(other, "cannot be combined with " + asked);
         if (arguments.plain.turntable)
-            for (const char* other : {"--animate", "--eye", "--target", "--camera"})
+            for (const char* other : {"--animate", "--steps", "--eye", "--target", "--camera"})
                 if (given.given(other))
                     return usage_error(other, "cannot be combined with --turntable");
         for (const std::string& pattern : arguments.plain.outputs)
@@ -68,9 +68,16 @@ class Animation {
             return usage_error("--fps", "needs -o FILE.apng");
         row.count_ = arguments.plain.turntable ? arguments.plain.turntable : arguments.steps;
         if (!arguments.animate.empty()) {
+            std::set<std::string> fixed; // parse_option_paths() gives the moving options values too
+            for (const Option& option : given.options())
+                if (given.given(option.name))
+                    fixed.insert(option.name);
             Result<std::vector<OptionPath>> paths = parse_option_paths("--animate", arguments.animate, given);
             BN_TRY(paths);
             row.paths_ = std::move(*paths);
+            for (const OptionPath& path : row.paths_)
+                if (fixed.count(path.option))
+                    return usage_error(path.option, "cannot be combined with --animate " + path.option.substr(2));
         }
         for (const OptionPath& path : row.paths_) {
             const Option& option = *given.find(path.option);

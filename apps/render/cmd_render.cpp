@@ -147,6 +147,8 @@ int run_render(RenderArguments& arguments, OptionTable& given)
     arguments.may_have_bands = true;
     if (given.given("--steps"))
         return fail(usage_error("--steps", "needs --animate"));
+    if (given.given("--fps"))
+        return fail(usage_error("--fps", "needs --animate or --turntable"));
     // Check the options and the paths
     Result<RenderOptions> checked = check_render_options(arguments, given);
     if (!checked)

@@ -119,9 +119,9 @@ Status lay_directional_roughness(Scene& scene, const Limits& limits, const std::
             continue;
         if ((m.anisotropy_tex.used() && !lie_alike(scene, own, m.anisotropy_tex)) ||
             (m.metallic_roughness_tex.used() && !lie_alike(scene, own, m.metallic_roughness_tex))) {
-            scene.warnings.push_back(fmt::format(
-                "material '{}': its directional roughness lies otherwise than its other textures of the lobe and is not looked at",
-                m.name));
+            scene.warnings.push_back(
+                fmt::format("{}: its directional roughness lies otherwise than its other textures of the lobe and is not looked at",
+                            material_text(scene, m)));
             continue;
         }
         const auto [it, is_new] = known.try_emplace({own.texture, m.anisotropy_tex.texture, m.metallic_roughness_tex.texture},

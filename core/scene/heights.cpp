@@ -105,7 +105,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
             continue;
         if (m.normal_tex.used() && !lie_alike(scene, heights, m.normal_tex)) {
             scene.warnings.push_back(
-                fmt::format("material '{}': its heights lie otherwise than its normal map and are not looked at", m.name));
+                fmt::format("{}: its heights lie otherwise than its normal map and are not looked at", material_text(scene, m)));
             continue;
         }
         const auto [it, is_new] =

@@ -82,7 +82,8 @@ class MapWriter {
     }
 
     // colours: of the material; other maps hold data, whatever primaries their files name.
-    Result<Image> read(const std::string& path, int channels, bool colours = false)
+    // needs: says what a map with too few channels lacks.
+    Result<Image> read(const std::string& path, int channels, const char* needs, bool colours = false)
     {
         BN_TRY(check_coordinates(path));
         const Limits rest = limits_left(scene_, limits_);
@@ -94,7 +95,7 @@ class MapWriter {
         if (const std::size_t clipped = colours ? clip_negative_colours(*image) : 0)
             scene_.warnings.push_back(fmt::format("{}: {} texels of negative colour are set to 0", path, clipped));
         if (image->channels < channels)
-            return Error{ExitCode::bad_input, path, "", "a map of directions or normals has red, green and blue"};
+            return Error{ExitCode::bad_input, path, "", needs};
         if (image->bytes.size() > rest.texture_bytes)
             return textures_too_large(path, limits_);
         scene_.files.push_back(path);
@@ -106,7 +107,7 @@ class MapWriter {
     // A picture that becomes a texture as it is; what is no number in it is repaired where levels are made.
     Result<Image> read_as_is(const std::string& path, int channels, const char* name, bool colours = false)
     {
-        Result<Image> image = read(path, channels, colours);
+        Result<Image> image = read(path, channels, "a map of directions has red, green and blue", colours);
         if (!image || image->type != PixelType::f32)
             return image;
         std::size_t bad = 0;
@@ -170,6 +171,28 @@ Status check_strokes(const MaterialOverrides& with)
     return {};
 }
 
+// Checks that an encoding of rotations has a map to describe.
+Status check_rotation_encoding(const MaterialOverrides& with)
+{
+    if (with.rotation_encoding == RotationEncoding::vector || !with.rotation.empty())
+        return {};
+    return Error{ExitCode::usage, "", "", "there is no map of rotations that it could describe", "MaterialOverrides::rotation_encoding"};
+}
+
+// Makes all normal maps' green point up.
+Status flip_normals(Scene& scene)
+{
+    std::set<std::int32_t> flipped;
+    for (const Material& m : scene.materials)
+        if (m.normal_tex.used())
+            flipped.insert(scene.textures[static_cast<std::size_t>(m.normal_tex.texture)].image);
+    if (flipped.empty())
+        return Error{ExitCode::usage, "", "", "down: there is no normal map that it could describe", "MaterialOverrides::normal_y_down"};
+    for (const std::int32_t image : flipped)
+        flip_green(scene.images[static_cast<std::size_t>(image)]);
+    return {};
+}
+
 Status put_maps(MapWriter& on, const MaterialOverrides& with)
 {
     if (!with.direction.empty()) {
@@ -178,25 +201,26 @@ Status put_maps(MapWriter& on, const MaterialOverrides& with)
         on.put_directions(on.add(std::move(*image), "direction map"));
     }
     if (!with.rotation.empty()) {
-        const Result<Image> image = on.read(with.rotation, 3);
+        const Result<Image> image = on.read(with.rotation, 3, "a map of rotations has red, green and blue, and reads red and green");
         BN_TRY(image);
         on.put_directions(on.add(directions_of_rotations(*image, with.rotation_encoding), with.rotation, "rotations"));
         if (with.strokes == Strokes::grooves)
             on.each([](Material& m) { m.anisotropy_rotation += 0.5f * static_cast<float>(kPi); });
     }
     if (!with.roughness.empty()) {
-        const Result<Image> image = on.read(with.roughness, 3);
+        const Result<Image> image =
+            on.read(with.roughness, 3, "a roughness map by direction has red, green and blue, and reads red and green");
         BN_TRY(image);
         on.put(on.add(roughness_of(*image, with.roughness_encoding), with.roughness, "roughness by direction"),
                &Material::directional_roughness_tex);
     }
     if (!with.normal.empty()) {
-        Result<Image> image = on.read(with.normal, 3);
+        Result<Image> image = on.read(with.normal, 3, "a normal map has red, green and blue");
         BN_TRY(image);
         on.put(on.add(whole_normals(std::move(*image)), with.normal, "normals"), &Material::normal_tex);
     }
     if (!with.quaternion.empty()) {
-        const Result<Image> image = on.read(with.quaternion, 3);
+        const Result<Image> image = on.read(with.quaternion, 3, "a quaternion map has red, green and blue");
         BN_TRY(image);
         on.put(on.add(normals_of_quaternions(*image), with.quaternion, "quaternions"), &Material::normal_tex);
     }
@@ -291,7 +315,7 @@ Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, 
     if (!parts[0].empty() || !parts[1].empty())
         on.put(on.add(metal_rough_of(parts[0], parts[1]), "metalness and roughness"), &Material::metallic_roughness_tex);
     if (!found[kDepth].empty()) {
-        const Result<Image> image = on.read(found[kDepth], 1);
+        const Result<Image> image = on.read(found[kDepth], 1, "a map of depths has red");
         BN_TRY(image);
         on.put(on.add(heights_of_depths(*image), found[kDepth], "depths"), &Material::height_tex);
     }
@@ -302,6 +326,7 @@ Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, 
     if (with.rotation.empty()) { // else the other picture replaces the folder's, and turns once
         maps.strokes = with.strokes;
         BN_TRY(check_strokes(maps));
+        BN_TRY(check_rotation_encoding(maps));
     }
     return put_maps(on, maps);
 }
@@ -341,9 +366,13 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
     if (with.material.empty() || with.material_is_document() || !with.rotation.empty() ||
         !with.direction.empty()) // else the folder says it
         BN_TRY(check_strokes(with));
+    const bool has_folder = !with.material.empty() && !with.material_is_document();
+    if (!has_folder) // else the folder may have the map
+        BN_TRY(check_rotation_encoding(with));
+    if (with.roughness_encoding != RoughnessEncoding::widths && with.roughness.empty())
+        return Error{ExitCode::usage, "", "", "there is no roughness map that it could describe", "MaterialOverrides::roughness_encoding"};
     MapWriter on(scene, limits);
     std::string found[kRoles];
-    const bool has_folder = !with.material.empty() && !with.material_is_document();
     if (has_folder)
         BN_TRY(find_pictures(with.material, found, scene.warnings));
     on.look_ahead(pictures_read(found, with), jobs);
@@ -352,14 +381,8 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
             return put;
     if (Status put = put_maps(on, with); !put)
         return put;
-    if (with.normal_y_down) {
-        std::set<std::int32_t> flipped;
-        for (const Material& m : scene.materials)
-            if (m.normal_tex.used())
-                flipped.insert(scene.textures[static_cast<std::size_t>(m.normal_tex.texture)].image);
-        for (const std::int32_t image : flipped)
-            flip_green(scene.images[static_cast<std::size_t>(image)]);
-    }
+    if (with.normal_y_down)
+        BN_TRY(flip_normals(scene));
     if (with.f0)
         for (Material& m : scene.materials)
             put_f0(m, *with.f0);

@@ -34,9 +34,9 @@ struct MaterialOverrides {  // empty: left as it is
 
 // Pictures lie in the first set of texture coordinates, on every material that something with coordinates wears. Errors: what is no picture
 // of its kind, more bytes than textures may have, a scene without texture coordinates; ExitCode::usage: two pictures for one part, or
-// grooves where no map holds strokes: RotationEncoding::direction is the highlights' direction.
-// Leaves a MaterialX file to apply_mtlx(), which goes first.
-// jobs: threads that decode pictures; null: the calling thread alone. The materials are the same.
+// grooves where no map holds strokes: RotationEncoding::direction is the highlights' direction; normal_y_down or an encoding without its
+// map. Leaves a MaterialX file to apply_mtlx(), which goes first. jobs: threads that decode pictures; null: the calling thread alone. The
+// materials are the same.
 Status apply_material_overrides(Scene& scene, const MaterialOverrides& overrides, const Limits& limits, const Jobs* jobs = nullptr);
 
 } // namespace burnish

@@ -29,6 +29,11 @@ std::vector<glm::dmat4> exact_world(const Scene& scene)
     return compose(scene, true, glm::dvec3(0.0));
 }
 
+std::string material_text(const Scene& scene, const Material& of)
+{
+    return "material " + (of.name.empty() ? std::to_string(&of - scene.materials.data()) : "'" + of.name + "'");
+}
+
 void update_world(Scene& scene)
 {
     // Scenes around 0 use the float values unchanged.

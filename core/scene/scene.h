@@ -153,6 +153,9 @@ struct Moment {
     std::string variant = {}; // a name in Scene::variants; empty: the meshes' own materials
 };
 
+// Returns "material 'steel'", or "material 3" for the scene's fourth if it has no name. `of` is one of the scene's materials.
+std::string material_text(const Scene& scene, const Material& of);
+
 void update_world(Scene& scene); // fills Node::world from Node::local and the origin
 // All nodes' transforms to world space, from 0, with all the file's digits.
 std::vector<glm::dmat4> exact_world(const Scene& scene);

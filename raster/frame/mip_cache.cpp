@@ -100,10 +100,10 @@ void cache_lobes(Scene& scene, const Material& m, const MaterialMips& mips, cons
     std::optional<CacheLock> lock; // until the levels are cached
     if (find() || found_after_waiting(lock, path, find))
         return;
-    const Activity activity("levels of " + levels_name(m, mips));
+    const Activity activity("levels of " + levels_name(scene, m, mips));
     cached.push_back(make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips)));
     if (const Status written = write_cached(path, {{&cached.back()}, 0, {}}); !written)
-        scene.warnings.push_back("levels of material '" + m.name + "' are not cached: " + written.error().line());
+        scene.warnings.push_back("levels of " + material_text(scene, m) + " are not cached: " + written.error().line());
 }
 
 void cache_map(Scene& scene, const Material& m, const UsedMap& map, const std::string& folder, const Jobs& jobs,
@@ -125,11 +125,11 @@ void cache_map(Scene& scene, const Material& m, const UsedMap& map, const std::s
     std::optional<CacheLock> lock; // until the levels are cached
     if (find() || found_after_waiting(lock, path, find))
         return;
-    const Activity activity(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name + "'");
+    const Activity activity(std::string("levels of the ") + name_of(map.part) + " of " + material_text(scene, m));
     cached.push_back(map_levels(scene, m, map, id, jobs));
     if (const Status written = write_cached(path, {{}, 1, [&](std::size_t) { return cached.back(); }}); !written)
-        scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of material '" + m.name +
-                                 "' are not cached: " + written.error().line());
+        scene.warnings.push_back(std::string("levels of the ") + name_of(map.part) + " of " + material_text(scene, m) +
+                                 " are not cached: " + written.error().line());
 }
 
 } // namespace

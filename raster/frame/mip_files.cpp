@@ -46,12 +46,12 @@ Result<std::shared_ptr<const mipnet::Weights>> net_of(const MipSettings& asked, 
     return std::make_shared<const mipnet::Weights>(std::move(*read));
 }
 
-std::string comparison_text(const Material& m, const mipnet::Comparison& c)
+std::string comparison_text(const Scene& scene, const Material& m, const mipnet::Comparison& c)
 {
     char text[160];
     std::snprintf(text, sizeof text, "is filtered as by MipSettings::filter %s: the net's L1 is %.2f times baseline's, kappa's %.2f",
                   c.prefers_kappa() ? "kappa" : "baseline", c.net / c.baseline, c.kappa / c.baseline);
-    return "material '" + m.name + "' " + text;
+    return material_text(scene, m) + " " + text;
 }
 
 } // namespace
@@ -90,7 +90,7 @@ Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, cons
         const Material& m = scene.materials[i];
         MaterialMips& of = mips.materials[i];
         of.net = *net;
-        const Activity activity("comparing levels of " + levels_name(m, of));
+        const Activity activity("comparing levels of " + levels_name(scene, m, of));
         if (of.filter == kMipFilter_mipnet && asked.fallback == MipFallback::automatic && is_filtered(scene, m, of))
             found[i] = compare_net(mip_source(scene, m), **net, of.kappa, is_metal(scene, m), Jobs(1));
     });
@@ -99,7 +99,7 @@ Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, cons
             continue;
         MaterialMips& of = mips.materials[i];
         of.filter = found[i]->prefers_kappa() ? kMipFilter_kappa : kMipFilter_baseline, of.net = nullptr;
-        scene.warnings.push_back(comparison_text(scene.materials[i], *found[i]));
+        scene.warnings.push_back(comparison_text(scene, scene.materials[i], *found[i]));
     }
     if (asked.use_cache && !mips.baked)
         cache_mips(scene, mips, jobs);
@@ -134,7 +134,7 @@ void take_filters_of_mips(const Scene& scene, SceneMips& mips)
 
 void warn_of_unfiltered(Scene& scene, const SceneMips& mips)
 {
-    const auto warn = [&](const Material& m, const std::string& what) { scene.warnings.push_back("material '" + m.name + "' " + what); };
+    const auto warn = [&](const Material& m, const std::string& what) { scene.warnings.push_back(material_text(scene, m) + " " + what); };
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (const std::string why = why_unfiltered(scene, scene.materials[i], mips.of(i)); !why.empty())
             warn(scene.materials[i], "is filtered as by MipSettings::filter box: " + why);
@@ -161,14 +161,14 @@ Status check_mips(const Scene& scene, const SceneMips& mips, const std::string& 
         const auto& held = mips.baked->materials;
         if (std::none_of(held.begin(), held.end(), [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, of); }))
             return Error{ExitCode::bad_input, path, "",
-                         "holds no levels of material '" + m.name + "' by this filter, gain and model, whose maps hash to " +
+                         "holds no levels of " + material_text(scene, m) + " by this filter, gain and model, whose maps hash to " +
                              hexadecimal(hash)};
         for (const UsedMap& map : used_maps(scene, m, of))
             if (const MapId id = map_id(scene, m, map, jobs); !find_map(mips.baked->maps, id, map_image(scene, *map.ref)))
                 return Error{ExitCode::bad_input, path, "",
-                             std::string("holds no levels of the ") + name_of(map.part) + " of material '" + m.name + "' by color kernel " +
-                                 (map.kernel == ColourKernel::kaiser ? "kaiser" : "box") + (map.coupled ? ", coupled" : ", not coupled") +
-                                 ", whose map hashes to " + hexadecimal(id.source)};
+                             std::string("holds no levels of the ") + name_of(map.part) + " of " + material_text(scene, m) +
+                                 " by color kernel " + (map.kernel == ColourKernel::kaiser ? "kaiser" : "box") +
+                                 (map.coupled ? ", coupled" : ", not coupled") + ", whose map hashes to " + hexadecimal(id.source)};
     }
     return any ? Status() : Error{ExitCode::bad_input, path, "", "the scene has no maps that its filter makes levels of"};
 }
@@ -181,6 +181,11 @@ Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limit
     BN_TRY(mips);
     if (mips->materials.empty())
         return Error{ExitCode::bad_input, asked.pyramid, "", "holds no levels of normals and lobes"};
+    const MipFilter held = mips->materials.front().filter;
+    if (asked.box_asked && held != kMipFilter_box)
+        return Error{ExitCode::bad_input, asked.pyramid, "",
+                     std::string("holds levels by ") + mip_filters()[static_cast<std::size_t>(held)].name +
+                         ", and MipSettings::filter is box"};
     if (asked.filter == MipFilter{})
         asked.filter = mips->materials.front().filter, asked.kappa = mips->materials.front().kappa;
     return std::make_shared<const MipFile>(std::move(*mips));

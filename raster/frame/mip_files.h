@@ -21,7 +21,8 @@ void warn_of_unfiltered(Scene& scene, const SceneMips& mips); // a line for each
 // only: by material, which ones; null: all.
 Status settle_nets(Scene& scene, SceneMips& mips, const MipSettings& asked, const Limits& limits, const std::vector<bool>* only = nullptr);
 
-// Reads asked.pyramid. Where no filter was asked for, it is the file's.
+// Reads asked.pyramid. Where no filter was asked for, it is the file's. Refuses filter box, asked for by name, beside another filter's
+// file.
 Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limits& limits);
 // Materials take the filters that the levels of their maps are by, and colours what they are averaged and weighted by.
 void take_filters_of_mips(const Scene& scene, SceneMips& mips);

@@ -328,7 +328,7 @@ MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, 
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
                 if (fits(there->materials[k], source, hash, scene, m, mips))
                     all[i] = std::shared_ptr<const MipLevels>(there, &there->materials[k]);
-        const Activity activity("levels of " + levels_name(m, mips));
+        const Activity activity("levels of " + levels_name(scene, m, mips));
         if (!all[i])
             all[i] = std::make_shared<const MipLevels>(
                 make_mip_levels(source, mips.filter, mips.kappa, jobs, mip_help(scene, m, mips, advance)));
@@ -345,9 +345,9 @@ std::vector<std::size_t> filtered_materials(const Scene& scene, const SceneMips&
     return found;
 }
 
-std::string levels_name(const Material& m, const MaterialMips& mips)
+std::string levels_name(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
-    return "material '" + m.name + "' by " + mip_filters()[static_cast<std::size_t>(mips.filter)].name;
+    return material_text(scene, m) + " by " + mip_filters()[static_cast<std::size_t>(mips.filter)].name;
 }
 
 std::vector<PyramidKey> used_pyramids(const Scene& scene, const SceneMips& mips, const std::vector<KeptWeights>& kept)

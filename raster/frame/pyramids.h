@@ -27,7 +27,7 @@
 
 namespace burnish {
 
-std::string levels_name(const Material& m, const MaterialMips& mips); // "material 'steel' by kappa"
+std::string levels_name(const Scene& scene, const Material& m, const MaterialMips& mips); // "material 'steel' by kappa"
 
 class MipSource;
 struct KeptWeights;

@@ -284,7 +284,7 @@ std::vector<Row> scene_rows()
 
 std::vector<Row> environment_rows()
 {
-    constexpr double kMostTurn = 36000.0, kMostStops = 64.0;
+    constexpr double kMostTurn = 36000.0, kMostStops = kMaxEnvironmentExposure;
     return {
         {"env_size", "Texels along an edge of the environment's cube map", "512", kLights,
          numeral({16, 32, 64, 128, 256, 512, 1024, 2048}, [](CSettings& to) -> int& { return to.open.environment.cube_size; })},

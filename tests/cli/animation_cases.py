@@ -155,6 +155,9 @@ def what_cannot_be_a_row_is_refused(bench):
             (("--animate", "roughness=0:1,roughness=1:0"), ("--animate", "twice")),
             ((*animate, "--steps", "1"), ("--steps", "1")),
             (("--steps", "5"), ("--steps", "--animate")),
+            (("--fps", "5"), ("--fps", "--animate")),
+            ((*animate, "--roughness", "0.5"), ("--roughness", "--animate")),
+            (("--anisotropy", "0.5", "--animate", "anisotropy=0:1"), ("--anisotropy", "--animate")),
             ((*animate, "--steps", "2", "-o", "one.png"), ("-o", "one.png", "%04d")),
             ((*animate, "--steps", "2", "-o", "a%d_%d.png"), ("-o", "%04d")),
             ((*animate, "--steps", "2", "-o", "no/such/a%d.png"), ("no/such",)),
@@ -168,6 +171,7 @@ def what_cannot_be_a_row_is_refused(bench):
             (("-o", "a.apng"), ("a.apng",)),
             (("--turntable", "1"), ("--turntable", "1")),
             (("--turntable", "4", "--eye", "0,0,1"), ("--eye", "--turntable")),
+            (("--turntable", "4", "--steps", "4"), ("--steps", "--turntable")),
             (("--turntable", "4", *animate), ("--animate", "--turntable"))):
         done = bench.run("render", *ROW, *words)
         check(done.code in (2, 7), f"exit code\n{done.describe()}")

@@ -132,6 +132,38 @@ def no_effect(bench):
         check("no effect" not in done.err, done.describe())
 
 
+# Options of lights, and their single warning.
+NO_EFFECT_ON_LIGHT = (
+    (("--light-samples", "4"), "--light-samples has no effect with --area-lights ltc"),
+    (("--light-samples", "4", "--area-lights", "off"), "--light-samples has no effect with --area-lights off"),
+    (("--light-samples", "4", "--area-lights", "mc"), None),
+    (("--backend", "reference", "--samples", "64", "--area-lights", "mc"), "--area-lights has no effect with --backend reference"),
+    (("--backend", "reference", "--samples", "64", "--area-lights", "off"), None),
+    (("--backend", "reference", "--samples", "64", "--light-samples", "4"), "--light-samples has no effect with --backend reference"),
+)
+
+
+@case("usage.an_option_of_lights_without_effect_is_one_warning_that_names_both")
+def no_effect_on_light(bench):
+    bench.run("bake", "environment", "builtin:sky", "--env-size", "16", "--env-samples", "4", "-q", "-o", "e").expect(0)
+    baked = [(("--env", name, option, value), f"{option} has no effect with --env {name}, whose bake has its own")
+             for name in ("e", "e/environment.bnenv") for option, value in (("--env-size", "32"), ("--env-samples", "8"), ("--key-lights", "2"))]
+    embree = "reference" in bench.run("info").expect(0).out
+    for words, warning in (*NO_EFFECT_ON_LIGHT, *baked):
+        if not embree and "reference" in words:
+            continue
+        small = () if "--env" in words else ("--env-size", "16", "--env-samples", "1")
+        done = bench.run("render", "builtin:plate", "--size", "16x16", *small, *words, "-o", "a.pfm").expect(0)
+        lines = [line for line in done.err.splitlines() if "warning" in line]
+        check(lines == ([f"burnish: warning: {warning}"] if warning else []), done.describe())
+
+
+@case("usage.the_exposure_of_an_environment_has_one_range_in_every_subcommand")
+def exposure_range(bench):
+    for words in (("render", "builtin:plate"), ("profile", "builtin:plate"), ("info", "--env", "builtin:sky")):
+        bench.run(*words, "--env-exposure", "32.5").expect(2).expect_one_line("--env-exposure", "32")
+
+
 @case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way", tier="nightly")
 def turned_environment(bench):
     """For each renderer: under an environment at 40 degrees a camera at azimuth 30 sees the view of azimuth -10 on the turned scene."""

@@ -303,6 +303,27 @@ def folders(bench):
         bench.run("render", "flat.gltf", *VIEW, option, "n.png", "-o", "a.png").expect(4).expect_one_line("n.png", "texture coordinates")
 
 
+@case("detail.an_encoding_without_its_map_is_refused", "input")
+def no_map(bench):
+    scene = scratch(bench, "bare.gltf", files.text(bare()))
+    (pathlib.Path(bench.folder) / "set").mkdir()
+    scratch(bench, "set/x_normal.png", png(2, 2, lambda x, y: (128, 128, 255)))
+    for words in (("--normal-y", "down"), ("--rotation-encoding", "direction"), ("--rotation-encoding", "double-angle", "--material", "set"),
+                  ("--roughness-encoding", "anisotropy"), ("--roughness-encoding", "anisotropy", "--material", "set")):
+        bench.run("render", scene, *VIEW, *words, "-o", "a.pfm").expect(2).expect_one_line(words[0], "no ")
+    for words in (("--normal-y", "up"), ("--normal-y", "down", "--material", "set")):
+        bench.run("render", scene, *VIEW, *words, "-q", "-o", "a.pfm").expect(0)
+
+
+@case("detail.a_map_with_too_few_channels_is_called_by_its_kind", "input")
+def grey_maps(bench):
+    scene = scratch(bench, "bare.gltf", files.text(bare()))
+    scratch(bench, "grey.png", png(2, 2, lambda x, y: (128,), channels=1))
+    for option, kind in (("--normal-map", "normal map"), ("--quaternion-map", "quaternion map"), ("--direction-map", "map of directions"),
+                         ("--rotation-map", "map of rotations"), ("--roughness-map", "roughness map")):
+        bench.run("render", scene, *VIEW, option, "grey.png", "-o", "a.pfm").expect(4).expect_one_line("grey.png", kind)
+
+
 @case("detail.faults_of_maps_are_named_by_their_place", "input")
 def faults(bench):
     at = "/materials/0/extras/burnish/"

@@ -132,6 +132,22 @@ def material(bench, name, normal):
     return name
 
 
+@case("mip.a_pyramid_that_was_baked_sets_the_filter")
+def filter_of_file(bench):
+    material(bench, "set", (16, 16, bumps))
+    material(bench, "other", (16, 16, lambda x, y: bumps(x + 1, y)))
+    bench.run("bake", "mip", "set", "--mip-filter", "leadr", "-q", "-o", "leadr.mip").expect(0)
+    words = ("render", "builtin:sphere", *SMALL, "--material", "set", "--mip-pyramid", "leadr.mip", "-o", "a.pfm")
+    bench.run(*words, "--mip-filter", "box").expect(4).expect_one_line("leadr.mip", "leadr", "--mip-filter is box")
+    for option, value in (("--mip-kappa", "3"), ("--mip-gain", "on"), ("--fallback", "off")):
+        done = bench.run(*words, option, value).expect(0)
+        check(f"{option} has no effect with --mip-pyramid" in done.err and "box" not in done.err, done.describe())
+    # a material without name goes by its number
+    scratch(bench, "bare.gltf", files.text(bare()))
+    bench.run("render", "bare.gltf", *VIEW, "--material", "other", "--mip-pyramid", "leadr.mip", "-o", "a.pfm").expect(4).expect_one_line(
+        "material 0", "hash")
+
+
 @case("mip.a_pyramid_that_was_baked_gives_the_same_pixels", tier="nightly")
 def baked(bench):
     material(bench, "set", (33, 17, bumps))

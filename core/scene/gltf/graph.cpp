@@ -82,15 +82,21 @@ void check_forest(const Document& doc, const std::vector<int>& parent)
 
 } // namespace
 
+bool is_rotation(const double* q)
+{
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    return length > 1e-12 && length < 1e12;
+}
+
 glm::mat4 trs_matrix(const Json& node, const std::string& place)
 {
     double q[4] = {0.0, 0.0, 0.0, 1.0}, s[3] = {1.0, 1.0, 1.0}, t[3] = {0.0, 0.0, 0.0};
     read_numbers(node, "rotation", q);
     read_numbers(node, "scale", s);
     read_numbers(node, "translation", t);
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 1e-12 && length < 1e12))
+    if (!is_rotation(q))
         fail(place + "/rotation", "is not a unit quaternion");
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     for (double& part : q)
         part /= length;
     const double x = q[0], y = q[1], z = q[2], w = q[3];

@@ -6,6 +6,8 @@ namespace burnish::gltf {
 
 void load_cameras_and_lights(Document& doc);
 
+bool is_rotation(const double* q); // four numbers with a direction; trs_matrix() makes them a unit quaternion
+
 // Returns the matrix of a node's translation, rotation and scale.
 glm::mat4 trs_matrix(const Json& node, const std::string& place);
 

@@ -112,6 +112,8 @@ void move_node(Document& doc, const Json& channel, const Json& samplers, double 
     for (const double number : numbers)
         if (!(std::fabs(number) <= 1e30))
             fail(place, fmt::format("gives a {} that is NaN or infinite", path));
+    if (path == "rotation" && !is_rotation(numbers.data()))
+        fail(place, "gives a rotation that is not a unit quaternion");
     node[path] = numbers;
 }
 

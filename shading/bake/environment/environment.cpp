@@ -148,8 +148,8 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
         return bad_option("extracted_lights", fmt::format("the environment's extracted lights must be 0 to {}", kMaxExtractedLights));
     if (o.samples < 1 || o.samples > 65536)
         return bad_option("samples", "the samples of the environment must be 1 to 65536");
-    if (!(std::fabs(o.exposure_ev) <= 32.0f))
-        return bad_option("exposure_ev", "the environment's exposure must be within 32 EV of 0");
+    if (!(std::fabs(o.exposure_ev) <= kMaxEnvironmentExposure))
+        return bad_option("exposure_ev", fmt::format("the environment's exposure must be within {:g} EV of 0", kMaxEnvironmentExposure));
     if (!(std::fabs(o.rotation_deg) <= 36000.0f))
         return bad_option("rotation_deg", "the environment's rotation must be a finite angle in degrees");
     return {};

@@ -59,6 +59,8 @@ struct Environment {
     std::vector<std::string> files;    // for a glTF file: paths of every file read for its light
 };
 
+inline constexpr float kMaxEnvironmentExposure = 32.0f; // stops in both directions
+
 struct EnvironmentOptions {
     // Applied after the bake and the cache:
     float rotation_deg = 0.0f; // turns the environment about +Y, counter-clockwise seen from above

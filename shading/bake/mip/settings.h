@@ -28,6 +28,7 @@ struct MipSettings {             // of all materials
     std::string pyramid;         // file of levels, as in pyramid_file.h
     int threads = 0;             // that make levels; 0: all cores
     bool use_cache = false;      // levels that take long are looked for in the cache, and stored there
+    bool box_asked = false;      // filter box is asked for by name, and leaves no choice to the level file
     bool frames_override = true; // false: no frame sets roughness, anisotropy or FrameDesc::frame_map off; its textures are not made
 
     bool names(const std::string& path) const { return !path.empty() && (path == pyramid || path == net); }

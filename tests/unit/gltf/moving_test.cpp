@@ -171,6 +171,8 @@ TEST(moving, what_cannot_be_moved_is_said)
 {
     const Asset asset = moved_triangle("translation", "LINEAR", "VEC3", {5, 0, 0, NAN, 0, 0, 7, 0, 0}, 3);
     EXPECT_EQ(error_of(load_at(asset, 2.0f)), "/animations/0/channels/0: gives a translation that is NaN or infinite");
+    const Asset turned = moved_triangle("rotation", "LINEAR", "VEC4", {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1}, 3);
+    EXPECT_EQ(error_of(load_at(turned, 2.0f)), "/animations/0/channels/0: gives a rotation that is not a unit quaternion");
     EXPECT_EQ(error_of(load_at(asset, 2.0f, 3)).substr(0, 11), "/animations");
     EXPECT_EQ(error_of(load_at(triangle(), 2.0f)).substr(0, 11), "/animations");
 }
