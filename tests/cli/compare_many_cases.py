@@ -93,7 +93,7 @@ def folder_alpha(bench):
     check((rows["clear.png"]["verdict"], rows["clear.png"]["max_abs"]) == ("passed", 0), str(rows))
     check((rows["holed.png"]["verdict"], rows["holed.png"]["reason"]) == ("failed", reason) and "max_abs" not in rows["holed.png"], str(rows))
     told, counts = junit_of(bench, "u.xml")
-    check(counts == (2, 0, 1) and told["holed.png"] == ("error", reason) and told["clear.png"] is None, str(told))
+    check(counts == (2, 0, 1) and told["holed.png"] == ("error", "actual/holed.png: " + reason) and told["clear.png"] is None, str(told))
     done = bench.run(*words, "-q").expect(3)
     check("note" not in done.err and reason in done.err, done.describe())
 
