@@ -53,7 +53,7 @@ class RowWriter {
         const MaterialMips& mips = all.of(static_cast<std::size_t>(keys.front().material));
         const Texture& sampler = scene.textures[static_cast<std::size_t>(keys.front().texture)];
         work_.gained = has_gains(material_, mips), work_.gain = gain_of_taps(mips.filter, mips.kappa);
-        // Write normals as their map has them: what shading multiplies by the scale
+        // Undo the scale of normals, which shading applies
         work_.unscale = std::abs(material_.normal_scale) > 1e-3f ? 0.5f / material_.normal_scale : 0.0f;
         bool normals = false, widths = false;
         for (const PyramidKey& key : keys) {
