@@ -88,6 +88,19 @@ def degenerate_reference(bench):
     bench.run("render", "scale_1e-09.gltf", *REFERENCE).expect(4).expect_one_line("scale the scene up")
 
 
+@case("hostile.zeros_of_any_count_cost_no_memory", "program", "input")
+def many_zeros(bench):
+    """Draws a triangle of three among four thousand million positions, which the file leaves out: all are zero."""
+    gltf = files.triangle(indices=struct.pack("<3I", 0, 1, 3_999_999_999))
+    positions, indices = gltf["accessors"]
+    positions.pop("bufferView"), positions.update(count=4_000_000_000, min=[0, 0, 0], max=[0, 0, 0])
+    indices.update(componentType=5125)
+    gltf["bufferViews"][1]["byteLength"], gltf["buffers"][0]["byteLength"] = 12, 48
+    scratch(bench, "zeros.gltf", files.text(gltf))
+    done = bench.run("render", "zeros.gltf", *TILE, "-q", "-o", "zeros.exr").expect(0)
+    check(done.peak_bytes < GIB // 2, f"took {done.peak_bytes >> 20} MiB")
+
+
 @case("hostile.tiny_scenes_are_drawn_as_large_ones_or_refused", "program", "input", budget=5)
 def tiny(bench):
     """Draws triangles of a metre and less, by views that scale with them: framed, by --eye, by a camera of the file."""

@@ -158,19 +158,27 @@ class Welder {
 
 namespace {
 
-// For each of the file's vertices, a corner that has it and is finished.
+// For each of the file's vertices, a corner that has it and is finished. Remembers none where the file has far more vertices than corners:
+// an accessor of zeros needs no memory, whatever its count.
 class FirstCorners {
   public:
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
     explicit FirstCorners(const Corners& corners)
-        : first_(corners.vertices.empty() ? 0 : *std::max_element(corners.vertices.begin(), corners.vertices.end()) + std::size_t{1}, kNone)
     {
+        const auto last = std::max_element(corners.vertices.begin(), corners.vertices.end());
+        if (last != corners.vertices.end() && *last < 4 * corners.vertices.size())
+            first_.assign(*last + std::size_t{1}, kNone);
     }
-    std::size_t& of(std::uint32_t vertex) { return first_[vertex]; }
+    std::size_t& of(std::uint32_t vertex)
+    {
+        none_ = kNone;
+        return first_.empty() ? none_ : first_[vertex];
+    }
 
   private:
     std::vector<std::size_t> first_;
+    std::size_t none_ = kNone;
 };
 
 template <class Vector> bool same_bits(const Vector& a, const Vector& b)
