@@ -1,10 +1,10 @@
 #include "shading/bake/mip/source.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/base/column.h"
 #include "core/base/hash.h"
 #include "core/math/scalar_math.h"
 #include "core/simd/dispatch.h"
@@ -131,14 +131,15 @@ template <class Read> void MipSource::put(std::size_t count, const Read& read, f
     }
     // Lobes
     if (maps_.roughness || maps_.direction) {
-        const auto own = std::make_unique_for_overwrite<float[]>(7 * stride);
+        Column<float> own;
+        own.resize_for_overwrite(7 * stride);
         for (std::size_t k = 0; k < 7; ++k)
-            std::fill(own.get() + k * stride + count, own.get() + (k + 1) * stride, 0.0f);
+            std::fill(own.data() + k * stride + count, own.data() + (k + 1) * stride, 0.0f);
         if (maps_.roughness)
-            read(*maps_.roughness, 1, 1, &kWhole, stride, own.get());
+            read(*maps_.roughness, 1, 1, &kWhole, stride, own.data());
         for (std::size_t k = 0; maps_.direction && k < 2; ++k)
-            read(tensors_[k], 0, 3, kZero, stride, own.get() + (1 + 3 * k) * stride);
-        fns.covariances({count, stride, maps_.roughness ? own.get() : nullptr, maps_.direction ? own.get() + stride : nullptr,
+            read(tensors_[k], 0, 3, kZero, stride, own.data() + (1 + 3 * k) * stride);
+        fns.covariances({count, stride, maps_.roughness ? own.data() : nullptr, maps_.direction ? own.data() + stride : nullptr,
                          maps_.roughness_factor, maps_.anisotropy_strength, rotation_.x, rotation_.y, plane(3)});
     } else {
         std::fill_n(plane(3), stride, only_.xx), std::fill_n(plane(4), stride, only_.yy), std::fill_n(plane(5), stride, only_.xy);
