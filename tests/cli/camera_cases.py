@@ -161,7 +161,8 @@ def no_effect_on_light(bench):
 @case("usage.the_exposure_of_an_environment_has_one_range_in_every_subcommand")
 def exposure_range(bench):
     for words in (("render", "builtin:plate"), ("profile", "builtin:plate"), ("info", "--env", "builtin:sky")):
-        bench.run(*words, "--env-exposure", "32.5").expect(2).expect_one_line("--env-exposure", "32")
+        for value in ("32.5", "120"):
+            bench.run(*words, "--env-exposure", value).expect(2).expect_one_line("--env-exposure", "from -32 to 32")
 
 
 @case("camera.an_environment_that_is_turned_is_a_world_that_is_turned_the_other_way", tier="nightly")
