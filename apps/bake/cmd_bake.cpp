@@ -164,7 +164,7 @@ OptionTable bake_option_table(BakeArguments& to)
           choice(to.environment.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
          {"--key-lights", "N", "Small strong lights to extract from the environment, at most: {}",
           extracted_lights(to.environment.extracted_lights)},
-         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, 1 << 20)},
+         {"--env-samples", "N", "Samples a texel of the prefiltered levels", integer(to.environment.samples, 1, kMaxEnvironmentSamples)},
          {"--textures", "NAME", "An older name of --format for textures: {}", choice(to.textures, {"none", "ktx2", "dds", "exr"})},
          {"--texels", "NAME", "Numbers in --format ktx2 and dds: {} (16 or 32 bits)", choice(to.texels, {"half", "float"})}});
     table.add(

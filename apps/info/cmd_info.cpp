@@ -144,8 +144,25 @@ int print_weights(const std::string& path, bool json)
     return 0;
 }
 
+// Warns of given options that have no effect.
+void warn_of_unread(RenderOptions options, const std::string& weights, const OptionTable& given)
+{
+    const std::string cause = !weights.empty() ? "with --weights" : given.given("--env") ? "" : "without --env";
+    if (cause.empty())
+        warn_of_baked_environment(given, options);
+    else
+        for (const char* option : {"--env", "--env-rotation", "--env-exposure", "--key-lights", "--no-cache"})
+            if (given.given(option))
+                options.warnings.push_back(fmt::format("{} has no effect {}", option, cause));
+    Report report(false, 0);
+    report.release();
+    for (const std::string& warning : options.warnings)
+        report.warning(warning);
+}
+
 int run_info(const RenderOptions& options, const std::string& weights, bool json, const OptionTable& given)
 {
+    warn_of_unread(options, weights, given);
     if (!weights.empty())
         return print_weights(weights, json);
     const Result<Seen> environment = see_environment(options, given);

@@ -11,6 +11,15 @@
 
 namespace burnish {
 
+void warn_of_baked_environment(const OptionTable& given, RenderOptions& out)
+{
+    if (out.env.starts_with("builtin:") || !is_baked_environment(out.env))
+        return;
+    for (const char* option : {"--env-size", "--env-samples", "--key-lights"})
+        if (given.given(option))
+            out.warnings.push_back(fmt::format("{} has no effect with --env {}, whose bake has its own", option, out.env));
+}
+
 void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
 {
     const bool reference = out.backend == "reference";
@@ -34,9 +43,7 @@ void warn_of_no_effect(const OptionTable& given, RenderOptions& out)
         for (const char* option : {"--technique", "--msaa", "--tile-size", "--resolve"})
             if (out.frame.background || option != std::string_view("--msaa")) // of which alpha is the share
                 warn(option, of_backend);
-    if (!out.env.starts_with("builtin:") && is_baked_environment(out.env))
-        for (const char* option : {"--env-size", "--env-samples", "--key-lights"})
-            warn(option, "--env " + out.env + ", whose bake has its own");
+    warn_of_baked_environment(given, out);
     if (reference && out.frame.area_way != kAreaWay_off) // off leaves the lights out of the reference too
         warn("--area-lights", of_backend);
     if (reference || out.frame.area_way != kAreaWay_mc)

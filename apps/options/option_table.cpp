@@ -11,7 +11,7 @@
 namespace burnish {
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1000000, kMaxBakeSamples = 1 << 20, kMaxBounces = 1000, kMaxSteps = 100000, kMaxAnimations = 1000000;
+constexpr std::int64_t kMaxFrames = 1000000, kMaxBounces = 1000, kMaxSteps = 100000, kMaxAnimations = 1000000;
 constexpr const char* kReferenceModes[] = {"direct", "shadowed", "path"}; // by ReferenceMode
 
 std::vector<Option> environment_rows(RenderArguments& to)
@@ -29,7 +29,7 @@ std::vector<Option> environment_rows(RenderArguments& to)
          choice(e.cube_size, {16, 32, 64, 128, 256, 512, 1024, 2048})},
         {"--key-lights", "N", "Small strong lights to extract from the environment and shade one by one, at most: {}",
          extracted_lights(e.extracted_lights)},
-        {"--env-samples", "N", "Samples a texel of the prefiltered environment levels", integer(e.samples, 1, kMaxBakeSamples)},
+        {"--env-samples", "N", "Samples a texel of the prefiltered environment levels", integer(e.samples, 1, kMaxEnvironmentSamples)},
         {"--no-cache", "", "Neither read nor write the cache: baked environments, mipnet and teacher levels, and coupled or kaiser colours",
          flag(e.use_cache, false)},
     };

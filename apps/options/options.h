@@ -133,5 +133,6 @@ bool changes_scene(const Option& option);
 
 // Adds one warning for each given option that has no effect, and names the option that causes this.
 void warn_of_no_effect(const OptionTable& given, RenderOptions& out);
+void warn_of_baked_environment(const OptionTable& given, RenderOptions& out); // of that kind, for options of the bake
 
 } // namespace burnish

@@ -79,8 +79,8 @@ def poor_environments(bench):
 @case("key_lights.environments_are_repaired_and_said_so", "input", budget=8)
 def repaired(bench):
     """A warning is one line, also in --stats, from the bake and from the cache."""
-    for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 infinite values"),
-                               ("3e38", 3e38, "1 infinite values"), ("negative", -2.0, "1 negative values")):
+    for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 values of the environment above 1e+12"),
+                               ("3e38", 3e38, "1 values of the environment above 1e+12"), ("negative", -2.0, "1 negative values")):
         # grey, so that each texel is one value in one channel
         path = scratch(bench, name + ".exr", exr(64, 32, lambda x, y, v=value: (v if (x, y) == (9, 9) else 0.5, 0.5, 0.75)))
         pixels = set()

@@ -208,6 +208,16 @@ def info(bench):
     check(facts["version"] in text and facts["isa"] in text, text)
 
 
+@case("usage.info_warns_of_options_without_effect")
+def info_without_effect(bench):
+    bench.run("bake", "environment", "builtin:studio", "--env-size", "16", "--env-samples", "1", "-q", "-o", "baked").expect(0)
+    for words, warnings in ((("--env-rotation", "30"), ["--env-rotation has no effect without --env"]),
+                            (("--env", "baked", "--key-lights", "2"), ["--key-lights has no effect with --env baked, whose bake has its own"]),
+                            (("--env", "builtin:studio", "--key-lights", "2"), [])):
+        said = [line for line in bench.run("info", *words).expect(0).err.splitlines() if "warning" in line]
+        check(said == [f"burnish: warning: {text}" for text in warnings], f"{words}: {said}")
+
+
 @case("usage.lost_standard_output_is_an_error")
 def lost_output(bench):
     if not os.path.exists("/dev/full"):

@@ -1,6 +1,7 @@
 #include "core/scene/gltf/pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -182,6 +183,9 @@ std::vector<glm::mat4> instances_of(Document& doc, const Json& node, const std::
         for (int i = 0; i < 3; ++i)
             for (int c = 0; views[i] && c < views[i].components(); ++c)
                 trs[members[i]].push_back(views[i].number(k, c));
+        if (views[1] && !is_rotation(trs["rotation"].get<std::array<double, 4>>().data()))
+            fail(fmt::format("{}/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION", place),
+                 fmt::format("element {} is not a unit quaternion", k));
         matrices.push_back(trs_matrix(trs, fmt::format("{}/extensions/EXT_mesh_gpu_instancing", place)));
     }
     return matrices;

@@ -146,7 +146,7 @@ Status check(const Image& image, const std::string& name, const EnvironmentOptio
         return bad_option("levels", "the environment's cube is too small for that many levels");
     if (o.extracted_lights < 0 || o.extracted_lights > kMaxExtractedLights)
         return bad_option("extracted_lights", fmt::format("the environment's extracted lights must be 0 to {}", kMaxExtractedLights));
-    if (o.samples < 1 || o.samples > 65536)
+    if (o.samples < 1 || o.samples > kMaxEnvironmentSamples)
         return bad_option("samples", "the samples of the environment must be 1 to 65536");
     if (!(std::fabs(o.exposure_ev) <= kMaxEnvironmentExposure))
         return bad_option("exposure_ev", fmt::format("the environment's exposure must be within {:g} EV of 0", kMaxEnvironmentExposure));

@@ -59,6 +59,7 @@ struct Environment {
     std::vector<std::string> files;    // for a glTF file: paths of every file read for its light
 };
 
+inline constexpr int kMaxEnvironmentSamples = 65536;
 inline constexpr float kMaxEnvironmentExposure = 32.0f; // stops in both directions
 
 struct EnvironmentOptions {
@@ -69,7 +70,7 @@ struct EnvironmentOptions {
     int cube_size = 512;       // power of two, 4 to 4096
     int levels = 0;            // 0: log2(cube_size), down to 2^2 texels a face
     int extracted_lights = 8;  // most lights to extract, 0 to 8
-    int samples = 1024;        // approximate number of light pieces in a texel's sum; 1 to 65536
+    int samples = 1024;        // approximate number of light pieces in a texel's sum; 1 to kMaxEnvironmentSamples
     bool picture_only = false; // bake only picture() and the extracted lights, uncached, unless a bake is cached; for the reference
     bool use_cache = true;
     std::string cache_dir; // empty: $XDG_CACHE_HOME/burnish or ~/.cache/burnish

@@ -301,14 +301,15 @@ std::vector<std::string> equirect_warnings(const Image& image)
         unusual |= static_cast<unsigned>(!(all[i] >= 0.0f)) | static_cast<unsigned>(all[i] > kMostRadiance);
     if (!unusual)
         return {};
-    std::size_t nan = 0, negative = 0, infinite = 0;
+    std::size_t nan = 0, negative = 0, infinite = 0, huge = 0;
     float largest = 0.0f;
     for (std::size_t i = 0; i < values; i += channels)
         for (std::size_t c = 0; c < colours; ++c) {
             const float v = image.f32()[i + c];
             nan += std::isnan(v);
             negative += v < 0.0f;
-            infinite += v > kMostRadiance;
+            infinite += std::isinf(v) && v > 0.0f;
+            huge += std::isfinite(v) && v > kMostRadiance;
             largest = v <= kMostRadiance ? std::max(largest, v) : largest;
         }
     std::vector<std::string> warnings;
@@ -318,6 +319,9 @@ std::vector<std::string> equirect_warnings(const Image& image)
         warnings.push_back(fmt::format("{} negative values of the environment set to 0, their surroundings darker by as much", negative));
     if (infinite)
         warnings.push_back(fmt::format("{} infinite values of the environment set to its largest finite value, {:g}", infinite, largest));
+    if (huge)
+        warnings.push_back(
+            fmt::format("{} values of the environment above {:g} set to its largest value below that, {:g}", huge, kMostRadiance, largest));
     return warnings;
 }
 

@@ -165,6 +165,10 @@ TEST(moving, instances_are_nodes)
     EXPECT_EQ(scene->nodes[1].mesh, 0);
     asset.node = R"(,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":99}}})";
     EXPECT_EQ(error_of(load_at(asset, {})), "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION: is no accessor");
+    const int turns = asset.accessor(floats({0, 0, 0, 1, 0, 0, 0, 0}), kF32, "VEC4", 2);
+    asset.node = fmt::format(R"(,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"ROTATION":{}}}}}}})", turns);
+    EXPECT_EQ(error_of(load_at(asset, {})),
+              "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION: element 1 is not a unit quaternion");
 }
 
 TEST(moving, what_cannot_be_moved_is_said)
