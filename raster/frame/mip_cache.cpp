@@ -80,11 +80,11 @@ Status write_cached(const std::string& path, const MipParts& levels)
     return written;
 }
 
-void cache_lobes(Scene& scene, const Material& m, const MaterialMips& mips, const std::string& folder, const Jobs& jobs,
+void cache_lobes(Scene& scene, const Material& m, MaterialMips& mips, const std::string& folder, const Jobs& jobs,
                  std::vector<MipLevels>& cached)
 {
     const MipSource source = mip_source(scene, m);
-    const std::uint64_t hash = source.hash(jobs);
+    const std::uint64_t hash = source_hash(source, mips, jobs);
     const auto fit = [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, mips); };
     if (std::any_of(cached.begin(), cached.end(), fit))
         return;
@@ -144,7 +144,7 @@ void cache_mips(Scene& scene, SceneMips& mips, const Jobs& jobs)
         const Material& m = scene.materials[i];
         const MaterialMips& of = mips.of(i);
         if (takes_net(of.filter) && of.net && is_filtered(scene, m, of))
-            cache_lobes(scene, m, of, folder, jobs, cached.materials);
+            cache_lobes(scene, m, mips.materials[i], folder, jobs, cached.materials);
         for (const UsedMap& map : used_maps(scene, m, of))
             if (map.coupled || map.kernel != ColourKernel::box)
                 cache_map(scene, m, map, folder, jobs, cached.maps);

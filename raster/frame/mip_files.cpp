@@ -123,7 +123,7 @@ void take_filters_of_mips(const Scene& scene, SceneMips& mips)
         }
         if (!is_filtered(scene, m, of))
             continue;
-        const std::uint64_t hash = mip_source(scene, m).hash(jobs);
+        const std::uint64_t hash = source_hash(mip_source(scene, m), of, jobs);
         for (const MipLevels& levels : mips.baked->materials)
             if (levels.source == hash) {
                 of.filter = levels.filter, of.kappa = levels.kappa, of.gains = levels.gained != 0;
@@ -146,18 +146,18 @@ void warn_of_unfiltered(Scene& scene, const SceneMips& mips)
             warn(scene.materials[i], why);
 }
 
-Status check_mips(const Scene& scene, const SceneMips& mips, const std::string& path)
+Status check_mips(const Scene& scene, SceneMips& mips, const std::string& path)
 {
     const Jobs jobs(0);
     bool any = false;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
-        const MaterialMips& of = mips.of(i);
+        MaterialMips& of = mips.materials[i];
         if (!is_filtered(scene, m, of))
             continue;
         any = true;
         const MipSource source = mip_source(scene, m);
-        const std::uint64_t hash = source.hash(jobs);
+        const std::uint64_t hash = source_hash(source, of, jobs);
         const auto& held = mips.baked->materials;
         if (std::none_of(held.begin(), held.end(), [&](const MipLevels& levels) { return fits(levels, source, hash, scene, m, of); }))
             return Error{ExitCode::bad_input, path, "",

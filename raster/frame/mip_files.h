@@ -28,6 +28,6 @@ Result<std::shared_ptr<const MipFile>> read_mips(MipSettings& asked, const Limit
 void take_filters_of_mips(const Scene& scene, SceneMips& mips);
 // Checks that the file has all levels that the scene's filters would make, and levels of those materials' base colours, metalness and
 // heights.
-Status check_mips(const Scene& scene, const SceneMips& mips, const std::string& path);
+Status check_mips(const Scene& scene, SceneMips& mips, const std::string& path);
 
 } // namespace burnish

@@ -294,6 +294,13 @@ MipSource mip_source(const Scene& scene, const Material& m)
     return MipSource(maps_of(scene, m));
 }
 
+std::uint64_t source_hash(const MipSource& source, MaterialMips& mips, const Jobs& jobs)
+{
+    if (mips.source == 0)
+        mips.source = source.hash(jobs);
+    return mips.source;
+}
+
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& m,
           const MaterialMips& mips)
 {
@@ -323,7 +330,8 @@ MaterialLevels filtered_levels(const Scene& scene, const SceneMips& scene_mips, 
             continue;
         const MipSource source = mip_source(scene, m);
         const auto held = [](const auto& there) { return there && !there->materials.empty(); };
-        const std::uint64_t hash = held(scene_mips.baked) || held(scene_mips.cached) ? source.hash(jobs) : 0; // which decodes all of it
+        MaterialMips known = mips;
+        const std::uint64_t hash = held(scene_mips.baked) || held(scene_mips.cached) ? source_hash(source, known, jobs) : 0;
         for (const auto& there : {scene_mips.cached, scene_mips.baked})
             for (std::size_t k = 0; there && k < there->materials.size(); ++k)
                 if (fits(there->materials[k], source, hash, scene, m, mips))

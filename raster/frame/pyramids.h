@@ -71,6 +71,8 @@ bool has_gains(const Material& material, const MaterialMips& mips);
 bool is_filtered(const Scene& scene, const Material& material, const MaterialMips& mips);
 MipHelp mip_help(const Scene& scene, const Material& material, const MaterialMips& mips, const OptimisedTexels& advance = {});
 MipSource mip_source(const Scene& scene, const Material& material);
+// Returns the source's hash. Keeps the hash in the material's settings, since hashing decodes all texels.
+std::uint64_t source_hash(const MipSource& source, MaterialMips& mips, const Jobs& jobs);
 // Returns true if levels baked beforehand belong to these maps and filters.
 bool fits(const MipLevels& levels, const MipSource& source, std::uint64_t hash, const Scene& scene, const Material& material,
           const MaterialMips& mips);

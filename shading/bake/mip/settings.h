@@ -1,6 +1,7 @@
 // A scene's settings for mip filters, and each material's filter.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,7 @@ struct MaterialMips {                           // of one material
     bool facets = true;                         // a few groups of a strong normal map's facets replace it from afar
     mipnet::Lobe lobe{};                        // of gains
     std::shared_ptr<const mipnet::Weights> net; // for filter mipnet; none: levels are brought along
+    std::uint64_t source = 0;                   // MipSource::hash() of its maps and factors; 0: not known yet
 };
 
 struct SceneMips {

@@ -1,4 +1,4 @@
-// Textures of filtered levels: the same bytes by threads, by instruction set, and whatever keys are made together.
+// Textures of filtered levels: the same bytes by threads, by instruction set, and whatever keys are made together. Levels by their hash.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,6 +87,25 @@ TEST(filtered_textures, are_the_same_bytes_by_threads_and_alone)
                     }
                 }
     EXPECT_GT(filtered, 100u);
+}
+
+TEST(filtered_textures, levels_are_found_by_a_hash_that_is_made_once)
+{
+    const Scene scene = mapped_plate(16, 16, 3, true);
+    SceneMips mips = mips_by(kMipFilter_kappa, scene);
+    const std::uint64_t hash = mip_source(scene, scene.materials[0]).hash(Jobs(1));
+    EXPECT_EQ(source_hash(mip_source(scene, scene.materials[0]), mips.materials[0], Jobs(1)), hash);
+    EXPECT_EQ(mips.materials[0].source, hash);
+    MipFile file;
+    file.materials.push_back(*filtered_levels(scene, mips, Jobs(1))[0]);
+    file.materials[0].source = hash + 1; // of other maps
+    mips.cached = std::make_shared<const MipFile>(std::move(file));
+    const auto taken = [&] { return filtered_levels(scene, mips, Jobs(1))[0].get() == mips.cached->materials.data(); };
+    EXPECT_FALSE(taken());
+    mips.materials[0].source = hash + 1; // a known hash is not made again
+    EXPECT_TRUE(taken());
+    mips.materials[0].source = 0;
+    EXPECT_FALSE(taken());
 }
 
 } // namespace
