@@ -44,7 +44,8 @@ class Chart {
         FrameDesc desc; // for the compared pictures, without technique and samples
         std::string env;
         Cell cell;
-        std::uint64_t key = 0; // hash of scene, environment, view and overrides
+        bool fixes_area_lights; // the user or a sweep chooses their method
+        std::uint64_t key = 0;  // hash of scene, environment, view and overrides
     };
     struct Spot { // a place by numbers
         std::size_t scene, environment, cell;

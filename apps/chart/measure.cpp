@@ -145,7 +145,7 @@ Status Chart::at_place(const Spot& spot, const std::function<Status(const Place&
     // Choose the view, and name the place by all that decides its pictures
     const Result<ChosenView> view = choose_view(options, tile_->scene(), tile_->tables());
     BN_TRY(view);
-    Place place{scene, *tile_, options.frame, env, options_.cells[spot.cell]};
+    Place place{scene, *tile_, options.frame, env, options_.cells[spot.cell], options.fixes_area_lights};
     place.desc.width = options_.error_width, place.desc.height = options_.error_height;
     place.desc.view = view->view;
     place.key = reference_key(tile_->parts().input(), tile_->drawn(place.desc), options_.base.reference);
@@ -216,12 +216,12 @@ Result<std::vector<Setting>> Chart::planned_settings(const Place& place)
     FrameDesc desc = timed_desc_of(place, settings_.front());
     desc.technique = FrameDesc().technique, desc.samples = automatic_technique().default_samples;
     for (const double budget : options_.budgets) {
-        const Result<Plan> plan = make_plan(place.tile, desc, {budget, {}, {}}, "", 0);
+        const Result<Plan> plan = make_plan(place.tile, desc, {budget, {}, {}}, {"", 0, place.fixes_area_lights});
         if (!plan && plan.error().code != ExitCode::usage)
             return plan.error();
         const std::string reason = !plan ? plan.error().reason : plan->aside;
         if (reason.empty())
-            settings.push_back({kPlanned, 1, false, budget, plan->settings()});
+            settings.push_back({kPlanned, 1, false, budget, plan->frame()});
         else
             report_.warning(fmt::format("budget {:g} has no row for {}: {}", budget, base_name(place.scene.data->name), reason));
         progress_->step(reason.empty() ? 0 : static_cast<std::size_t>(options_.runs + 1));
@@ -259,7 +259,7 @@ FrameDesc Chart::desc_of(const Place& place, const Setting& setting) const
     desc.samples = setting.samples;
     if (setting.budget > 0.0) {
         desc.technique = FrameDesc().technique, desc.samples = automatic_technique().default_samples;
-        desc.by_material = setting.by_material;
+        setting.planned.put(desc);
     }
     return desc;
 }

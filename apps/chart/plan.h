@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/plan/plan.h"
 #include "core/base/result.h"
 #include "raster/frame/frame.h"
 
@@ -29,9 +30,9 @@ inline constexpr const char* kPlanned = "planned"; // in a technique's place: a 
 struct Setting {
     std::string technique;
     int samples = 1;
-    bool sampled = false;                            // the technique takes samples
-    double budget = 0.0;                             // of the plan: largest mean HDR-FLIP; 0: no plan
-    std::vector<MaterialTechnique> by_material = {}; // of the plan
+    bool sampled = false;      // the technique takes samples
+    double budget = 0.0;       // of the plan: largest mean HDR-FLIP; 0: no plan
+    PlannedFrame planned = {}; // of the plan
 };
 std::string describe(const Setting& setting); // "major_axis, 16 samples", "bent_normal", "planned, budget 0.03"
 // Returns the settings by technique in the order given, then by samples. Without a sweep, samples are the technique's default and powers

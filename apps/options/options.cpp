@@ -212,6 +212,7 @@ Status check_budget(const OptionTable& given, RenderOptions& out)
     out.fixes_technique = given.given("--technique") && out.frame.technique != automatic_technique().name;
     if (out.fixes_technique && given.given("--samples"))
         out.fixed_samples = out.frame.samples;
+    out.fixes_area_lights = given.given("--area-lights") || given.given("--light-samples");
     if (planned && out.fixes_technique && out.fixed_samples)
         return usage_error(out.first_budget(), "leaves nothing to choose beside --technique and --samples");
     return {};

@@ -53,6 +53,7 @@ struct RenderOptions {
     std::optional<double> budget_ms;    // the frame's largest processor time, milliseconds
     bool fixes_technique = false;       // given beside a budget
     int fixed_samples = 0;              // given beside a budget; 0: none
+    bool fixes_area_lights = false;     // given beside a budget
     std::string plan_file, plan_out;    // plan to draw by, and plan to write; empty: none
     bool verify = false;                // compares the planned picture with the reference
     bool plans() const { return budget || budget_p99 || budget_ms; }

@@ -46,6 +46,23 @@ const std::vector<PlanCost>& plan_costs()
     return table;
 }
 
+const std::vector<AreaLightsCost>& area_lights_costs()
+{
+    static const std::vector<AreaLightsCost> table = {
+#define BN_PLAN_AREA_LIGHTS(way, samples, fixed, quad, sample) {kAreaWay_##way, samples, fixed, quad, sample},
+#include "apps/plan/costs.def"
+    };
+    return table;
+}
+
+double area_lights_cost(const AreaLightsSetting& setting, std::size_t lights)
+{
+    const std::vector<AreaLightsCost>& all = area_lights_costs();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const AreaLightsCost& c) { return c.way == setting.way; });
+    const AreaLightsCost& cost = found == all.end() ? all.front() : *found;
+    return cost.fixed + (cost.quad + cost.sample * setting.samples) * static_cast<double>(lights);
+}
+
 double random_over_fetch(int samples)
 {
     const auto find = [](const char* technique) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/plan/probe.h"
 #include "raster/frame/frame.h"
 
 namespace burnish {
@@ -14,6 +15,15 @@ struct PlanCost { // a line of costs.def
     double fixed, sample; // instructions a fragment, and a sample more
 };
 const std::vector<PlanCost>& plan_costs();
+
+struct AreaLightsCost {         // a line of costs.def
+    int way, samples;           // as AreaLightsSetting
+    double fixed, quad, sample; // instructions a fragment, a quad more, and a sample more on each quad
+};
+const std::vector<AreaLightsCost>& area_lights_costs();
+
+// Returns the instructions a fragment of a method for this many area lights. A method without a line costs as the first one.
+double area_lights_cost(const AreaLightsSetting& setting, std::size_t lights);
 
 // Lobes at the pixels of a picture.
 struct PixelLobes {

@@ -6,7 +6,9 @@
 
 #include "apps/plan/cost.h"
 #include "apps/plan/pareto.h"
+#include "apps/plan/probe_errors.h"
 #include "core/base/clock.h"
+#include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
@@ -23,6 +25,12 @@ std::string setting_text(const MaterialTechnique& m)
 {
     return find_technique(m.technique)->sampling == Sampling::none ? m.technique
                                                                    : fmt::format("{} with {} samples", m.technique, m.samples);
+}
+
+std::string setting_text(const AreaLightsSetting& s)
+{
+    const char* const name = area_ways()[static_cast<std::size_t>(s.way)].name;
+    return s.way == kAreaWay_mc ? fmt::format("{} with {} samples on each", name, s.samples) : name;
 }
 
 // Returns the settings that the user's technique and samples leave.
@@ -109,13 +117,15 @@ struct Clock {
     double cost_within(double most_ms) const { return cost + (most_ms - ms) / std::max(1e-30, ms_per_instruction); }
 };
 
-// Draws the frame by the cheapest plan.
-Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& probe, const std::vector<std::vector<PlanPoint>>& fronts,
-                      const std::vector<std::size_t>& seen)
+// Draws the frame by the cheapest plan. probe: with the cheapest method for area lights, `area`.
+Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& probe, const ProbedAreaLights* area,
+                      const std::vector<std::vector<PlanPoint>>& fronts, const std::vector<std::size_t>& seen)
 {
-    FrameDesc cheap = desc;
+    PlannedFrame cheap;
     const TechniqueInfo& automatic = automatic_technique();
     cheap.by_material.assign(probe.materials.size(), {automatic.name, automatic.default_samples});
+    if (area)
+        cheap.area_lights = area->setting;
     Clock clock;
     double covered = 0.0;
     for (std::size_t h = 0; h < fronts.size(); ++h) {
@@ -123,8 +133,10 @@ Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& prob
         cheap.by_material[seen[h]] = m.settings[fronts[h].front().setting].setting;
         clock.cost += fronts[h].front().cost, covered += m.share;
     }
+    FrameDesc drawn = desc;
+    cheap.put(drawn);
     const double begin = process_cpu_ms();
-    const Result<Frame> frame = session.render(cheap);
+    const Result<Frame> frame = session.render(drawn);
     BN_TRY(frame);
     clock.ms = process_cpu_ms() - begin;
     // Pixels at edges have several fragments
@@ -133,96 +145,240 @@ Result<Clock> measure(Session& session, const FrameDesc& desc, const Probe& prob
     return clock;
 }
 
-} // namespace
-
-std::vector<MaterialTechnique> Plan::settings() const
+// Returns the probe's settings with the errors and costs of a method for area lights.
+Probe with_area_lights(const Probe& probe, const ProbedAreaLights& area)
 {
-    std::vector<MaterialTechnique> list;
-    for (const PlannedMaterial& m : materials)
-        list.push_back(m.chosen.setting);
-    return list;
+    Probe with = probe;
+    for (std::size_t m = 0; m < with.materials.size(); ++m)
+        for (ProbedSetting& s : with.materials[m].settings)
+            s.error = sum_of_errors(s.error, area.error[m]), s.cost += area.cost;
+    for (std::vector<float>& errors : with.pixels.error)
+        for (std::size_t p = 0; p < errors.size(); ++p)
+            errors[p] = static_cast<float>(sum_of_errors(static_cast<double>(errors[p]), static_cast<double>(area.of_pixel[p])));
+    return with;
 }
 
-Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const std::string& technique, int samples)
-{
-    Plan plan;
-    if (std::min(desc.width, desc.height) < kLeastSide) {
-        plan.aside = fmt::format("a picture of {}x{} costs less than its plan", desc.width, desc.height);
+// A plan for a method for area lights, or for a frame without them.
+struct Candidate {
+    const ProbedAreaLights* area = nullptr;
+    Probe probe; // with the method's errors and costs
+    Choice choice;
+    double error = 0.0, cost = 0.0; // of the picture
+    std::optional<double> p99;
+    bool holds = true; // the budgets
+
+    const ProbedSetting& setting(std::size_t h, std::size_t material) const
+    {
+        return probe.materials[material].settings[choice.fronts[h][choice.at[h]].setting];
+    }
+};
+
+class Planner {
+  public:
+    Planner(Session& session, const FrameDesc& desc, const PlanBudget& budget, const Probe& probe)
+        : session_(session), desc_(desc), budget_(budget), probe_(probe), pixels_(static_cast<double>(desc.width) * desc.height)
+    {
+        for (std::size_t m = 0; m < probe.materials.size(); ++m)
+            if (probe.materials[m].share > 0.0)
+                seen_.push_back(m);
+    }
+
+    bool sees_nothing() const { return seen_.empty(); }
+
+    Result<Plan> plan()
+    {
+        // Find each method's fronts, and this machine's time of the cheapest picture
+        std::vector<Candidate> all(std::max<std::size_t>(1, probe_.area_lights.size()));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i].area = probe_.area_lights.empty() ? nullptr : &probe_.area_lights[i];
+            all[i].probe = all[i].area ? with_area_lights(probe_, *all[i].area) : probe_;
+            for (const std::size_t m : seen_)
+                all[i].choice.fronts.push_back(pareto_front(points_of(all[i].probe.materials[m], pixels_)));
+        }
+        if (budget_.cpu_ms) {
+            const Candidate& cheapest = *std::min_element(
+                all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) { return a.area && a.area->cost < b.area->cost; });
+            const Result<Clock> measured = measure(session_, desc_, cheapest.probe, cheapest.area, cheapest.choice.fronts, seen_);
+            BN_TRY(measured);
+            clock_ = *measured;
+        }
+        // Choose by each method, then the method
+        for (Candidate& candidate : all)
+            choose(candidate);
+        const bool timed = !budget_.error && !budget_.p99; // the least error within a time, else the least cost within errors
+        const auto before = [&](const Candidate& a, const Candidate& b) {
+            if (a.holds != b.holds)
+                return a.holds;
+            if (a.holds != timed)
+                return a.cost < b.cost;
+            return timed || !budget_.p99 || a.p99 == b.p99 ? a.error < b.error : a.p99 < b.p99;
+        };
+        return told(*std::min_element(all.begin(), all.end(), before));
+    }
+
+  private:
+    void choose(Candidate& to) const
+    {
+        if (budget_.error || budget_.p99) // by the percentile alone: the cheapest
+            to.choice.at = within_error(to.choice.fronts, budget_.error ? *budget_.error / kPlanSafety : 1e9);
+        else
+            to.choice.at = within_cost(to.choice.fronts, clock_->cost_within(*budget_.cpu_ms / kTimeSafety));
+        if (budget_.p99)
+            to.choice = within_tail(to.probe, seen_, to.choice, pixels_, budget_);
+        std::vector<std::size_t> settings(probe_.materials.size(), 0);
+        for (std::size_t h = 0; h < seen_.size(); ++h) {
+            settings[seen_[h]] = to.choice.fronts[h][to.choice.at[h]].setting;
+            to.error += to.setting(h, seen_[h]).error * to.probe.materials[seen_[h]].share;
+            to.cost += to.choice.fronts[h][to.choice.at[h]].cost;
+        }
+        if (budget_.p99)
+            to.p99 = tail_of(to.probe, settings);
+        if (budget_.error || budget_.p99) // errors go first
+            to.holds =
+                (!budget_.error || to.error * kPlanSafety <= *budget_.error) && (!budget_.p99 || *to.p99 * kTailSafety <= *budget_.p99);
+        else
+            to.holds = clock_->ms_of(to.cost) <= *budget_.cpu_ms;
+    }
+
+    AreaLightsStep step_of_area(const ProbedAreaLights& area) const
+    {
+        AreaLightsStep step = {area.setting, 0.0, 0.0};
+        for (const std::size_t m : seen_)
+            step.error += area.error[m] * probe_.materials[m].share, step.cost += area.cost * probe_.materials[m].share * pixels_;
+        return step;
+    }
+
+    PlannedAreaLights told_area(const ProbedAreaLights& chosen) const
+    {
+        std::vector<PlanPoint> points;
+        for (std::size_t i = 0; i < probe_.area_lights.size(); ++i) {
+            const AreaLightsStep step = step_of_area(probe_.area_lights[i]);
+            points.push_back({step.cost, step.error, i});
+        }
+        PlannedAreaLights to = {step_of_area(chosen), {}, {}};
+        for (const PlanPoint& p : pareto_front(points)) {
+            const AreaLightsStep step = step_of_area(probe_.area_lights[p.setting]);
+            if (step.cost < to.chosen.cost)
+                to.cheaper = step; // the dearest of those, since costs rise
+            if (step.error < to.chosen.error && step.cost > to.chosen.cost && !to.better)
+                to.better = step;
+        }
+        return to;
+    }
+
+    // Returns the plan with its choices and their neighbours on the fronts; an Error for a budget out of reach.
+    Result<Plan> told(const Candidate& best) const
+    {
+        Plan plan;
+        plan.probe_width = probe_.width, plan.probe_height = probe_.height;
+        plan.error = best.error, plan.cost = best.cost, plan.p99 = best.p99;
+        if (best.area)
+            plan.area_lights = told_area(*best.area);
+        const TechniqueInfo& automatic = automatic_technique();
+        for (std::size_t m = 0; m < probe_.materials.size(); ++m) // materials that are not seen stay as they are by default
+            plan.materials.push_back(
+                {name_of(session_.scene(), m), 0.0, {{automatic.name, automatic.default_samples}, 0.0, 0.0}, {}, {}, {}});
+        for (std::size_t h = 0; h < seen_.size(); ++h) {
+            const ProbedMaterial& m = best.probe.materials[seen_[h]];
+            const std::vector<PlanPoint>& front = best.choice.fronts[h];
+            const std::size_t at = best.choice.at[h];
+            PlannedMaterial& to = plan.materials[seen_[h]];
+            to.share = m.share, to.chosen = step_of(m, front[at]);
+            for (const PlanPoint& p : points_of(m, pixels_))
+                to.all.push_back(step_of(m, p));
+            if (at > 0)
+                to.cheaper = step_of(m, front[at - 1]);
+            if (at + 1 < front.size())
+                to.better = step_of(m, front[at + 1]);
+            plan.default_cost += m.default_cost * m.share * pixels_;
+        }
+        plan.default_error = default_error();
+        if (clock_)
+            plan.cpu_ms = clock_->ms_of(plan.cost);
+        const auto out_of_reach = [](double budget, double least, const char* option) {
+            return Error{ExitCode::usage, "", "", fmt::format("no setting reaches {:.4g} here: the least budget is {:.4g}", budget, least),
+                         option};
+        };
+        if (budget_.error && !(plan.error * kPlanSafety <= *budget_.error))
+            return out_of_reach(*budget_.error, plan.error * kPlanSafety, "");
+        if (budget_.p99 && !(*plan.p99 * kTailSafety <= *budget_.p99))
+            return out_of_reach(*budget_.p99, *plan.p99 * kTailSafety, "--budget-p99");
         return plan;
     }
-    const std::vector<MaterialTechnique> list = allowed(technique, samples);
+
+    // Returns the predicted error of the default technique, with the default method for area lights; nothing where the user leaves them
+    // out.
+    std::optional<double> default_error() const
+    {
+        const ProbedAreaLights* area = nullptr;
+        for (const ProbedAreaLights& a : probe_.area_lights)
+            if (a.setting.way == FrameDesc().area_way)
+                area = &a;
+        if (!area && !probe_.area_lights.empty())
+            return std::nullopt;
+        const TechniqueInfo& automatic = automatic_technique();
+        double error = 0.0;
+        for (const std::size_t m : seen_) {
+            const std::vector<ProbedSetting>& all = probe_.materials[m].settings;
+            const auto found = std::find_if(all.begin(), all.end(), [&](const ProbedSetting& s) {
+                return s.setting.technique == technique_of(FrameDesc()).name && s.setting.samples == automatic.default_samples;
+            });
+            if (found == all.end())
+                return std::nullopt;
+            error += (area ? sum_of_errors(found->error, area->error[m]) : found->error) * probe_.materials[m].share;
+        }
+        return error;
+    }
+
+    Session& session_;
+    const FrameDesc& desc_;
+    const PlanBudget& budget_;
+    const Probe& probe_;
+    double pixels_;                 // of the frame
+    std::vector<std::size_t> seen_; // materials
+    std::optional<Clock> clock_;
+};
+
+} // namespace
+
+void PlannedFrame::put(FrameDesc& desc) const
+{
+    desc.by_material = by_material;
+    if (area_lights)
+        desc.area_way = area_lights->way, desc.light_samples = static_cast<std::uint32_t>(area_lights->samples);
+}
+
+PlannedFrame Plan::frame() const
+{
+    PlannedFrame frame;
+    for (const PlannedMaterial& m : materials)
+        frame.by_material.push_back(m.chosen.setting);
+    if (area_lights)
+        frame.area_lights = area_lights->chosen.setting;
+    return frame;
+}
+
+Result<Plan> make_plan(Session& session, const FrameDesc& desc, const PlanBudget& budget, const PlanFixed& fixed)
+{
+    Plan aside;
+    if (std::min(desc.width, desc.height) < kLeastSide) {
+        aside.aside = fmt::format("a picture of {}x{} costs less than its plan", desc.width, desc.height);
+        return aside;
+    }
+    const std::vector<MaterialTechnique> list = allowed(fixed.technique, fixed.samples);
     if (list.empty())
         return Error{ExitCode::usage, "", "", "no plan can choose this technique or these samples: their costs are not known"};
-    const Result<Probe> probed = probe_frame(session, desc, list, budget.p99.has_value());
-    BN_TRY(probed);
-    const Probe& probe = *probed;
-    plan.probe_width = probe.width, plan.probe_height = probe.height;
-    // Choose from the fronts of the materials that are seen
-    const double pixels = static_cast<double>(desc.width) * desc.height;
-    Choice choice;
-    std::vector<std::size_t> seen;
-    for (std::size_t m = 0; m < probe.materials.size(); ++m)
-        if (probe.materials[m].share > 0.0) {
-            choice.fronts.push_back(pareto_front(points_of(probe.materials[m], pixels)));
-            seen.push_back(m);
-            plan.default_cost += probe.materials[m].default_cost * probe.materials[m].share * pixels;
-        }
-    if (choice.fronts.empty()) {
-        plan.aside = "no solid surface is seen";
-        return plan;
+    const std::vector<AreaLightsSetting> area_lights =
+        fixed.area_lights ? std::vector<AreaLightsSetting>{{desc.area_way, static_cast<int>(desc.light_samples)}} : plannable_area_lights();
+    const Result<Probe> probe = probe_frame(session, desc, list, area_lights, budget.p99.has_value());
+    BN_TRY(probe);
+    Planner planner(session, desc, budget, *probe);
+    if (planner.sees_nothing()) {
+        aside.probe_width = probe->width, aside.probe_height = probe->height;
+        aside.aside = "no solid surface is seen";
+        return aside;
     }
-    std::optional<Clock> clock;
-    if (budget.cpu_ms) {
-        const Result<Clock> measured = measure(session, desc, probe, choice.fronts, seen);
-        BN_TRY(measured);
-        clock = *measured;
-    }
-    if (budget.error || budget.p99) // by the percentile alone: the cheapest
-        choice.at = within_error(choice.fronts, budget.error ? *budget.error / kPlanSafety : 1e9);
-    else
-        choice.at = within_cost(choice.fronts, clock->cost_within(*budget.cpu_ms / kTimeSafety));
-    if (budget.p99)
-        choice = within_tail(probe, seen, choice, pixels, budget);
-    // Tell the choices, and the neighbours on the fronts
-    const TechniqueInfo& automatic = automatic_technique();
-    for (std::size_t m = 0; m < probe.materials.size(); ++m) // materials that are not seen stay as they are by default
-        plan.materials.push_back({name_of(session.scene(), m), 0.0, {{automatic.name, automatic.default_samples}, 0.0, 0.0}, {}, {}, {}});
-    double default_error = 0.0;
-    std::size_t with_default = 0;
-    std::vector<std::size_t> settings(probe.materials.size(), 0);
-    for (std::size_t h = 0; h < seen.size(); ++h) {
-        const ProbedMaterial& m = probe.materials[seen[h]];
-        const std::vector<PlanPoint>& front = choice.fronts[h];
-        const std::size_t at = choice.at[h];
-        PlannedMaterial& to = plan.materials[seen[h]];
-        to.share = m.share, to.chosen = step_of(m, front[at]);
-        settings[seen[h]] = front[at].setting;
-        for (const PlanPoint& p : points_of(m, pixels))
-            to.all.push_back(step_of(m, p));
-        if (at > 0)
-            to.cheaper = step_of(m, front[at - 1]);
-        if (at + 1 < front.size())
-            to.better = step_of(m, front[at + 1]);
-        plan.error += to.chosen.error * m.share, plan.cost += front[at].cost;
-        for (std::size_t i = 0; i < m.settings.size(); ++i) // unless the user's technique or samples leave it out
-            if (m.settings[i].setting.technique == technique_of(FrameDesc()).name &&
-                m.settings[i].setting.samples == automatic.default_samples)
-                default_error += m.settings[i].error * m.share, ++with_default;
-    }
-    if (with_default == seen.size())
-        plan.default_error = default_error;
-    if (clock)
-        plan.cpu_ms = clock->ms_of(plan.cost);
-    if (budget.error && !(plan.error * kPlanSafety <= *budget.error))
-        return Error{ExitCode::usage, "", "",
-                     fmt::format("no setting reaches {:.4g} here: the least budget is {:.4g}", *budget.error, plan.error * kPlanSafety)};
-    if (budget.p99)
-        plan.p99 = tail_of(probe, settings);
-    if (budget.p99 && !(*plan.p99 * kTailSafety <= *budget.p99))
-        return Error{ExitCode::usage, "", "",
-                     fmt::format("no setting reaches {:.4g} here: the least budget is {:.4g}", *budget.p99, *plan.p99 * kTailSafety),
-                     "--budget-p99"};
-    return plan;
+    return planner.plan();
 }
 
 std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
@@ -242,6 +398,18 @@ std::vector<std::string> plan_lines(const Plan& plan, const PlanBudget& budget)
                                 plan.default_error ? fmt::format("; the default: predicted {:.4f}", *plan.default_error) : ""));
     if (!budget.error && !budget.p99)
         lines.push_back("times are those of this machine: another one may get another plan and another hash");
+    if (plan.area_lights) {
+        const AreaLightsStep& chosen = plan.area_lights->chosen;
+        std::string line = fmt::format("area lights: {}, error {:.4f} over the picture", setting_text(chosen.setting), chosen.error);
+        const auto neighbour = [&](const char* what, const std::optional<AreaLightsStep>& step) {
+            if (step)
+                line += fmt::format("; next {}: {}, {:.4f} at {:.2f} of its cost", what, setting_text(step->setting), step->error,
+                                    step->cost / std::max(1.0, chosen.cost));
+        };
+        neighbour("cheaper", plan.area_lights->cheaper);
+        neighbour("better", plan.area_lights->better);
+        lines.push_back(line);
+    }
     for (const PlannedMaterial& m : plan.materials) {
         if (m.share == 0.0)
             continue;

@@ -1,4 +1,5 @@
 // Plans as JSON files.
+#include <algorithm>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
@@ -32,6 +33,29 @@ Json step_json(const PlanStep& step)
     return {{"technique", step.setting.technique}, {"samples", step.setting.samples}, {"error", step.error}, {"instructions", step.cost}};
 }
 
+Json area_json(const AreaLightsStep& step)
+{
+    return {{"method", area_ways()[static_cast<std::size_t>(step.setting.way)].name},
+            {"samples", step.setting.samples},
+            {"error", step.error},
+            {"instructions", step.cost}};
+}
+
+// Reads the method for area lights; an Error for one that is malformed.
+Status read_area_lights(const Json& row, const std::string& path, PlannedFrame& to)
+{
+    const bool whole = row.is_object() && row.contains("method") && row["method"].is_string() && row.contains("samples") &&
+                       row["samples"].is_number_unsigned() && row["samples"].get<std::uint64_t>() <= 65536;
+    if (!whole)
+        return malformed(path, "/area_lights", "needs a method and samples");
+    const std::vector<AreaWayInfo>& ways = area_ways();
+    const auto found = std::find_if(ways.begin(), ways.end(), [&](const AreaWayInfo& way) { return row["method"] == way.name; });
+    if (found == ways.end())
+        return malformed(path, "/area_lights/method", fmt::format("unknown method '{}'", row["method"].get<std::string>()));
+    to.area_lights = {static_cast<int>(found - ways.begin()), static_cast<int>(row["samples"].get<std::uint64_t>())};
+    return {};
+}
+
 } // namespace
 
 std::string plan_json(const Plan& plan, const PlanSubject& subject)
@@ -46,6 +70,13 @@ std::string plan_json(const Plan& plan, const PlanSubject& subject)
     json["instructions"] = plan.cost, json["usual_instructions"] = plan.default_cost;
     if (plan.default_error)
         json["usual_predicted_flip"] = *plan.default_error;
+    if (plan.area_lights) {
+        Json& row = json["area_lights"] = area_json(plan.area_lights->chosen);
+        if (plan.area_lights->cheaper)
+            row["next_cheaper"] = area_json(*plan.area_lights->cheaper);
+        if (plan.area_lights->better)
+            row["next_better"] = area_json(*plan.area_lights->better);
+    }
     json["materials"] = Json::array();
     for (const PlannedMaterial& m : plan.materials) {
         Json row = {{"name", m.name}, {"share", m.share}};
@@ -61,7 +92,7 @@ std::string plan_json(const Plan& plan, const PlanSubject& subject)
     return json_text(json, 2) + "\n";
 }
 
-Result<std::vector<MaterialTechnique>> read_plan(const std::string& path, const PlanSubject& subject, std::size_t materials)
+Result<PlannedFrame> read_plan(const std::string& path, const PlanSubject& subject, std::size_t materials)
 {
     const Result<std::vector<std::uint8_t>> bytes = read_file(path, kMostBytes);
     BN_TRY(bytes);
@@ -82,16 +113,18 @@ Result<std::vector<MaterialTechnique>> read_plan(const std::string& path, const 
     }
     if (!json.contains("materials") || !json["materials"].is_array() || json["materials"].size() != materials)
         return malformed(path, "/materials", fmt::format("is no list of {} materials", materials));
-    std::vector<MaterialTechnique> list;
+    PlannedFrame frame;
+    if (json.contains("area_lights"))
+        BN_TRY(read_area_lights(json["area_lights"], path, frame));
     for (std::size_t i = 0; i < materials; ++i) {
         const Json& row = json["materials"][i];
         const bool whole = row.is_object() && row.contains("technique") && row["technique"].is_string() && row.contains("samples") &&
                            row["samples"].is_number_unsigned() && row["samples"].get<std::uint64_t>() <= 65536;
         if (!whole)
             return malformed(path, fmt::format("/materials/{}", i), "needs a technique and samples");
-        list.push_back({row["technique"].get<std::string>(), static_cast<int>(row["samples"].get<std::uint64_t>())});
+        frame.by_material.push_back({row["technique"].get<std::string>(), static_cast<int>(row["samples"].get<std::uint64_t>())});
     }
-    return list;
+    return frame;
 }
 
 } // namespace burnish

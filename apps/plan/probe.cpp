@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "apps/plan/cost.h"
+#include "apps/plan/probe_errors.h"
 #include "core/base/clock.h"
-#include "core/image/metrics/flip.h"
 #include "core/math/scalar_math.h"
-#include "core/scene/draw_tables.h"
 #include "shading/lang/records.h"
 #include "shading/lang/tables.h"
 
@@ -24,116 +21,10 @@ constexpr std::uint32_t kSeeds[] = {0x51ed270b, 0x2545f491};
 constexpr double kPriorShare = 0.25; // the best prefiltered setting's error over its distance to a single fetch; see the notebook
 constexpr double kLeastShare = 0.05; // the same at least
 constexpr double kMostShare = 0.8;   // the same at most: where noise is skewed, two noisy pictures deceive
-constexpr double kNoiseOff = 0.2;    // the noise's relative deviation, as two noisy pictures tell
-// FLIP grows with this power of a distance between colours (Andersson et al. 2020, section 4.1).
-constexpr double kFlipExponent = 0.7;
-constexpr int kBlock = 8;         // pixels along a block's side; blocks' errors count as independent
-constexpr int kMostExposures = 6; // for HDR-FLIP, over the frame's range
-constexpr int kUnseen = -1;
-
-// The probe pixels' materials; kUnseen for pixels without a solid surface, or with blended surfaces before it.
-struct PixelMaterials {
-    std::vector<int> of; // [pixel]
-    int width = 0, height = 0;
-    std::vector<double> pixels; // of each material
-};
-
-PixelMaterials materials_of(const Frame& frame, const DrawTables& tables, std::size_t count)
-{
-    PixelMaterials m;
-    m.pixels.assign(count, 0.0);
-    m.width = frame.color.width, m.height = frame.color.height;
-    m.of.assign(frame.triangle_ids.size(), kUnseen);
-    for (std::size_t p = 0; p < m.of.size(); ++p) {
-        const std::uint32_t id = frame.triangle_ids[p];
-        if (id != kNoTriangle && (frame.through.empty() || frame.through[p] == 1.0f))
-            m.of[p] = static_cast<int>(tables.triangle_material[id]), m.pixels[tables.triangle_material[id]] += 1.0;
-    }
-    return m;
-}
-
-// Squared distance between colours that a FLIP error stands for, and back. Independent errors' squares add.
-double squared(double flip)
-{
-    return det_pow(std::max(0.0, flip), 2.0 / kFlipExponent);
-}
-double flip_of(double square)
-{
-    return det_pow(std::max(0.0, square), 0.5 * kFlipExponent);
-}
-
-// Returns one noisy picture's squared error to the exact picture, relative to two noisy ones'.
-double squared_error_of_one()
-{
-    return flip_of(0.5) * flip_of(0.5);
-}
-
-// Returns the mean error over each material's pixels.
-std::vector<double> mean_errors(const Image& error, const PixelMaterials& materials)
-{
-    std::vector<double> sums(materials.pixels.size(), 0.0);
-    for (std::size_t p = 0; p < materials.of.size(); ++p)
-        if (materials.of[p] != kUnseen)
-            sums[static_cast<std::size_t>(materials.of[p])] += static_cast<double>(error.f32()[p]);
-    for (std::size_t m = 0; m < sums.size(); ++m)
-        sums[m] /= std::max(1.0, materials.pixels[m]);
-    return sums;
-}
-
-// Error moments over a material's pixels: for a picture against noisy ones, and for one noisy picture.
-struct Moments {
-    double mean = 0.0, square = 0.0, noise_square = 0.0; // mean error, squared errors' means
-    double deviation = 0.0;                              // standard error of `square` - `noise_square`
-};
-
-// of_a, of_b: the picture's errors against two independent noisy ones; of_noise: errors between these two. Pixel blocks tell the
-// deviation.
-std::vector<Moments> moments_of(const Image& of_a, const Image& of_b, const Image& of_noise, const PixelMaterials& materials)
-{
-    // Sums over a block's pixels with one material, and over blocks
-    struct Block {
-        double mean = 0.0, square = 0.0, noise_square = 0.0, pixels = 0.0;
-    };
-    struct Blocks {
-        double risen2 = 0.0, risen_pixels = 0.0, pixels2 = 0.0; // risen: square - noise_square
-    };
-    const double of_one = squared_error_of_one();
-    std::vector<Moments> out(materials.pixels.size());
-    std::vector<Block> block(out.size());
-    std::vector<Blocks> blocks(out.size());
-    std::vector<std::size_t> touched;
-    for (int y0 = 0; y0 < materials.height; y0 += kBlock)
-        for (int x0 = 0; x0 < materials.width; x0 += kBlock) {
-            for (int y = y0; y < std::min(y0 + kBlock, materials.height); ++y)
-                for (int x = x0; x < std::min(x0 + kBlock, materials.width); ++x) {
-                    const std::size_t p =
-                        static_cast<std::size_t>(y) * static_cast<std::size_t>(materials.width) + static_cast<std::size_t>(x);
-                    if (materials.of[p] == kUnseen)
-                        continue;
-                    const std::size_t m = static_cast<std::size_t>(materials.of[p]);
-                    const double a = static_cast<double>(of_a.f32()[p]), b = static_cast<double>(of_b.f32()[p]),
-                                 noise = static_cast<double>(of_noise.f32()[p]);
-                    Block& to = block[m];
-                    if (to.pixels == 0.0)
-                        touched.push_back(m);
-                    to.mean += 0.5 * (a + b), to.square += 0.5 * (a * a + b * b), to.noise_square += of_one * noise * noise;
-                    to.pixels += 1.0;
-                }
-            for (const std::size_t m : touched) {
-                const Block s = std::exchange(block[m], Block{});
-                const double pixels = materials.pixels[m], risen = s.square - s.noise_square;
-                out[m].mean += s.mean / pixels, out[m].square += s.square / pixels, out[m].noise_square += s.noise_square / pixels;
-                blocks[m].risen2 += risen * risen, blocks[m].risen_pixels += risen * s.pixels, blocks[m].pixels2 += s.pixels * s.pixels;
-            }
-            touched.clear();
-        }
-    for (std::size_t m = 0; m < out.size(); ++m) {
-        const double mean = out[m].square - out[m].noise_square;
-        const double squares = blocks[m].risen2 - 2.0 * mean * blocks[m].risen_pixels + mean * mean * blocks[m].pixels2;
-        out[m].deviation = std::sqrt(std::max(0.0, squares)) / std::max(1.0, materials.pixels[m]);
-    }
-    return out;
-}
+constexpr int kMostExposures = 6;    // for HDR-FLIP, over the frame's range
+constexpr int kLightSamples = 16;    // on each area light, for each of two seeds
+constexpr double kLightPower = 1.9;  // the square of their noise falls with this power of the samples
+constexpr double kHiddenShare = 0.3; // error of a method for area lights whose error is hidden, over the noise of one such picture
 
 bool prefiltered(const MaterialTechnique& m)
 {
@@ -146,29 +37,10 @@ double random_share(const MaterialTechnique& s)
     return flip_of(static_cast<double>(kRandomSamples) / static_cast<double>(s.samples));
 }
 
-// Returns the best prefiltered setting's mean error on a material. The measured error without its noise counts as far as this error exceeds
-// its deviation. A guess by the distance to a single fetch counts for the rest.
+// Returns the best prefiltered setting's mean error on a material. A guess by the distance to a single fetch counts where noise hides it.
 double own_error(const Moments& m, double fetch)
 {
-    const double guess = kPriorShare * fetch, least = kLeastShare * fetch, risen = std::max(0.0, m.square - m.noise_square);
-    const double square = squared(std::sqrt(m.square)) - squared(std::sqrt(m.noise_square));
-    const double measured = flip_of(square) * m.mean / std::max(1e-30, std::sqrt(m.square));
-    const double off = kNoiseOff * m.noise_square, variance = m.deviation * m.deviation + off * off;
-    const double weight = risen * risen / std::max(1e-30, risen * risen + variance);
-    return std::clamp(guess + weight * (measured - guess), least, kMostShare * fetch);
-}
-
-double sum_of(const Image& error)
-{
-    const std::size_t pixels = error.bytes.size() / sizeof(float);
-    return std::accumulate(error.f32(), error.f32() + pixels, 0.0);
-}
-
-// Returns two noisy pictures' error as FLIP filters a frame, relative to `error`, as it filters the probe.
-double noise_filter(const Image& a, const Image& b, const Image& error, FlipOptions flip, const Jobs& jobs)
-{
-    flip.ppd = kDefaultPpd;
-    return sum_of(flip_hdr(a, b, flip, jobs).error) / std::max(1e-30, sum_of(error));
+    return std::clamp(error_without_noise(m, kPriorShare * fetch), kLeastShare * fetch, kMostShare * fetch);
 }
 
 FrameDesc probe_desc(const FrameDesc& desc)
@@ -182,6 +54,245 @@ FrameDesc probe_desc(const FrameDesc& desc)
     return d;
 }
 
+// The setting that all others are held against.
+const MaterialTechnique& best_setting(const std::vector<MaterialTechnique>& all)
+{
+    return *std::find_if(all.rbegin(), all.rend(), prefiltered);
+}
+
+// Draws the pictures of a probe, and collects their errors.
+class Prober {
+  public:
+    Prober(Session& session, const FrameDesc& desc, bool by_pixel)
+        : session_(session), jobs_(*session.parts().jobs), by_pixel_(by_pixel), count_(session.scene().materials.size()),
+          lights_(desc.area_way == kAreaWay_off ? 0 : session.tables().area_lights.size()), small_(probe_desc(desc)), seed_(desc.seed),
+          all_(plannable_settings()), best_(best_setting(all_))
+    {
+        if (lights_ > 0)
+            small_.area_way = kAreaWay_ltc; // without noise
+    }
+
+    // Draws the best prefiltered setting. Finds the pixels' materials and lobes, and the exposures of HDR-FLIP.
+    Status draw_best()
+    {
+        small_.layers = small_.triangle_ids = true;
+        Result<Frame> frame = draw(best_, seed_);
+        BN_TRY(frame);
+        small_.layers = small_.triangle_ids = false;
+        materials_ = materials_of(*frame, session_.tables(), count_);
+        lobes_ = lobes_of(*frame, small_);
+        first_ = std::move(frame->color);
+        const FlipExposures range = find_exposures(first_, flip_, jobs_);
+        flip_.start_ev = range.start_ev, flip_.stop_ev = range.stop_ev, flip_.exposures = std::min(range.count, kMostExposures);
+        flip_.ppd = kProbePpd;
+        return {};
+    }
+
+    // Draws two independent noisy pictures by mc. Finds its noise and its processor time.
+    Status draw_noisy()
+    {
+        const double begin = process_cpu_ms();
+        Noisy noisy;
+        BN_TRY(draw_pair({"mc", kRandomSamples}, noisy));
+        noisy_ms_ = 0.5 * (process_cpu_ms() - begin);
+        finish(noisy);
+        moments_ = moments_of(error_of(first_, noisy.one), error_of(first_, noisy.other), noisy.between, materials_);
+        noise_ = std::move(noisy);
+        return {};
+    }
+
+    // Draws the other prefiltered settings. Finds their distances to the best one, and the best one's own error.
+    Status draw_prefiltered()
+    {
+        fetch_.assign(count_, 1.0), fetch_map_.assign(count_, all_.size());
+        double fetch_ms = noisy_ms_;
+        for (const MaterialTechnique& s : all_) {
+            distances_.emplace_back(count_, 0.0);
+            maps_.emplace_back();
+            if (!prefiltered(s) || (s.technique == best_.technique && s.samples == best_.samples))
+                continue;
+            const double before = process_cpu_ms();
+            const Result<Frame> frame = draw(s, seed_);
+            BN_TRY(frame);
+            if (s.samples == 1)
+                fetch_ms = std::min(fetch_ms, process_cpu_ms() - before);
+            maps_.back() = error_of(first_, frame->color);
+            distances_.back() = mean_errors(maps_.back(), materials_);
+            for (std::size_t m = 0; m < count_ && s.samples == 1; ++m)
+                if (distances_.back()[m] < fetch_[m])
+                    fetch_[m] = distances_.back()[m], fetch_map_[m] = maps_.size() - 1;
+        }
+        for (std::size_t m = 0; m < count_; ++m)
+            own_.push_back(own_error(moments_[m], fetch_[m]));
+        double instructions = 0.0;
+        for (std::size_t m = 0; m < count_; ++m)
+            instructions += materials_.pixels[m] * random_over_fetch(kRandomSamples);
+        probe_.ms_per_instruction = std::max(0.0, noisy_ms_ - fetch_ms) / std::max(1.0, instructions);
+        return {};
+    }
+
+    // Draws area lights by points on them, twice, and by the methods in the list. Finds the methods' errors.
+    Status draw_area_lights(const std::vector<AreaLightsSetting>& list)
+    {
+        if (lights_ == 0)
+            return {};
+        Noisy noisy;
+        small_.area_way = kAreaWay_mc, small_.light_samples = kLightSamples;
+        BN_TRY(draw_pair(best_, noisy));
+        small_.area_way = kAreaWay_ltc;
+        finish(noisy);
+        for (const AreaLightsSetting& s : list) {
+            ProbedAreaLights& to = probe_.area_lights.emplace_back();
+            to.setting = s, to.cost = area_lights_cost(s, lights_);
+            if (s.way == kAreaWay_mc) {
+                put_noise(noisy, flip_of(det_pow(static_cast<double>(kLightSamples) / s.samples, kLightPower)), to);
+                continue;
+            }
+            if (s.way == kAreaWay_ltc) {
+                put_errors(noisy, first_, to);
+                continue;
+            }
+            small_.area_way = s.way;
+            const Result<Frame> frame = draw(best_, seed_);
+            small_.area_way = kAreaWay_ltc;
+            BN_TRY(frame);
+            put_errors(noisy, frame->color, to);
+        }
+        return {};
+    }
+
+    // Puts the settings' errors and costs together.
+    Probe take(const std::vector<MaterialTechnique>& settings)
+    {
+        probe_.width = small_.width, probe_.height = small_.height;
+        probe_.materials.resize(count_);
+        const TechniqueInfo& automatic = technique_of(FrameDesc{});
+        const std::vector<double> default_costs = mean_costs({automatic.name, automatic.default_samples}, lobes_, materials_.of, count_);
+        const double lights = lights_ > 0 ? area_lights_cost({FrameDesc().area_way, 1}, lights_) : 0.0;
+        for (std::size_t m = 0; m < count_; ++m)
+            probe_.materials[m].share = materials_.pixels[m] / static_cast<double>(materials_.of.size()),
+            probe_.materials[m].default_cost = default_costs[m] + lights;
+        for (const MaterialTechnique& s : settings)
+            put_setting(s);
+        if (by_pixel_)
+            probe_.pixels.material = materials_.of;
+        return std::move(probe_);
+    }
+
+  private:
+    // Two independent noisy pictures, the errors between them, and one picture's mean error by material.
+    struct Noisy {
+        Image one, other, between;
+        double of_pixel = 0.0; // factor on `between` for one picture's error
+        std::vector<double> mean;
+    };
+
+    Result<Frame> draw(const MaterialTechnique& by, std::uint32_t seed)
+    {
+        small_.technique = by.technique, small_.samples = by.samples, small_.seed = seed;
+        return session_.render(small_);
+    }
+
+    Status draw_pair(const MaterialTechnique& by, Noisy& to)
+    {
+        Result<Frame> one = draw(by, kSeeds[0]), other = draw(by, kSeeds[1]);
+        BN_TRY(one);
+        BN_TRY(other);
+        to.one = std::move(one->color), to.other = std::move(other->color);
+        return {};
+    }
+
+    Image error_of(const Image& a, const Image& b) const { return flip_hdr(a, b, flip_, jobs_).error; }
+
+    // Noise has no scale: it is filtered as the frame's is filtered.
+    void finish(Noisy& noisy) const
+    {
+        noisy.between = error_of(noisy.one, noisy.other);
+        noisy.mean = mean_errors(noisy.between, materials_);
+        noisy.of_pixel = noise_filter(noisy.one, noisy.other, noisy.between, flip_, jobs_) * flip_of(0.5);
+        for (double& mean : noisy.mean)
+            mean *= noisy.of_pixel;
+    }
+
+    void put_noise(const Noisy& noisy, double share, ProbedAreaLights& to) const
+    {
+        for (const double mean : noisy.mean)
+            to.error.push_back(mean * share);
+        if (by_pixel_)
+            for (std::size_t p = 0; p < materials_.of.size(); ++p)
+                to.of_pixel.push_back(static_cast<float>(static_cast<double>(noisy.between.f32()[p]) * noisy.of_pixel * share));
+    }
+
+    void put_errors(const Noisy& noisy, const Image& picture, ProbedAreaLights& to) const
+    {
+        const Image of_one = error_of(picture, noisy.one), of_other = error_of(picture, noisy.other);
+        const std::vector<Moments> moments = moments_of(of_one, of_other, noisy.between, materials_);
+        for (std::size_t m = 0; m < count_; ++m)
+            to.error.push_back(std::max(0.0, error_without_noise(moments[m], kHiddenShare * noisy.mean[m])));
+        for (std::size_t p = 0; by_pixel_ && p < materials_.of.size(); ++p) {
+            if (materials_.of[p] == kUnseen) {
+                to.of_pixel.push_back(0.0f);
+                continue;
+            }
+            const auto m = static_cast<std::size_t>(materials_.of[p]);
+            const double part = 0.5 * (static_cast<double>(of_one.f32()[p]) + static_cast<double>(of_other.f32()[p]));
+            to.of_pixel.push_back(static_cast<float>(to.error[m] * part / std::max(1e-30, moments[m].mean)));
+        }
+    }
+
+    void put_setting(const MaterialTechnique& s)
+    {
+        const std::vector<double> costs = mean_costs(s, lobes_, materials_.of, count_);
+        const auto at = static_cast<std::size_t>(
+            std::find_if(all_.begin(), all_.end(),
+                         [&](const MaterialTechnique& a) { return a.technique == s.technique && a.samples == s.samples; }) -
+            all_.begin());
+        for (std::size_t m = 0; m < count_; ++m)
+            if (materials_.pixels[m] > 0.0)
+                probe_.materials[m].settings.push_back(
+                    {s, prefiltered(s) ? sum_of_errors(distances_[at][m], own_[m]) : noise_.mean[m] * random_share(s), costs[m]});
+        if (!by_pixel_)
+            return;
+        probe_.pixels.error.emplace_back(materials_.of.size(), 0.0f);
+        for (std::size_t p = 0; p < materials_.of.size(); ++p)
+            if (materials_.of[p] != kUnseen)
+                probe_.pixels.error.back()[p] = static_cast<float>(pixel_error(s, at, p));
+    }
+
+    double pixel_error(const MaterialTechnique& s, std::size_t at, std::size_t p) const
+    {
+        const auto m = static_cast<std::size_t>(materials_.of[p]);
+        if (!prefiltered(s))
+            return static_cast<double>(noise_.between.f32()[p]) * noise_.of_pixel * random_share(s);
+        const double distance = maps_[at].bytes.empty() ? 0.0 : static_cast<double>(maps_[at].f32()[p]);
+        const double part =
+            fetch_map_[m] < all_.size() ? static_cast<double>(maps_[fetch_map_[m]].f32()[p]) / std::max(1e-30, fetch_[m]) : 1.0;
+        return sum_of_errors(distance, own_[m] * part);
+    }
+
+    Session& session_;
+    const Jobs& jobs_;
+    bool by_pixel_;
+    std::size_t count_, lights_; // materials; area lights that give light
+    FrameDesc small_;
+    std::uint32_t seed_;
+    const std::vector<MaterialTechnique> all_;
+    const MaterialTechnique& best_;
+    Image first_; // by the best setting
+    PixelMaterials materials_;
+    PixelLobes lobes_;
+    FlipOptions flip_;
+    Noisy noise_; // of mc
+    double noisy_ms_ = 0.0;
+    std::vector<Moments> moments_;               // of the best setting against mc
+    std::vector<std::vector<double>> distances_; // [setting][material] to the best one
+    std::vector<Image> maps_;                    // of the distances
+    std::vector<double> fetch_;                  // the better single fetch's, by material
+    std::vector<std::size_t> fetch_map_;         // its place
+    std::vector<double> own_;                    // errors of the best setting
+    Probe probe_;
+};
+
 } // namespace
 
 std::vector<MaterialTechnique> plannable_settings()
@@ -192,113 +303,23 @@ std::vector<MaterialTechnique> plannable_settings()
     return list;
 }
 
-Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings, bool by_pixel)
+std::vector<AreaLightsSetting> plannable_area_lights()
 {
-    const Jobs& jobs = *session.parts().jobs;
-    const std::size_t count = session.scene().materials.size();
-    FrameDesc small = probe_desc(desc);
-    const auto draw = [&](const MaterialTechnique& by, std::uint32_t seed) {
-        small.technique = by.technique, small.samples = by.samples, small.seed = seed;
-        return session.render(small);
-    };
-    // Draw the best prefiltered setting, with the pixels' materials and lobes
-    small.layers = small.triangle_ids = true;
-    const std::vector<MaterialTechnique> all = plannable_settings();
-    const MaterialTechnique& best = *std::find_if(all.rbegin(), all.rend(), prefiltered);
-    const Result<Frame> first = draw(best, desc.seed);
-    BN_TRY(first);
-    small.layers = small.triangle_ids = false;
-    const PixelMaterials materials = materials_of(*first, session.tables(), count);
-    const PixelLobes lobes = lobes_of(*first, small);
-    // Draw two independent noisy pictures, and note their processor time
-    const double begin = process_cpu_ms();
-    const Result<Frame> one = draw({"mc", kRandomSamples}, kSeeds[0]), other = draw({"mc", kRandomSamples}, kSeeds[1]);
-    BN_TRY(one);
-    BN_TRY(other);
-    const double noisy_ms = 0.5 * (process_cpu_ms() - begin);
-    FlipOptions flip;
-    const FlipExposures range = find_exposures(first->color, flip, jobs);
-    flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = std::min(range.count, kMostExposures);
-    flip.ppd = kProbePpd;
-    const auto error_of = [&](const Image& a, const Image& b) { return flip_hdr(a, b, flip, jobs).error; };
-    const Image of_noise = error_of(one->color, other->color);
-    const Image of_one = error_of(first->color, one->color), of_other = error_of(first->color, other->color);
-    const std::vector<Moments> moments = moments_of(of_one, of_other, of_noise, materials);
-    // Noise has no scale: filter it as the frame's is filtered
-    const double filtered = noise_filter(one->color, other->color, of_noise, flip, jobs);
-    std::vector<double> noise = mean_errors(of_noise, materials);
-    for (double& n : noise)
-        n *= filtered * flip_of(0.5);
-    // Find each setting's distance to the best one
-    std::vector<std::vector<double>> distances;
-    std::vector<Image> maps;                               // of the distances
-    std::vector<double> fetch(count, 1.0);                 // the better single fetch's
-    std::vector<std::size_t> fetch_map(count, all.size()); // its index
-    double fetch_ms = noisy_ms;
-    for (const MaterialTechnique& s : all) {
-        distances.emplace_back(count, 0.0);
-        maps.emplace_back();
-        if (!prefiltered(s) || (s.technique == best.technique && s.samples == best.samples))
-            continue;
-        const double before = process_cpu_ms();
-        const Result<Frame> frame = draw(s, desc.seed);
-        BN_TRY(frame);
-        if (s.samples == 1)
-            fetch_ms = std::min(fetch_ms, process_cpu_ms() - before);
-        maps.back() = error_of(first->color, frame->color);
-        distances.back() = mean_errors(maps.back(), materials);
-        for (std::size_t m = 0; m < count && s.samples == 1; ++m)
-            if (distances.back()[m] < fetch[m])
-                fetch[m] = distances.back()[m], fetch_map[m] = maps.size() - 1;
-    }
-    // Find the best setting's own error
-    std::vector<double> own(count, 0.0);
-    for (std::size_t m = 0; m < count; ++m)
-        own[m] = own_error(moments[m], fetch[m]);
-    // Put the settings' errors together
-    Probe probe;
-    probe.width = small.width, probe.height = small.height;
-    probe.materials.resize(count);
-    double instructions = 0.0;
-    for (std::size_t m = 0; m < count; ++m)
-        instructions += materials.pixels[m] * random_over_fetch(kRandomSamples);
-    probe.ms_per_instruction = std::max(0.0, noisy_ms - fetch_ms) / std::max(1.0, instructions);
-    const TechniqueInfo& automatic = technique_of(FrameDesc{});
-    const std::vector<double> default_costs = mean_costs({automatic.name, automatic.default_samples}, lobes, materials.of, count);
-    for (std::size_t m = 0; m < count; ++m)
-        probe.materials[m].share = materials.pixels[m] / static_cast<double>(materials.of.size()),
-        probe.materials[m].default_cost = default_costs[m];
-    for (const MaterialTechnique& s : settings) {
-        const std::vector<double> costs = mean_costs(s, lobes, materials.of, count);
-        const std::size_t at = static_cast<std::size_t>(
-            std::find_if(all.begin(), all.end(),
-                         [&](const MaterialTechnique& a) { return a.technique == s.technique && a.samples == s.samples; }) -
-            all.begin());
-        for (std::size_t m = 0; m < count; ++m) {
-            if (materials.pixels[m] == 0.0)
-                continue;
-            const double random = noise[m] * random_share(s);
-            const double error = prefiltered(s) ? flip_of(squared(distances[at][m]) + squared(own[m])) : random;
-            probe.materials[m].settings.push_back({s, error, costs[m]});
-        }
-        if (!by_pixel)
-            continue;
-        probe.pixels.error.emplace_back(materials.of.size(), 0.0f);
-        for (std::size_t p = 0; p < materials.of.size(); ++p) {
-            if (materials.of[p] == kUnseen)
-                continue;
-            const std::size_t m = static_cast<std::size_t>(materials.of[p]);
-            const double distance = maps[at].bytes.empty() ? 0.0 : static_cast<double>(maps[at].f32()[p]);
-            const double part =
-                fetch_map[m] < all.size() ? static_cast<double>(maps[fetch_map[m]].f32()[p]) / std::max(1e-30, fetch[m]) : 1.0;
-            const double random = static_cast<double>(of_noise.f32()[p]) * filtered * flip_of(0.5) * random_share(s);
-            probe.pixels.error.back()[p] =
-                static_cast<float>(prefiltered(s) ? flip_of(squared(distance) + squared(own[m] * part)) : random);
-        }
-    }
-    if (by_pixel)
-        probe.pixels.material = materials.of;
-    return probe;
+    std::vector<AreaLightsSetting> list;
+    for (const AreaLightsCost& c : area_lights_costs())
+        list.push_back({c.way, c.samples});
+    return list;
+}
+
+Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings,
+                          const std::vector<AreaLightsSetting>& area_lights, bool by_pixel)
+{
+    Prober prober(session, desc, by_pixel);
+    BN_TRY(prober.draw_best());
+    BN_TRY(prober.draw_noisy());
+    BN_TRY(prober.draw_prefiltered());
+    BN_TRY(prober.draw_area_lights(area_lights));
+    return prober.take(settings);
 }
 
 } // namespace burnish

@@ -155,8 +155,8 @@ Result<View> view_of_step(const Step& step, int i, const Session& session, const
 }
 
 // Plans the first step. Notes the plan's figures.
-Result<std::vector<MaterialTechnique>> plan_first_step(const Step& step, Session& session, const std::vector<View>& turntable,
-                                                       RenderFigures& figures, Report& report)
+Result<PlannedFrame> plan_first_step(const Step& step, Session& session, const std::vector<View>& turntable, RenderFigures& figures,
+                                     Report& report)
 {
     const Result<View> view = view_of_step(step, 0, session, turntable);
     BN_TRY(view);
@@ -165,7 +165,10 @@ Result<std::vector<MaterialTechnique>> plan_first_step(const Step& step, Session
     const Result<std::optional<Plan>> plan = plan_frame(step.options, desc, session, report);
     BN_TRY(plan);
     note_plan(step.options, desc, *plan, figures);
-    return desc.by_material;
+    PlannedFrame planned = {desc.by_material, {}};
+    if (!desc.by_material.empty() && !step.options.fixes_area_lights)
+        planned.area_lights = AreaLightsSetting{desc.area_way, static_cast<int>(desc.light_samples)};
+    return planned;
 }
 
 // Returns the previous step's parts with the changed parts made anew.
@@ -190,7 +193,7 @@ struct Row {
     Animation& animation;
     Session& session; // has the parts of step `at`
     const std::vector<View>& turntable;
-    const std::vector<MaterialTechnique>& planned;
+    const PlannedFrame& planned;
     const RenderFigures& figures;
     std::optional<Error>& lost_checkpoint;
     int at = 0;
@@ -211,7 +214,8 @@ Result<Rendered> draw_step(Row& row, const Step& step, int i)
     const Result<View> view = view_of_step(step, i, row.session, row.turntable);
     BN_TRY(view);
     FrameDesc desc = step.options.frame;
-    desc.view = *view, desc.by_material = row.planned;
+    desc.view = *view;
+    row.planned.put(desc);
     return render_frames(step.options, desc, row.session, row.figures);
 }
 
@@ -393,7 +397,7 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
         turntable = turntable_views(session->tables(), first.frame, first.orbit_deg.value_or(kDefaultOrbitDeg),
                                     first.fov_y_deg.value_or(kDefaultFovDeg) * kRadiansPerDegree, row->count());
     // Plan the first step for all, so that no step changes how a material is drawn
-    const Result<std::vector<MaterialTechnique>> planned = plan_first_step(*row->step(0), *session, turntable, figures, report);
+    const Result<PlannedFrame> planned = plan_first_step(*row->step(0), *session, turntable, figures, report);
     if (!planned)
         return fail(planned.error());
     Row drawn{*row, *session, turntable, *planned, figures, lost_checkpoint};

@@ -43,15 +43,14 @@ PlanBudget budget_of(const RenderOptions& options)
 Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, Session& session)
 {
     const PlanBudget budget = budget_of(options);
-    const std::string technique = options.fixes_technique ? desc.technique : "";
-    const int samples = options.fixed_samples;
+    const PlanFixed fixed = {options.fixes_technique ? desc.technique : "", options.fixed_samples, options.fixes_area_lights};
     if (options.backend == "tile")
-        return make_plan(session, desc, budget, technique, samples);
+        return make_plan(session, desc, budget, fixed);
     SessionOptions by_tiles;
     by_tiles.isa = options.isa;
     Result<Session> tiles = Session::make(session.parts(), by_tiles);
     BN_TRY(tiles);
-    return make_plan(*tiles, desc, budget, technique, samples);
+    return make_plan(*tiles, desc, budget, fixed);
 }
 
 } // namespace
@@ -59,12 +58,13 @@ Result<Plan> plan_by_tiles(const RenderOptions& options, const FrameDesc& desc, 
 Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& desc, Session& session, Report& report)
 {
     if (!options.plan_file.empty()) {
-        Result<std::vector<MaterialTechnique>> read =
+        const Result<PlannedFrame> read =
             read_plan(options.plan_file, subject_of(options, desc, session), session.scene().materials.size());
         BN_TRY(read);
-        desc.by_material = std::move(*read);
+        read->put(desc);
         if (const Status ok = check_desc(desc); !ok)
-            return Error{ExitCode::bad_input, options.plan_file, "/materials", ok.error().line()};
+            return Error{ExitCode::bad_input, options.plan_file,
+                         ok.error().field.starts_with("FrameDesc::by_material") ? "/materials" : "/area_lights", ok.error().line()};
         return std::optional<Plan>();
     }
     if (!options.plans())
@@ -89,12 +89,13 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
     }
     if (plan->aside.empty())
         report.detail("probe", fmt::format("{}x{}, {:.1f} ms", plan->probe_width, plan->probe_height, ms));
+    const PlanSubject subject = subject_of(options, desc, session); // of the frame without its plan
     if (plan->aside.empty())
-        desc.by_material = plan->settings();
+        plan->frame().put(desc);
     if (!options.plan_out.empty() && !plan->aside.empty())
         report.warning("--plan-out: there is no plan to write");
     else if (!options.plan_out.empty()) {
-        BN_TRY(write_text(options.plan_out, plan_json(*plan, subject_of(options, desc, session))));
+        BN_TRY(write_text(options.plan_out, plan_json(*plan, subject)));
         report.wrote(options.plan_out);
     }
     return std::optional<Plan>(std::move(*plan));

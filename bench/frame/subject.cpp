@@ -89,6 +89,7 @@ class TileSubject final : public Subject {
         desc_.technique = w.technique;
         desc_.samples = w.samples ? w.samples : find_technique(w.technique)->default_samples;
         desc_.frame_map = w.frame_map, desc_.area_way = way_named(w.area_way);
+        desc_.light_samples = static_cast<std::uint32_t>(w.light_samples);
         desc_.background = w.background;
         if (w.eta != 0.0f)
             desc_.roughness = w.roughness, desc_.override_anisotropy = true, desc_.anisotropy = w.eta;

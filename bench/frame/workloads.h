@@ -28,6 +28,7 @@ struct Workload {
     int extracted_lights = 0; // synthetic ones, above the scene
     int quads = 0;            // area lights behind the eye; each lights every pixel
     const char* area_way = "ltc";
+    int light_samples = 16; // on each quad, for area_way mc
     int frame_map = kFrameGramSchmidt;
     bool background = true;  // drawn where no surface is
     double along = 0.0;      // in a series of workloads that differ in one number: this number

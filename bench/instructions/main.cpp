@@ -2,8 +2,10 @@
 // counting, so that memory has grown and its pages exist. Then counts one frame and writes its figures to a separate
 // file. See count.py.
 //
-// Arguments select workloads: NAME, NAME@WIDTHxHEIGHT for another size (mix.py), or TECHNIQUE:SAMPLES:ALPHA_LIN:ETA for
-// the inside of a brushed sphere (lobe_line.py). --steps counts without valgrind, on AVX-512 and smaller frames.
+// Arguments select workloads: NAME, NAME@WIDTHxHEIGHT for another size (mix.py), TECHNIQUE:SAMPLES:ALPHA_LIN:ETA for
+// the inside of a brushed sphere (lobe_line.py), or area-lights:WAY:SAMPLES:QUADS for bent_normal in that sphere under
+// quads (plan_costs.py). --steps counts without valgrind, on AVX-512 and smaller frames.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -117,6 +119,26 @@ std::optional<Workload> place(const char* text)
     return w;
 }
 
+// Parses area-lights:WAY:SAMPLES:QUADS into a workload with this text as its name; nothing for other text.
+std::optional<Workload> area_lights_place(const char* text)
+{
+    constexpr std::string_view kBegin = "area-lights:";
+    const std::string_view all = text;
+    const std::size_t colon = all.starts_with(kBegin) ? all.find(':', kBegin.size()) : std::string_view::npos;
+    if (colon == std::string_view::npos)
+        return std::nullopt;
+    const std::string_view name = all.substr(kBegin.size(), colon - kBegin.size());
+    const auto way = std::find_if(area_ways().begin(), area_ways().end(), [&](const AreaWayInfo& a) { return name == a.name; });
+    Workload w = {text, "instructions", BenchScene::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f};
+    char end = 0;
+    if (way == area_ways().end() || std::sscanf(text + colon, ":%d:%d%c", &w.light_samples, &w.quads, &end) != 2)
+        return std::nullopt;
+    if (w.light_samples < 1 || w.light_samples > 65536 || w.quads < 0 || w.quads > 64)
+        return std::nullopt;
+    w.area_way = way->name;
+    return w;
+}
+
 // Calls `counted` with each workload and its frame. Draws the frame once before, so that memory has grown and its pages
 // exist. Returns an exit code, 0 for success.
 int each_frame(const std::vector<Workload>& list, Isa isa, const std::function<int(const Workload&, const std::function<void()>&)>& counted)
@@ -199,10 +221,13 @@ int main(int argc, char** argv)
             std::optional<Workload> w = known(argv[i]);
             if (!w)
                 w = place(argv[i]);
+            if (!w)
+                w = area_lights_place(argv[i]);
             if (!w) {
                 fmt::print(
                     stderr,
-                    "usage: bench_instructions [--made-with | [--steps] NAME[@WIDTHxHEIGHT]... | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA...] "
+                    "usage: bench_instructions [--made-with | [--steps] NAME[@WIDTHxHEIGHT]... | TECHNIQUE:SAMPLES:ALPHA_LIN:ETA... | "
+                    "area-lights:WAY:SAMPLES:QUADS...] "
                     "(ETA is not 0)\n");
                 return static_cast<int>(ExitCode::usage);
             }
