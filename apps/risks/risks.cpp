@@ -10,7 +10,7 @@
 #include "apps/cli/parse.h"
 #include "apps/options/scene_view.h"
 #include "apps/risks/assets.h"
-#include "apps/risks/blessed.h"
+#include "apps/risks/golden_figures.h"
 #include "apps/risks/sky.h"
 #include "core/base/check.h"
 #include "shading/bake/environment/cube_map.h"
@@ -87,14 +87,15 @@ std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 
 Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 {
-    const std::string table(kAtlasBlessed.bytes, kAtlasBlessed.size);
+    const std::string table(kAtlasGolden.bytes, kAtlasGolden.size);
     std::vector<Active> out;
     SettingReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
         const Rule& rule = kRules[r];
         if (!names(rule.readers, technique_of(desc).name))
             continue;
-        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets; above 1: none
+        // kEarly relates to the row's onset; above 1: none
+        const std::optional<GoldenFigures> row = find_row(table, kQuickWalk.name, rule.entry);
         if (!row || row->onset > 1.0)
             continue;
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
