@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 
 namespace burnish {
 namespace {

@@ -4,6 +4,6 @@
 
 namespace burnish {
 
-extern const EmbeddedFile kAtlasBlessed; // blessed.txt
+extern const EmbeddedFile kAtlasGolden; // golden_figures.txt
 
 } // namespace burnish

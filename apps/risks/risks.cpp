@@ -10,7 +10,7 @@
 #include "apps/cli/parse.h"
 #include "apps/options/scene_view.h"
 #include "apps/risks/assets.h"
-#include "apps/risks/blessed.h"
+#include "apps/risks/golden_figures.h"
 #include "apps/risks/sky.h"
 #include "core/base/check.h"
 #include "shading/bake/environment/cube_map.h"
@@ -87,14 +87,15 @@ std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
 
 Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 {
-    const std::string table(kAtlasBlessed.bytes, kAtlasBlessed.size);
+    const std::string table(kAtlasGolden.bytes, kAtlasGolden.size);
     std::vector<Active> out;
     SettingReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
         const Rule& rule = kRules[r];
         if (!names(rule.readers, technique_of(desc).name))
             continue;
-        const std::optional<BlessedRow> row = find_row(table, kQuickWalk.name, rule.entry); // kEarly relates to its onsets; above 1: none
+        // kEarly relates to the row's onset; above 1: none
+        const std::optional<GoldenFigures> row = find_row(table, kQuickWalk.name, rule.entry);
         if (!row || row->onset > 1.0)
             continue;
         const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
@@ -245,12 +246,12 @@ Changes Looker::changes(const PixelLayers& at, const RiskInputs& i, const glm::v
     // Evaluate the round and the bent approximation
     const float f = fresnel, one = wanted(Change::round) ? f * seen(n, v, round) : 0.0f, stretch = std::min(measure_bend(i), 0.999f);
     const float bent = wanted(Change::bent) ? f * seen(n * (1.0f - stretch) + (v - w * glm::dot(v, w)) * stretch, v, bent_of(i)) : 0.0f;
-    const glm::vec2 key = f * extracted_lights(n, u, w, i, v); // anisotropic, round
+    const glm::vec2 extracted = f * extracted_lights(n, u, w, i, v); // anisotropic, round
     const auto apart = [](float a, float b) { return std::abs(std::log(a / b)); };
-    const float mean = sum + key.x, spread = std::log((most + key.x) / (least + key.x));
-    return {apart(mean, one + other + key.y), apart(mean, bent + other + key.x),
-            apart(mean, middle + key.x),      spread,
-            spread / std::sqrt(i.samples),    1.0f};
+    const float mean = sum + extracted.x, spread = std::log((most + extracted.x) / (least + extracted.x));
+    return {apart(mean, one + other + extracted.y), apart(mean, bent + other + extracted.x),
+            apart(mean, middle + extracted.x),      spread,
+            spread / std::sqrt(i.samples),          1.0f};
 }
 
 std::uint32_t Looker::look(int x, int y, const std::vector<Active>& active, std::uint8_t& furthest) const

@@ -87,21 +87,21 @@ def main(arguments):
     program = str(pathlib.Path(options.program).resolve())
     try:
         made = made_with(program)
-        blessed = json.loads(BUDGETS.read_text()) if BUDGETS.exists() else {"made_with": {}, "instructions": {}}
-        if not options.bless and made != blessed["made_with"]:
-            raise Skip(f"budgets hold for {blessed['made_with']}, this is {made}")
+        golden = json.loads(BUDGETS.read_text()) if BUDGETS.exists() else {"made_with": {}, "instructions": {}}
+        if not options.bless and made != golden["made_with"]:
+            raise Skip(f"budgets hold for {golden['made_with']}, this is {made}")
         counts, steps = count(program), count_steps(program)
     except Skip as reason:
         print("skipped:", reason)
         return SKIPPED
     if not counts:
         sys.exit("valgrind counted nothing")
-    faults = judge("AVX2", counts, blessed["instructions"])
+    faults = judge("AVX2", counts, golden["instructions"])
     if steps is None:
         print("AVX-512: not counted on this machine")
-        steps = blessed.get("instructions_avx512", {})
+        steps = golden.get("instructions_avx512", {})
     else:
-        faults += judge("AVX-512", steps, blessed.get("instructions_avx512", {}))
+        faults += judge("AVX-512", steps, golden.get("instructions_avx512", {}))
     if options.bless:
         new = {"made_with": made, "instructions": dict(sorted(counts.items())), "instructions_avx512": dict(sorted(steps.items()))}
         BUDGETS.write_text(json.dumps(new, indent=1) + "\n")

@@ -219,7 +219,7 @@ def distances(program, folder, pictures, references=None):
     """Returns each scene's mean FLIP to its reference, or to the pictures of another folder."""
     found = {}
     for scene in (s["name"] for s in json.loads((folder / "conform.json").read_text())["scenes"]):
-        run = subprocess.run([program, "compare", picture_of(references or folder / "truth", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
+        run = subprocess.run([program, "compare", picture_of(references or folder / "reference", scene), picture_of(pictures, scene), "--metric", "flip-hdr", "--json", "-", "--quiet"],
                              capture_output=True, text=True)
         if run.returncode:
             raise RuntimeError(run.stderr.strip())

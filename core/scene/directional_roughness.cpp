@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "core/scene/texture.h"
 
 namespace burnish {

@@ -14,7 +14,7 @@
 #include "core/image/io/image_io.h"
 #include "core/image/io/stored_colour.h"
 #include "core/math/scalar_math.h"
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "core/scene/pictures_ahead.h"
 #include "core/scene/texture.h"
 

@@ -79,8 +79,8 @@ struct Material { // material.def
 #define BN_CHOICE(type, name, words, path) type name = type{};
 #define BN_TEXTURE(name, path) TextureRef name;
 #include "core/scene/material.def"
-    int emitter = kNoEmitter; // whether it shows an area light, see above
-    bool heights = false;     // normal_tex's alpha holds heights, [0,1]
+    int emitter = kNoEmitter;    // whether it shows an area light, see above
+    bool has_height_map = false; // normal_tex's alpha holds heights, [0,1]
 };
 
 enum class WrapMode : std::uint8_t { repeat, clamp, mirror };

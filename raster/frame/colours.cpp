@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/image/colour.h"
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "raster/frame/pyramids.h"
 #include "shading/bake/mip/anisotropy.h"
 #include "shading/bake/mip/map_levels.h"
@@ -83,7 +83,7 @@ std::vector<UsedMap> used_maps(const Scene& scene, const Material& m, const Mate
          {std::pair(MapPart::base_color, &m.base_color_tex), {MapPart::metallic_roughness, &m.metallic_roughness_tex}})
         if (ref->used())
             maps.push_back({part, ref, kernel, is_coupled(scene, m, mips, *ref)});
-    if (m.heights && m.normal_tex.used())
+    if (m.has_height_map && m.normal_tex.used())
         maps.push_back({MapPart::height, &m.normal_tex, ColourKernel::box, false});
     return maps;
 }

@@ -29,7 +29,7 @@ float mean_roughness(const Scene& scene, const Material& m)
 KeptWeights kept_weights_of(const Scene& scene, const Material& m, const MaterialMips& mips)
 {
     const bool anisotropic = m.anisotropy_strength != 0.0f || m.anisotropy_tex.used(); // facets are round
-    if (!m.normal_tex.used() || m.heights || m.unlit || anisotropic || has_gains(m, mips))
+    if (!m.normal_tex.used() || m.has_height_map || m.unlit || anisotropic || has_gains(m, mips))
         return {};
     return kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m)));
 }
@@ -103,7 +103,7 @@ void put_far_normals(const Scene& scene, const Material& m, const MaterialMips& 
 
 std::string why_dim(const Scene& scene, const Material& m)
 {
-    if (!m.normal_tex.used() || m.unlit || !m.heights)
+    if (!m.normal_tex.used() || m.unlit || !m.has_height_map)
         return "";
     constexpr float kMuch = 0.2f;
     if (kept_weights(normals_of(scene, m), kept_shares(mean_roughness(scene, m))).loss < kMuch)

@@ -92,8 +92,8 @@ class RowWriter {
         if ((map.channels != 2 && map.channels != 4) || map.width != source_.width() || map.height != source_.height())
             return;
         const MapLevels* heights =
-            material_.heights ? given_map(scene, all, material_, {MapPart::height, &material_.normal_tex, ColourKernel::box, false})
-                              : nullptr;
+            material_.has_height_map ? given_map(scene, all, material_, {MapPart::height, &material_.normal_tex, ColourKernel::box, false})
+                                     : nullptr;
         const TexturePyramid own =
             heights ? pyramid_of_map(map, sampler, *heights) : make_texture_pyramid(map, sampler, TextureEncoding::linear);
         for (int level = 0; level < own.levels; ++level) {

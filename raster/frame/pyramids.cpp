@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/jobs/activity.h"
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "raster/frame/coat_normals.h"
 #include "raster/frame/colours.h"
 #include "raster/frame/far_normals.h"
@@ -150,7 +150,7 @@ std::int32_t owner_of(const Scene& scene, const SceneMips& all, std::size_t mate
         return std::tuple(of.kind, of.slopes ? of.slopes->texture : kNone, of.slopes == &m.tilt_tex,
                           of.direction || of.filtered ? m.anisotropy_tex.texture : kNone, slope_scale(m), m.roughness,
                           m.anisotropy_strength, m.anisotropy_rotation, of.filtered, own ? mips.filter : MipFilter{},
-                          own ? mips.kappa : 0.0f, mips.net.get(), of_metal ? m.metallic : 0.0f, gains, of.filtered && m.heights,
+                          own ? mips.kappa : 0.0f, mips.net.get(), of_metal ? m.metallic : 0.0f, gains, of.filtered && m.has_height_map,
                           of.filtered ? m.normal_tex.texture : kNone, of.filtered ? m.metallic_roughness_tex.texture : kNone);
     };
     return first_alike(material, content);
@@ -170,8 +170,8 @@ std::int32_t first_that_keeps(const Scene& scene, const SceneMips& mips, std::si
 {
     return first_alike(material, [&](std::size_t i) {
         const Material& of = scene.materials[i];
-        return std::tuple(of.normal_tex.texture, of.normal_scale, of.roughness, of.metallic_roughness_tex.texture, of.heights, of.unlit,
-                          has_gains(of, mips.of(i)));
+        return std::tuple(of.normal_tex.texture, of.normal_scale, of.roughness, of.metallic_roughness_tex.texture, of.has_height_map,
+                          of.unlit, has_gains(of, mips.of(i)));
     });
 }
 
@@ -254,7 +254,7 @@ std::string why_unfiltered(const Scene& scene, const Material& m, const Material
                 return std::string("its map of ") + map.of + " has " + why + " than its map of " + first->of;
     const Image* normals = image_of(scene, m.normal_tex);
     const Grid grid = grid_of(maps_of(scene, m));
-    if (m.heights && (normals->width != grid.width || normals->height != grid.height))
+    if (m.has_height_map && (normals->width != grid.width || normals->height != grid.height))
         return "its normal map, which holds heights, is smaller than its other maps";
     return "";
 }

@@ -70,7 +70,7 @@ MaterialRecord material_record(const Material& m)
     r.anisotropic = m.anisotropy_strength > 0.0f || m.tilt_tex.used();
     r.tilt_mapped = m.tilt_tex.used();
     r.emitter = m.emitter;
-    r.parallax = m.heights;
+    r.parallax = m.has_height_map;
 #define BN_COATING(id, at, strength, lobe) r.coatings |= above_zero(m.strength) && !m.unlit ? 1 << at : 0;
 #include "shading/coatings.def"
     r.film = m.iridescence > 0.0f && !m.unlit;
@@ -286,8 +286,8 @@ Status check_frame(const Scene& scene, const FrameDesc& desc)
         return Error{ExitCode::usage, "", "",
                      std::to_string(desc.by_material.size()) + " techniques for " + std::to_string(scene.materials.size()) + " materials",
                      "FrameDesc::by_material"};
-    const auto has_heights = [](const Material& m) { return m.heights; };
-    if (desc.height_scale != FrameDesc().height_scale && std::none_of(scene.materials.begin(), scene.materials.end(), has_heights))
+    const auto has_height_map = [](const Material& m) { return m.has_height_map; };
+    if (desc.height_scale != FrameDesc().height_scale && std::none_of(scene.materials.begin(), scene.materials.end(), has_height_map))
         return Error{ExitCode::usage, "", "", "nothing in the scene has a height map", "FrameDesc::height_scale"};
     if (!tilts(scene, desc))
         return {};

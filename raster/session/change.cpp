@@ -240,7 +240,7 @@ Status Session::change(SceneChanges changes)
         }
         for (auto& [index, material] : changes.materials) {
             const Material& old = parts.scene->scene.materials[static_cast<std::size_t>(index)];
-            material.emitter = old.emitter, material.heights = old.heights; // these belong to area lights and maps
+            material.emitter = old.emitter, material.has_height_map = old.has_height_map; // these belong to area lights and maps
             pyramids->forget_material(index);
         }
         const bool shared = parts_.scene.use_count() > 2;    // by others than parts_ and parts

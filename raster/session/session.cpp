@@ -9,7 +9,7 @@
 #include "core/scene/check_scene.h"
 #include "core/scene/directional_roughness.h"
 #include "core/scene/gltf/gltf.h"
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "core/scene/mtlx/mtlx.h"
 #include "core/scene/origin.h"
 #include "raster/frame/mip_files.h"
@@ -158,7 +158,7 @@ Result<std::shared_ptr<const SceneData>> make_settled_data(const std::string& na
         data->mips = asked_mips(asked, data->scene.materials.size());
         data->mips.baked = std::move(baked);
         BN_TRY(lay_directional_roughness(data->scene, limits, name));
-        BN_TRY(lay_heights(data->scene, limits, name));
+        BN_TRY(pack_height_maps(data->scene, limits, name));
         settle_origin(data->scene);
         BN_TRY(add_emitters(data->scene, limits.area_lights, name));
         update_world(data->scene);

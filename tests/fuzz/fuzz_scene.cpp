@@ -50,7 +50,7 @@ void add_surfaces(Scene& s, Places& p)
 #define BN_CHOICE(type, name, words, path) p.add_enum(m.name);
 #define BN_TEXTURE(name, path) p.add(m.name);
 #include "core/scene/material.def"
-        p.ints.push_back(&m.emitter), p.flags.push_back(&m.heights);
+        p.ints.push_back(&m.emitter), p.flags.push_back(&m.has_height_map);
     }
     for (Texture& t : s.textures) {
         p.ints.push_back(&t.image), p.flags.push_back(&t.nearest);

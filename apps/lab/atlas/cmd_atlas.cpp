@@ -1,4 +1,4 @@
-// `burnish atlas`: measures and shows where each method breaks, and compares with the blessed figures.
+// `burnish atlas`: measures and shows where each method breaks, and compares with the golden figures.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
@@ -33,7 +33,7 @@ constexpr const char* kFooter =
     R"(Each entry is a path of pictures from settings where a method holds to settings where it fails, measured against a reference.
 DIR gets index.html with the pictures, atlas.json, and finished entries; a stopped atlas continues from those.
 
-Exit codes: 0 all entries hold, 1 an entry is worse than its blessed figures or its cure fails, 2 wrong option, 7 output not written, 77 no
+Exit codes: 0 all entries hold, 1 an entry is worse than its golden figures or its cure fails, 2 wrong option, 7 output not written, 77 no
 Embree, which the reference needs.
 
 Examples:
@@ -41,7 +41,7 @@ Examples:
   burnish atlas --quick -o atlas
   burnish atlas bent_normal_bends_too_far -o bent
   burnish atlas --quick --with "--axis-beta 1.15"
-  burnish atlas --quick --bless --table apps/risks/blessed.txt)";
+  burnish atlas --quick --bless --table apps/risks/golden_figures.txt)";
 
 int list_entries(const AtlasOptions& options)
 {
@@ -55,13 +55,13 @@ int list_entries(const AtlasOptions& options)
     return 0;
 }
 
-Result<BlessedTable> blessed_table(const AtlasOptions& options)
+Result<GoldenTable> golden_table(const AtlasOptions& options)
 {
     if (options.table.empty())
-        return parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "the program's own table");
+        return parse_table(std::string(kAtlasGolden.bytes, kAtlasGolden.size), "the program's own table");
     std::error_code ignored; // read_file() reports the reason
     if (options.bless && fs::status(options.table, ignored).type() == fs::file_type::not_found)
-        return BlessedTable();
+        return GoldenTable();
     const Result<std::vector<std::uint8_t>> bytes = read_file(options.table, kMaxTableBytes);
     BN_TRY(bytes);
     return parse_table(std::string(bytes->begin(), bytes->end()), options.table);
@@ -89,8 +89,8 @@ std::optional<MeasuredEntry> read_cached(const CachedFiles& files)
 
 class Atlas {
   public:
-    Atlas(const AtlasOptions& options, BlessedTable blessed, Report& report)
-        : options_(options), entries_(options.entries()), blessed_(std::move(blessed)), compared_(blessed_.version == kTableVersion),
+    Atlas(const AtlasOptions& options, GoldenTable golden, Report& report)
+        : options_(options), entries_(options.entries()), golden_(std::move(golden)), compared_(golden_.version == kTableVersion),
           report_(report),
           cache_({std::make_shared<const Jobs>(options.threads), options.isa, {options.use_cache, options.folder}, &watch_stop_signals()},
                  report)
@@ -111,7 +111,7 @@ class Atlas {
 
     const AtlasOptions& options_;
     const std::vector<AtlasEntry> entries_;
-    BlessedTable blessed_;
+    GoldenTable golden_;
     bool compared_;
     Report& report_;
     PictureCache cache_;
@@ -197,7 +197,7 @@ Status Atlas::take(const std::vector<std::string>& files, const std::vector<JobP
 void Atlas::judge_entry(const AtlasEntry& entry, MeasuredEntry measured)
 {
     AtlasResult result{&entry, std::move(measured), {}, ""};
-    const auto& rows = blessed_.walks[options_.walk().name];
+    const auto& rows = golden_.walks[options_.walk().name];
     const auto row = rows.find(entry.id);
     result.judged = judge(entry, result.measured, compared_ && row != rows.end() ? &row->second : nullptr);
     if (!options_.folder.empty())
@@ -217,10 +217,10 @@ void Atlas::tell(const AtlasResult& r)
 Status Atlas::bless()
 {
     if (!compared_)
-        blessed_ = BlessedTable();
+        golden_ = GoldenTable();
     for (const AtlasResult& r : results_)
-        blessed_.walks[options_.walk().name][r.entry->id] = row_of(r.measured);
-    if (const Status written = write_text(options_.table, table_text(blessed_)); !written)
+        golden_.walks[options_.walk().name][r.entry->id] = row_of(r.measured);
+    if (const Status written = write_text(options_.table, table_text(golden_)); !written)
         return written;
     report_.wrote(options_.table);
     return {};
@@ -272,7 +272,7 @@ int Atlas::run()
 {
     if (!compared_)
         report_.warning(
-            fmt::format("the blessed figures are of version {}, not {}: nothing is compared with them", blessed_.version, kTableVersion));
+            fmt::format("the golden figures are of version {}, not {}: nothing is compared with them", golden_.version, kTableVersion));
     if (any_pieces(options_.pieces)) {
         const std::vector<JobPiece> all = pieces();
         if (!options_.pieces.merge)
@@ -313,7 +313,7 @@ int Atlas::run()
         if (options_.bless && r.judged.verdict != Verdict::uncured)
             continue;
         if (r.judged.verdict == Verdict::better)
-            report_.warning(fmt::format("{} {}: it is better than its blessed figures, bless it", r.entry->id, r.judged.why));
+            report_.warning(fmt::format("{} {}: it is better than its golden figures, bless it", r.entry->id, r.judged.why));
         if (!red && r.judged.verdict >= Verdict::worse)
             red = &r;
     }
@@ -334,9 +334,9 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
     if (options.live)
         if (const Status found = check_renderer(options.renderer); !found)
             return fail(found.error());
-    Result<BlessedTable> blessed = blessed_table(options);
-    if (!blessed)
-        return fail(blessed.error());
+    Result<GoldenTable> golden = golden_table(options);
+    if (!golden)
+        return fail(golden.error());
     if (!options.folder.empty() && !any_pieces(options.pieces))
         if (const Status made = make_output_folder(options.folder); !made)
             return fail(made.error());
@@ -344,7 +344,7 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
         return fail(Error{ExitCode::unavailable, "", "", "this program was built without Embree 3, which the reference of an atlas needs"});
     Report report(options.quiet, options.verbosity);
     report.promise_stdout({options.json});
-    return Atlas(options, std::move(*blessed), report).run();
+    return Atlas(options, std::move(*golden), report).run();
 }
 
 } // namespace
@@ -352,7 +352,7 @@ int run_atlas(AtlasOptions options, const OptionTable& given)
 Command atlas_command()
 {
     auto options = std::make_shared<AtlasOptions>();
-    return {"atlas", "Show and measure how each method fails, and compare with blessed figures", atlas_option_table(*options), kFooter,
+    return {"atlas", "Show and measure how each method fails, and compare with golden figures", atlas_option_table(*options), kFooter,
             [options](OptionTable& given) { return run_atlas(*options, given); }};
 }
 

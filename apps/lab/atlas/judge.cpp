@@ -11,8 +11,8 @@ constexpr const char* kNothing = "-";
 
 constexpr const char* kHead = R"(# Where methods break
 
-Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/blessed.txt`. `burnish atlas` holds
-what it measures to two of them: the onset, which may come later, and the largest error, which may fall.
+Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/golden_figures.txt`.
+`burnish atlas` holds what it measures to two of them: the onset, which may come later, and the largest error, which may fall.
 
 - onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.
 - worst: the largest error.
@@ -30,7 +30,7 @@ std::string cell_of(double value, bool there)
 
 } // namespace
 
-std::string table_text(const BlessedTable& table)
+std::string table_text(const GoldenTable& table)
 {
     std::string text = fmt::format("{}Version {}\n", kHead, table.version);
     for (const AtlasWalk& walk : {kQuickWalk, kFullWalk}) {
@@ -42,7 +42,7 @@ std::string table_text(const BlessedTable& table)
             walk.name);
         for (const AtlasEntry& entry : atlas_entries())
             if (const auto found = rows->second.find(entry.id); found != rows->second.end()) {
-                const BlessedRow& row = found->second;
+                const GoldenFigures& row = found->second;
                 text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0),
                                     row.worst, row.flicker, cell_of(row.in_double.value_or(0.0), row.in_double.has_value()),
                                     cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
@@ -51,30 +51,30 @@ std::string table_text(const BlessedTable& table)
     return text;
 }
 
-BlessedRow row_of(const MeasuredEntry& m)
+GoldenFigures row_of(const MeasuredEntry& m)
 {
     return {m.onset, m.worst, m.flicker, m.cure_worst, m.in_double, m.kind};
 }
 
-Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const BlessedRow* row)
+Judged judge(const AtlasEntry& entry, const MeasuredEntry& m, const GoldenFigures* row)
 {
     if (entry.cure[0] && m.cure_worst > entry.threshold)
         return {Verdict::uncured, fmt::format("the cure's error is {:.4f}, above {:g}", m.cure_worst, entry.threshold)};
     if (!row)
         return {Verdict::unknown, "no figures of it are blessed"};
     const double step = m.steps.size() > 1 ? 1.0 / static_cast<double>(m.steps.size() - 1) : 1.0, onset = std::min(m.onset, 1.0 + step),
-                 blessed = std::min(row->onset, 1.0 + step), slack = 1.01 * step; // blessed figures are rounded
+                 golden_onset = std::min(row->onset, 1.0 + step), slack = 1.01 * step; // golden figures are rounded
     const double room = kNear * row->worst + 5e-5;
-    if (onset < blessed - slack)
-        return {Verdict::worse, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
+    if (onset < golden_onset - slack)
+        return {Verdict::worse, fmt::format("breaks at {:.4f}, the golden onset is {:.4f}", onset, golden_onset)};
     if (m.worst > row->worst + room)
-        return {Verdict::worse, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
-    if (onset > blessed + slack)
-        return {Verdict::better, fmt::format("breaks at {:.4f}, blessed is {:.4f}", onset, blessed)};
+        return {Verdict::worse, fmt::format("is off by {:.4f}, the golden error is {:.4f}", m.worst, row->worst)};
+    if (onset > golden_onset + slack)
+        return {Verdict::better, fmt::format("breaks at {:.4f}, the golden onset is {:.4f}", onset, golden_onset)};
     if (m.worst < row->worst - room)
-        return {Verdict::better, fmt::format("is off by {:.4f}, blessed is {:.4f}", m.worst, row->worst)};
+        return {Verdict::better, fmt::format("is off by {:.4f}, the golden error is {:.4f}", m.worst, row->worst)};
     if (m.kind == "none" && row->kind != "none")
-        return {Verdict::better, fmt::format("breaks no more, blessed is a failure of {}", row->kind)};
+        return {Verdict::better, fmt::format("breaks no more, the golden figures have a failure of {}", row->kind)};
     return {};
 }
 

@@ -1,13 +1,13 @@
-// Judges an entry's measurements against the blessed figures, and writes the page of blessed figures.
+// Judges an entry's measurements against the golden figures, and writes the page of golden figures.
 #pragma once
 #include <string>
 
 #include "apps/lab/atlas/measure.h"
-#include "apps/risks/blessed.h"
+#include "apps/risks/golden_figures.h"
 
 namespace burnish {
 
-std::string table_text(const BlessedTable& table); // rows in entry order; rows without an entry are dropped
+std::string table_text(const GoldenTable& table); // rows in entry order; rows without an entry are dropped
 
 enum class Verdict { unknown, held, better, worse, uncured }; // unknown: not in the table
 struct Judged {
@@ -15,9 +15,9 @@ struct Judged {
     std::string why; // one line, the reason for a verdict other than `held`
 };
 // `row`: null if the table has no row for the entry.
-Judged judge(const AtlasEntry& entry, const MeasuredEntry& measured, const BlessedRow* row);
+Judged judge(const AtlasEntry& entry, const MeasuredEntry& measured, const GoldenFigures* row);
 const char* verdict_name(Verdict verdict);
 
-BlessedRow row_of(const MeasuredEntry& measured);
+GoldenFigures row_of(const MeasuredEntry& measured);
 
 } // namespace burnish

@@ -32,13 +32,13 @@ Value entry_names(std::vector<std::string>& to)
 OptionTable atlas_option_table(AtlasOptions& to)
 {
     OptionTable table;
-    table.add(
-        "", {{"ID", "", "Entries to measure; may be several; all if none is given", entry_names(to.ids)},
-             {"--list", "", "Print the entries with the failure that each shows", flag(to.list)},
-             {"--quick", "", "Take 7 steps with small pictures instead of 33 with larger ones, and compare with their own blessed figures",
-              flag(to.quick)},
-             {"--with", "WORDS", "Further options of burnish render for the failing picture and its cure, to try a change", text(to.with),
-              ""}});
+    table.add("",
+              {{"ID", "", "Entries to measure; may be several; all if none is given", entry_names(to.ids)},
+               {"--list", "", "Print the entries with the failure that each shows", flag(to.list)},
+               {"--quick", "", "Take 7 steps with small pictures instead of 33 with larger ones, and compare with their own golden figures",
+                flag(to.quick)},
+               {"--with", "WORDS", "Further options of burnish render for the failing picture and its cure, to try a change", text(to.with),
+                ""}});
     table.add("Output",
               {{"-o,--output", "DIR", "Folder for index.html and atlas.json, created if missing", folder(to.folder)},
                {"--live", "", "Put the renderer into the page, which then draws each entry's worst place anew: see burnish export page",
@@ -46,7 +46,7 @@ OptionTable atlas_option_table(AtlasOptions& to)
                {"--renderer", "FOLDER", "With --live: folder of the npm package, with burnish_core.wasm", folder(to.renderer),
                 "build/wasm/package"},
                {"--json", "FILE", "Figures as JSON; - for standard output", file(to.json)},
-               {"--table", "FILE", "Blessed figures to compare with", file(to.table), "the program's own"},
+               {"--table", "FILE", "Golden figures to compare with", file(to.table), "the program's own"},
                {"--bless", "", "Write the measured figures into --table; other entries stay as they are", flag(to.bless)},
                quiet_option(to.quiet),
                verbose_option(to.verbosity)});

@@ -13,7 +13,7 @@ namespace burnish {
 struct AtlasOptions {
     std::vector<std::string> ids; // empty: all entries
     std::string folder, json;     // empty: no output
-    std::string table;            // blessed figures; empty: the built-in table
+    std::string table;            // golden figures; empty: the built-in table
     std::string with;             // see AtlasEntry
     std::string renderer;         // of the page, with live
     PieceOptions pieces;

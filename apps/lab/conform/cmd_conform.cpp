@@ -140,8 +140,9 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
         return usage_error("--without", "leaves no scene");
     if (a.write.empty() && same_file(a.pictures, a.folder))
         return usage_error("PICTURES", "is the conformance folder: give a folder of its own");
-    if (same_file(a.pictures, a.folder + "/truth"))
-        return usage_error("PICTURES", "is the folder of references");
+    for (const char* references : kReferenceFolders)
+        if (same_file(a.pictures, a.folder + "/" + references))
+            return usage_error("PICTURES", "is the folder of references");
     for (const std::string& name : a.mistakes)
         for (const Mutant& mutant : mutants())
             if (mutant.name == name && mutant.kernels != 0 && (mutant.kernels & kOfGltfBend) != 0 && !is_gltf(a.technique))
@@ -150,9 +151,12 @@ Status check_conform_arguments(const ConformArguments& a, const OptionTable& giv
         if (a.draw && given.given(option))
             return usage_error(option, "does not go with --draw");
     std::vector<std::string> inputs = {a.folder + "/conform.json", a.folder + "/environment.exr", a.folder + "/environment.hdr"};
-    for (const FolderScene& scene : conform_folder(a.folder).scenes)
-        inputs.insert(inputs.end(), {a.folder + "/" + scene.file, conform_folder(a.folder).reference_of(scene.name),
-                                     conform_folder(a.folder).variance_of(scene.name)});
+    ConformFolder folder = conform_folder(a.folder);
+    for (const char* references : kReferenceFolders) {
+        folder.references = references;
+        for (const FolderScene& scene : folder.scenes)
+            inputs.insert(inputs.end(), {a.folder + "/" + scene.file, folder.reference_of(scene.name), folder.variance_of(scene.name)});
+    }
     for (const char* name : {"/README.md", "/pages/three.html", "/pages/babylon.html", "/pages/pictures.js"})
         inputs.push_back(a.folder + name);
     for (const std::string& name : scene_names())

@@ -109,7 +109,12 @@ Result<ConformFolder> read_conform_folder(const std::string& path)
         return bad_folder(content.error().file, "", content.error().reason + ": write the folder anew");
     if (json.value("content", Json()) != *content)
         return bad_folder(file, "/content", "a scene or the environment has changed since its reference was made: write the folder anew");
-    return conform_folder(path);
+    ConformFolder folder = conform_folder(path);
+    std::error_code ignored;
+    const auto there = [&](const char* name) { return std::filesystem::is_directory(path + "/" + name, ignored); };
+    if (!there(kReferenceFolders[0]) && there(kReferenceFolders[1]))
+        folder.references = kReferenceFolders[1];
+    return folder;
 }
 
 Status write_conform_files(const std::string& path)
@@ -119,7 +124,7 @@ Status write_conform_files(const std::string& path)
     const std::string list = path + "/conform.json";
     if (std::filesystem::exists(path, failed) && !std::filesystem::is_empty(path, failed) && !std::filesystem::exists(list, failed))
         return Error{ExitCode::usage, path, "", "holds other files, and no conformance folder: name a new folder"};
-    for (const char* part : {"", "/scenes", "/truth", "/pages"})
+    for (const char* part : {"", "/scenes", "/reference", "/pages"})
         BN_TRY(make_output_folder(path + part));
     std::filesystem::remove(list, failed); // it comes last: a folder without it is not whole
     for (const ConformScene& scene : conform_scenes()) {

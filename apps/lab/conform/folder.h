@@ -13,11 +13,15 @@ struct FolderScene {
     bool environment = true, area_light = false;
 };
 
+// Names of the references' folder: the current name, and the name in older folders, which are still read.
+inline constexpr const char* kReferenceFolders[] = {"reference", "truth"};
+
 struct ConformFolder {
     std::string path;
     std::vector<FolderScene> scenes;
-    std::string reference_of(const std::string& scene) const { return path + "/truth/" + scene + ".exr"; }
-    std::string variance_of(const std::string& scene) const { return path + "/truth/" + scene + ".variance.exr"; }
+    std::string references = kReferenceFolders[0]; // one of kReferenceFolders
+    std::string reference_of(const std::string& scene) const { return path + "/" + references + "/" + scene + ".exr"; }
+    std::string variance_of(const std::string& scene) const { return path + "/" + references + "/" + scene + ".variance.exr"; }
 };
 
 // Returns the folder's parts, whether they are there or not.

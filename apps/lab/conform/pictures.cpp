@@ -107,6 +107,9 @@ Result<ConformPictures> read_conform_pictures(const ConformFolder& folder, const
         return Error{ExitCode::bad_input, pictures, "",
                      fmt::format("holds no picture of a scene: {}.exr, .hdr, .pfm or .png and so on",
                                  folder.scenes.empty() ? "" : folder.scenes[0].name)};
+    if (folder.references != kReferenceFolders[0])
+        report.warning(fmt::format("{0}/{1} has the references, as older folders do; --write makes {0}/{2}", folder.path, folder.references,
+                                   kReferenceFolders[0]));
     if (eight_bits != 0)
         report.warning(fmt::format("{} pictures of 8 or 16 bits: taken for sRGB at an exposure of {} stops, without a tone curve",
                                    eight_bits, kConformEv));

@@ -361,16 +361,16 @@ ExtractedLight light_of(const Picture& picture, const Equirect& source, double t
     Ellipse e = ellipse_of(picture, pixels, excess);
     const double size = std::sqrt(light * light / squares / (kPi * length(e.u) * length(e.v)));
     e.u = scaled(e.u, size), e.v = scaled(e.v, size);
-    ExtractedLight key;
+    ExtractedLight extracted;
     const auto store = [](const Direction& d, float* to) {
         to[0] = static_cast<float>(d.x), to[1] = static_cast<float>(d.y), to[2] = static_cast<float>(d.z);
     };
-    store(e.centre, key.direction), store(e.u, key.axis_u), store(e.v, key.axis_v);
+    store(e.centre, extracted.direction), store(e.u, extracted.axis_u), store(e.v, extracted.axis_v);
     for (std::size_t c = 0; c < 3; ++c)
-        key.irradiance[c] = static_cast<float>(rgb[c]);
-    key.angular_radius = static_cast<float>(std::sqrt(length(e.u) * length(e.v)));
-    key.share = static_cast<float>((kLuminance[0] * rgb[0] + kLuminance[1] * rgb[1] + kLuminance[2] * rgb[2]) / total);
-    return key;
+        extracted.irradiance[c] = static_cast<float>(rgb[c]);
+    extracted.angular_radius = static_cast<float>(std::sqrt(length(e.u) * length(e.v)));
+    extracted.share = static_cast<float>((kLuminance[0] * rgb[0] + kLuminance[1] * rgb[1] + kLuminance[2] * rgb[2]) / total);
+    return extracted;
 }
 
 // Returns the smallest cap about the mean direction that contains the pixels' centres.

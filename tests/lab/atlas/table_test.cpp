@@ -1,4 +1,4 @@
-// Blessed figures: written, read and compared.
+// Golden figures: written, read and compared.
 #include <gtest/gtest.h>
 
 #include "apps/lab/atlas/result_cache.h"
@@ -34,13 +34,13 @@ TEST(atlas_table, figures_follow_from_steps)
 
 TEST(atlas_table, what_is_written_is_read)
 {
-    BlessedTable table;
+    GoldenTable table;
     table.walks["quick"][kEntry.id] = row_of(measured(0.0, 0.2));
     table.walks["full"]["mc_fireflies"] = {2.0, 0.09, -0.01, 0.0, std::nullopt, "none"};
-    const auto back = parse_table(table_text(table), "blessed.txt");
+    const auto back = parse_table(table_text(table), "golden_figures.txt");
     ASSERT_TRUE(back) << back.error().line();
     EXPECT_EQ(back->version, kTableVersion);
-    const BlessedRow& row = back->walks.at("quick").at(kEntry.id);
+    const GoldenFigures& row = back->walks.at("quick").at(kEntry.id);
     EXPECT_DOUBLE_EQ(row.onset, 0.6);
     EXPECT_DOUBLE_EQ(row.worst, 0.2);
     EXPECT_EQ(row.kind, "approximation");
@@ -53,8 +53,8 @@ TEST(atlas_table, what_is_written_is_read)
 
 TEST(atlas_table, one_row_is_found_as_all_are_read)
 {
-    const std::string text(kAtlasBlessed.bytes, kAtlasBlessed.size);
-    const auto table = parse_table(text, "blessed.txt");
+    const std::string text(kAtlasGolden.bytes, kAtlasGolden.size);
+    const auto table = parse_table(text, "golden_figures.txt");
     ASSERT_TRUE(table);
     for (const auto& [walk, rows] : table->walks)
         for (const auto& [id, row] : rows) {
@@ -85,7 +85,7 @@ TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentie
 {
     const MeasuredEntry m = measured(0.0, 0.205);
     const auto verdict = [&](double onset, double worst) {
-        const BlessedRow row = {onset, worst, 0.0, 0.05, 0.2, "approximation"};
+        const GoldenFigures row = {onset, worst, 0.0, 0.05, 0.2, "approximation"};
         return judge(kEntry, m, &row).verdict;
     };
     EXPECT_EQ(verdict(0.5, 0.205), Verdict::held);
@@ -103,7 +103,7 @@ TEST(atlas_table, the_onset_is_held_within_a_step_and_the_worst_within_a_twentie
 TEST(atlas_table, another_kind_alone_is_held)
 {
     MeasuredEntry m = measured(0.0, 0.2);
-    const BlessedRow row = {m.onset, m.worst, 0.0, 0.05, 0.2, "sampling"};
+    const GoldenFigures row = {m.onset, m.worst, 0.0, 0.05, 0.2, "sampling"};
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::held);
     m.kind = "none"; // no longer fails
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::better);
@@ -112,7 +112,7 @@ TEST(atlas_table, another_kind_alone_is_held)
 TEST(atlas_table, a_cure_above_the_threshold_is_no_cure)
 {
     const MeasuredEntry m = measured(0.0, 0.2, 0.11);
-    const BlessedRow row = row_of(m);
+    const GoldenFigures row = row_of(m);
     EXPECT_EQ(judge(kEntry, m, &row).verdict, Verdict::uncured);
     AtlasEntry without = kEntry;
     without.cure = "";
@@ -137,10 +137,10 @@ TEST(atlas_table, kept_entries_come_back_as_they_were)
         EXPECT_FALSE(parse_cached_entry(text, "key")) << text;
 }
 
-// No blessed entry fails at its start, and cures hold. No blessed row lacks an entry.
-TEST(atlas_table, blessed_entries_hold_at_their_start)
+// No golden entry fails at its start, and cures hold. No golden row lacks an entry.
+TEST(atlas_table, golden_entries_hold_at_their_start)
 {
-    const auto table = parse_table(std::string(kAtlasBlessed.bytes, kAtlasBlessed.size), "blessed.txt");
+    const auto table = parse_table(std::string(kAtlasGolden.bytes, kAtlasGolden.size), "golden_figures.txt");
     ASSERT_TRUE(table) << table.error().line();
     EXPECT_EQ(table->version, kTableVersion);
     for (const auto& [walk, rows] : table->walks)

@@ -1,4 +1,4 @@
-"""burnish atlas: failures of methods, and their blessed figures."""
+"""burnish atlas: failures of methods, and their golden figures."""
 
 import csv
 import io
@@ -43,7 +43,7 @@ def mistakes(bench):
     check(bench.left_behind() == ["file", "t.md"], f"{bench.left_behind()}")
 
 
-@case("atlas.holds_what_is_blessed", "input", tier="nightly")
+@case("atlas.holds_its_golden_figures", "input", tier="nightly")
 def held(bench):
     needs_embree(bench)
     words = ("atlas", FAST, "--quick")

@@ -57,7 +57,8 @@ def requests(bench):
     bench.run("conform", "a", "b", "--without", "nothing").expect(2).expect_one_line("nothing")
     bench.run("conform", "a", "b").expect(4).expect_one_line("a/conform.json", "--write")
     bench.run("conform", "a", "b", "--without", ",".join(SCENES)).expect(2).expect_one_line("--without", "no scene")
-    bench.run("conform", "a", "a/truth", "--draw").expect(2).expect_one_line("PICTURES", "references")
+    for name in ("reference", "truth"):
+        bench.run("conform", "a", f"a/{name}", "--draw").expect(2).expect_one_line("PICTURES", "references")
     bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", "--technique", "hdrp").expect(2).expect_one_line("no_bend", "gltf")
     for way in ((), ("--technique", "gltf")):
         bench.run("conform", "a", "b", "--draw", "--mistake", "no_bend", *way).expect(4).expect_one_line("a/conform.json")
@@ -67,10 +68,11 @@ def requests(bench):
     check((bench.folder / "mine/README.md").read_text() == "mine", "a user's file is lost")
     bench.run("conform", "a", "b", "--html", "nowhere/a.html").expect(7).expect_one_line("nowhere")
     folder = bench.folder / "a"
-    (folder / "truth").mkdir(parents=True)
-    for name in ("README.md", "truth/mirror.variance.exr", "mirror.exr", "lamp.png"):
+    for name in ("reference", "truth"):
+        (folder / name).mkdir(parents=True)
+    for name in ("README.md", "reference/mirror.variance.exr", "truth/mirror.exr", "mirror.exr", "lamp.png"):
         scratch(bench, f"a/{name}", "mine")
-    for pictures, out in (("b", "a/README.md"), ("b", "a/truth/mirror.variance.exr"), ("a/", "a/mirror.exr")):
+    for pictures, out in (("b", "a/README.md"), ("b", "a/reference/mirror.variance.exr"), ("b", "a/truth/mirror.exr"), ("a/", "a/mirror.exr")):
         bench.run("conform", "a" if pictures == "b" else "c", pictures, "--html", out).expect(2).expect_one_line(out)
         check((bench.folder / out).read_text() == "mine", f"{out} is lost")
     bench.run("conform", "a", "a", "--draw").expect(2).expect_one_line("PICTURES")
@@ -97,7 +99,7 @@ def folder_is_whole(bench):
     for scene in listed["scenes"]:
         check(scene["about"] and (folder / scene["file"]).is_file(), f"{scene}")
         for kind in ("exr", "variance.exr"):
-            check((folder / f"truth/{scene['name']}.{kind}").is_file(), f"no {kind} of {scene}")
+            check((folder / f"reference/{scene['name']}.{kind}").is_file(), f"no {kind} of {scene}")
     for name in ("README.md", "pages/three.html", "pages/babylon.html", "pages/pictures.js"):
         check((folder / name).stat().st_size > 500, name)
     # A folder whose scenes, list or exposure changed is no longer one
@@ -120,6 +122,10 @@ def folder_is_whole(bench):
         alone = json.loads(bench.run("compare", f"{name}.exr", f"own/{name}.exr", "--metric", "max", "--json", "-").expect(0).out)
         check(alone["max_abs"] <= (0 if name != "lamp" else 1e-6), f"{name}: {alone}")
     check_right(bench, "own", "direction_map", "lamp")
+    # An older folder names its references otherwise
+    (folder / "reference").rename(folder / "truth")
+    done = bench.run("conform", "folder", "own", *without("direction_map", "lamp")).expect(0)
+    check(done.err.count("warning") == 1 and "folder/truth" in done.err and "folder/reference" in done.err, done.err)
 
 
 def check_right(bench, pictures, *kept):
@@ -287,8 +293,8 @@ def missing_or_unusable(bench):
     done = bench.run("conform", "folder", "pictures", *kept).expect(0)
     check("1 pictures of 8 or 16 bits" in done.err and "-1 stops" in done.err, done.err)
     # References of another kind
-    shutil.copy(pictures / "rotation_0.png", bench.folder / "folder/truth/lamp.exr")
-    bench.run("conform", "folder", "pictures", *kept, "-q").expect(4).expect_one_line("truth/lamp.exr")
+    shutil.copy(pictures / "rotation_0.png", bench.folder / "folder/reference/lamp.exr")
+    bench.run("conform", "folder", "pictures", *kept, "-q").expect(4).expect_one_line("reference/lamp.exr")
     (bench.folder / "empty").mkdir()
     bench.run("conform", "folder", "empty", *without("rotation_0"), "-q").expect(4).expect_one_line("holds no picture of a scene")
 

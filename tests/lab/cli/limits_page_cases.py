@@ -72,11 +72,11 @@ def faults_of_cure(right, wrong, path, named):
 
 @case("manual.pictures_of_limits_are_out_of_the_atlas", tier="quick")
 def limits(bench):
-    """Wrong pictures have the options of their entry, at a place past its blessed onset. Right ones have the cure that the row names."""
+    """Wrong pictures have the options of their entry, at a place past its golden onset. Right ones have the cure that the row names."""
     text = (MANUAL / "limits.md").read_text()
     drawn = {words[words.index("-o") + 1]: options_of(words[2:]) for words, _ in pages.commands_of(text) if "-o" in words}
-    blessed = (ROOT / "apps/risks/blessed.txt").read_text().partition("\n## full\n")[2]
-    onsets = {entry: float(onset) for entry, onset in re.findall(r"^\| (\w+) \| ([\d.]+) \|", blessed, re.M)}
+    golden = (ROOT / "apps/risks/golden_figures.txt").read_text().partition("\n## full\n")[2]
+    onsets = {entry: float(onset) for entry, onset in re.findall(r"^\| (\w+) \| ([\d.]+) \|", golden, re.M)}
     known, wrong = entries_of(bench), []
     rows = ROW.findall(text)
     check(len(rows) > 25 and len({entry for entry, *_ in rows}) == len(rows), f"{len(rows)} rows")

@@ -29,7 +29,7 @@ def measured(bench, script):
     return done.returncode, json.loads(found.read_text())
 
 
-@case("key_lights.lower_the_error_under_suns", tier="nightly")
+@case("extracted_lights.lower_the_error_under_suns", tier="nightly")
 def lower_the_error(bench):
     """The small table of bench/lab/key_lights.py: under suns, extracted lights lower the mean error to at most .85 times."""
     code, table = measured(bench, "key_lights.py")
@@ -49,7 +49,7 @@ def made_up_report(flips, cpu=1.0):
                      for env, flip in zip(("sun", "none"), found)]}
 
 
-@case("key_lights.table_of_aims_is_counted_by_places")
+@case("extracted_lights.table_of_aims_is_counted_by_places")
 def table_of_aims(_):
     """Runs bench/lab/aims.py on invented reports."""
     import aims  # noqa: PLC0415
@@ -66,7 +66,7 @@ def table_of_aims(_):
           f"{reached}")
 
 
-@case("key_lights.aims_are_measured_by_one_command", tier="nightly")
+@case("extracted_lights.aims_are_measured_by_one_command", tier="nightly")
 def aims_are_measured(bench):
     """Runs the short form, four places, where lobe_line must be the best."""
     code, found = measured(bench, "aims.py")

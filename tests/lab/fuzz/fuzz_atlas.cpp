@@ -1,4 +1,4 @@
-// libFuzzer entry: any text as the atlas' blessed table, and as a cached entry whose key is the first line.
+// libFuzzer entry: any text as the atlas' golden table, and as a cached entry whose key is the first line.
 #include <string>
 
 #include "apps/lab/atlas/judge.h"
@@ -9,11 +9,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     using namespace burnish;
     const std::string text(data, data + size);
-    if (const Result<BlessedTable> table = parse_table(text, "fuzz")) {
-        const Result<BlessedTable> again = parse_table(table_text(*table), "fuzz"); // without rows that lack an entry
+    if (const Result<GoldenTable> table = parse_table(text, "fuzz")) {
+        const Result<GoldenTable> again = parse_table(table_text(*table), "fuzz"); // without rows that lack an entry
         BN_CHECK(again);
         const std::string written = table_text(*again);
-        const Result<BlessedTable> third = parse_table(written, "fuzz");
+        const Result<GoldenTable> third = parse_table(written, "fuzz");
         BN_CHECK(third && (table->version != kTableVersion || table_text(*third) == written));
     } else {
         BN_CHECK(!table.error().reason.empty());

@@ -1,4 +1,4 @@
-// Errors of every kernel's floats against doubles, at the worst inputs found. blessed.txt holds the errors and the inputs.
+// Errors of every kernel's floats against doubles, at the worst inputs found. golden_errors.txt holds the errors and the inputs.
 //   BN_ADVERSARY_INPUTS=1e6 unit_adversary_models    another number of random inputs a kernel than 1e5
 //   BN_BLESS=1 ...                                   writes the results, one program at a time
 #include <gtest/gtest.h>
@@ -16,15 +16,15 @@ namespace burnish::test {
 namespace {
 
 constexpr double kInputs = 1e5, kManyInputs = 1e7;
-constexpr double kWorse = 4.0; // times the blessed error
-const char* const kTable = BN_SOURCE_DIR "/tests/unit/adversary/blessed.txt";
+constexpr double kWorse = 4.0; // times the golden error
+const char* const kTable = BN_SOURCE_DIR "/tests/unit/adversary/golden_errors.txt";
 
 std::string key_of(const Domain& d, const Judged& j)
 {
     return d.kernel + " " + j.name;
 }
 
-std::map<std::string, Worst> blessed()
+std::map<std::string, Worst> golden_errors()
 {
     std::map<std::string, Worst> rows;
     std::ifstream file(kTable);
@@ -43,7 +43,7 @@ std::map<std::string, Worst> blessed()
 
 void bless(const std::string& key, const Worst& found)
 {
-    std::map<std::string, Worst> rows = blessed();
+    std::map<std::string, Worst> rows = golden_errors();
     rows[key] = found;
     std::ofstream file(kTable);
     file << "# The inputs at which kernels' floats are found furthest from doubles (tests/unit/adversary). Error: in units (the last "
@@ -73,14 +73,14 @@ void hold(const Domain& d, double count)
 {
     if (const char* asked = std::getenv("BN_ADVERSARY_INPUTS"))
         count = std::atof(asked);
-    const std::map<std::string, Worst> table = blessed();
+    const std::map<std::string, Worst> table = golden_errors();
     const std::vector<Worst> found = search(d, count, 71);
     for (std::size_t r = 0; r < found.size(); ++r) {
         const std::string key = key_of(d, d.judged[r]);
         Worst worst = found[r];
         const auto row = table.find(key);
         if (row != table.end() && !found[r].in.empty() &&
-            row->second.in.size() == found[r].in.size()) { // tests the blessed worst input again
+            row->second.in.size() == found[r].in.size()) { // tests the golden worst input again
             const Worst again = errors_at(d, d.judged[r], row->second.in)[0];
             if (again.score > worst.score)
                 worst = again;

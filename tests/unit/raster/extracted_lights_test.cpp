@@ -32,7 +32,7 @@ Disc disc_near(const glm::dvec3& mirrored, double off_x, double off_y, double ra
 // A plate under one extracted light, or under the directional lights that sample the extracted light.
 class Sun {
   public:
-    explicit Sun(float metallic = 1.0f) : key_(plate(metallic), 0.0f), points_(plate(metallic), 0.0f) {}
+    explicit Sun(float metallic = 1.0f) : extracted_(plate(metallic), 0.0f), points_(plate(metallic), 0.0f) {}
 
     void place(const Disc& disc, int count)
     {
@@ -42,8 +42,8 @@ class Sun {
             k.direction[i] = static_cast<float>(disc.centre[i]), k.irradiance[i] = static_cast<float>(irradiance[i]);
             k.axis_u[i] = static_cast<float>(disc.u[i]), k.axis_v[i] = static_cast<float>(disc.v[i]);
         }
-        key_.environment.extracted_lights = {k};
-        key_.environment.whole = key_.environment.specular;
+        extracted_.environment.extracted_lights = {k};
+        extracted_.environment.whole = extracted_.environment.specular;
         points_.tables.lights.clear();
         for (int i = 0; i < count; ++i) { // spread evenly by the golden angle
             const double r = std::sqrt((i + 0.5) / count), a = i * 2.39996322972865332;
@@ -55,7 +55,7 @@ class Sun {
         }
     }
     struct Seen {
-        double key, points;
+        double extracted, points;
     };
     Seen seen(const FrameDesc& shading, const glm::dvec3& eye) const
     {
@@ -63,11 +63,11 @@ class Sun {
         d.width = d.height = 2, d.msaa = 1, d.background = false;
         d.view = make_view(glm::vec3(eye * 100.0), {0, 0, 0}, 1e-4f, 2, 2);
         const auto red = [&](const Stage& s) { return static_cast<double>(s.render(d, best_isa()).color.f32()[0]); };
-        return {red(key_), red(points_)};
+        return {red(extracted_), red(points_)};
     }
 
   private:
-    Stage key_, points_;
+    Stage extracted_, points_;
 };
 
 struct Worst {
@@ -90,9 +90,9 @@ Worst worst_of(Sun& sun, const FrameDesc& d, const glm::dvec3& eye, double radiu
             peak = std::max(peak, all.back().points);
         }
     for (const Sun::Seen& s : all) {
-        w.of_peak = std::max(w.of_peak, std::abs(s.key - s.points) / peak);
+        w.of_peak = std::max(w.of_peak, std::abs(s.extracted - s.points) / peak);
         if (s.points > 1e-6 * peak)
-            w.ratio = std::max(w.ratio, std::abs(std::log(s.key / s.points)));
+            w.ratio = std::max(w.ratio, std::abs(std::log(s.extracted / s.points)));
     }
     return w;
 }
@@ -165,9 +165,9 @@ TEST(extracted_lights, that_graze_the_surface_are_no_brighter_than_the_light_in_
                             disc_near({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}, 0.0, 0.0, kOneDegree, 1.0, 0.0),
                             400);
                         const Sun::Seen s = sun.seen(d, eye_at(cosine, 0.7));
-                        EXPECT_LT(s.key, 5.0 * s.points + 0.3) << "roughness " << roughness << ", eta " << eta << ", cosine " << cosine
-                                                               << ", elevation " << elevation << ", azimuth " << azimuth;
-                        most = std::max(most, s.key / (s.points + 1.0));
+                        EXPECT_LT(s.extracted, 5.0 * s.points + 0.3) << "roughness " << roughness << ", eta " << eta << ", cosine "
+                                                                     << cosine << ", elevation " << elevation << ", azimuth " << azimuth;
+                        most = std::max(most, s.extracted / (s.points + 1.0));
                     }
     std::printf("at most %.3f of the light in them\n", most);
 }
@@ -183,13 +183,13 @@ TEST(extracted_lights, light_what_is_diffuse_by_their_cosine)
     for (const double elevation : {5.0, 20.0, 60.0, 85.0}) {
         const double e = elevation * kOneDegree;
         sun.place(disc_near({std::cos(e), 0.0, std::sin(e)}, 0.0, 0.0, 0.01, 1.0, 0.0), 64);
-        const double key = sun.seen(d, eye).key, lambert = 3.0 * 0.8 * std::sin(e) / std::numbers::pi;
-        EXPECT_NEAR(key / lambert, 0.97, 0.06) << elevation; // interface transmittance and specular reflection
-        EXPECT_GT(key, before);
-        before = key;
+        const double extracted = sun.seen(d, eye).extracted, lambert = 3.0 * 0.8 * std::sin(e) / std::numbers::pi;
+        EXPECT_NEAR(extracted / lambert, 0.97, 0.06) << elevation; // interface transmittance and specular reflection
+        EXPECT_GT(extracted, before);
+        before = extracted;
     }
     sun.place(disc_near({0.9, 0.0, -0.4}, 0.0, 0.0, 0.01, 1.0, 0.0), 1);
-    EXPECT_EQ(sun.seen(d, eye).key, 0.0); // below the horizon
+    EXPECT_EQ(sun.seen(d, eye).extracted, 0.0); // below the horizon
 }
 
 // A sun of two degrees seen in its mirror direction and at its edge, from a mirror to the roughest lobe. Brightness falls without a jump,

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 #include "raster/frame/frame_record.h"
 #include "shading/surface/parallax.t.h"
 #include "tests/unit/raster/fixture.h"
@@ -25,8 +25,8 @@ Scene plane_of(const std::vector<int>& heights)
     s.textures.push_back(t);
     s.materials[0].height_tex.texture = 0;
     s.materials[0].height_scale = kDepth;
-    EXPECT_TRUE(lay_heights(s, Limits(), ""));
-    EXPECT_TRUE(s.materials[0].heights);
+    EXPECT_TRUE(pack_height_maps(s, Limits(), ""));
+    EXPECT_TRUE(s.materials[0].has_height_map);
     return s;
 }
 

@@ -1,4 +1,4 @@
-#include "core/scene/heights.h"
+#include "core/scene/height_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +95,7 @@ SurfaceMap heights_of_depths(const Image& depths)
     return map;
 }
 
-Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
+Status pack_height_maps(Scene& scene, const Limits& limits, const std::string& file)
 {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known; // key: normal and height textures
     for (Material& m : scene.materials) {
@@ -130,7 +130,7 @@ Status lay_heights(Scene& scene, const Limits& limits, const std::string& file)
         // Use the combined map as the normal map
         m.normal_tex = heights;
         m.normal_tex.texture = it->second;
-        m.heights = true;
+        m.has_height_map = true;
     }
     return {};
 }

@@ -1,4 +1,4 @@
-#include "apps/risks/blessed.h"
+#include "apps/risks/golden_figures.h"
 
 #include <charconv>
 #include <cmath>
@@ -29,14 +29,14 @@ std::optional<double> figure_of(const std::string& cell, double none)
 }
 
 // Reads "| id | onset | worst | flicker | double | cure | kind |". None for other lines.
-std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line)
+std::optional<std::pair<std::string, GoldenFigures>> row_in(const std::string& line)
 {
     std::vector<std::string> cells = split(line, '|');
     if (cells.size() != 9)
         return std::nullopt;
     for (std::string& cell : cells)
         cell = trimmed(cell);
-    BlessedRow row;
+    GoldenFigures row;
     const std::optional<double> onset = figure_of(cells[2], 2.0), worst = figure_of(cells[3], 0.0), flicker = figure_of(cells[4], 0.0),
                                 in_double = figure_of(cells[5], 0.0), cure = figure_of(cells[6], 0.0);
     if (!onset || !worst || !flicker || !in_double || !cure)
@@ -51,9 +51,9 @@ std::optional<std::pair<std::string, BlessedRow>> row_in(const std::string& line
 
 } // namespace
 
-Result<BlessedTable> parse_table(const std::string& text, const std::string& file)
+Result<GoldenTable> parse_table(const std::string& text, const std::string& file)
 {
-    BlessedTable table;
+    GoldenTable table;
     table.version = 0;
     std::string walk;
     for (const std::string& line : split(text, '\n')) {
@@ -67,16 +67,16 @@ Result<BlessedTable> parse_table(const std::string& text, const std::string& fil
             if (table.version != 0 && table.version != kTableVersion)
                 continue; // figures of another version have another meaning
             if (!row || walk.empty())
-                return Error{ExitCode::bad_input, file, "", fmt::format("'{}' is no row of blessed figures", line)};
+                return Error{ExitCode::bad_input, file, "", fmt::format("'{}' is no row of golden figures", line)};
             table.walks[walk][row->first] = row->second;
         }
     }
     if (table.version == 0)
-        return Error{ExitCode::bad_input, file, "", "does not hold blessed figures of the atlas"};
+        return Error{ExitCode::bad_input, file, "", "does not hold golden figures of the atlas"};
     return table;
 }
 
-std::optional<BlessedRow> find_row(const std::string& text, const char* walk, const std::string& id)
+std::optional<GoldenFigures> find_row(const std::string& text, const char* walk, const std::string& id)
 {
     const std::size_t begin = text.find(fmt::format("\n## {}\n", walk)),
                       end = text.find("\n## ", begin == std::string::npos ? begin : begin + 1);

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 NAN, INF = float("nan"), float("inf")
 
 
-@case("key_lights.are_as_many_as_asked_for", "input")
+@case("extracted_lights.are_as_many_as_asked_for", "input")
 def as_many(bench):
     def found(*words):
         return bench.figures("--env", "builtin:sky", *SMALL, *words)
@@ -30,7 +30,7 @@ def as_many(bench):
     check(abs(turned["direction"][1] - sun["direction"][1]) < 1e-6 and turned["direction"][0] != sun["direction"][0], f"{turned}")
 
 
-@case("key_lights.are_none_in_the_studio")
+@case("extracted_lights.are_none_in_the_studio")
 def none_in_the_studio(bench):
     """The studio's image does not change."""
     hashes = set()
@@ -41,7 +41,7 @@ def none_in_the_studio(bench):
     check(len(hashes) == 1, f"{hashes}")
 
 
-@case("key_lights.are_told")
+@case("extracted_lights.are_told")
 def are_told(bench):
     told = bench.run("render", "--env", "builtin:sky", *SMALL, "-v").expect(0).err
     check("extracted light" in told and "% of the light" in told, told)
@@ -54,7 +54,7 @@ def are_told(bench):
     bench.run("info", "--env", "nothing.exr").expect(4).expect_one_line("nothing.exr")
 
 
-@case("key_lights.option_takes_nothing_else", "input")
+@case("extracted_lights.option_takes_nothing_else", "input")
 def nothing_else(bench):
     for word in ("-1", "9", "1000", "on", "1.5", "", "99999999999999999999"):
         for command in (("render", "-o", "out.png"), ("info",)):
@@ -62,7 +62,7 @@ def nothing_else(bench):
     check(bench.left_behind() == [], f"{bench.left_behind()}")
 
 
-@case("key_lights.of_poor_environments_do_no_harm", "input")
+@case("extracted_lights.of_poor_environments_do_no_harm", "input")
 def poor_environments(bench):
     """Black, uniform, one bright texel, one pixel: images without NaN that keep the light."""
     pictures = {"black": (32, 16, even(0.0)), "even": (32, 16, even(1.0)), "texel": (64, 32, with_texels({(20, 10): 1e6}, 0.0)),
@@ -76,7 +76,7 @@ def poor_environments(bench):
             check(found["warnings"] == [], f"{name}: {found['warnings']}")
 
 
-@case("key_lights.environments_are_repaired_and_said_so", "input", budget=8)
+@case("extracted_lights.environments_are_repaired_and_said_so", "input", budget=8)
 def repaired(bench):
     """A warning is one line, also in --stats, from the bake and from the cache."""
     for name, value, words in (("nan", NAN, "1 NaN values"), ("inf", INF, "1 infinite values"), ("1e30", 1e30, "1 values of the environment above 1e+12"),
@@ -97,7 +97,7 @@ def repaired(bench):
     check(found["nan_pixels"] == 0 and len(found["warnings"]) == 1, f"{found['warnings']}")
 
 
-@case("key_lights.an_environment_of_8_bits_is_said_to_be_one", "input")
+@case("extracted_lights.an_environment_of_8_bits_is_said_to_be_one", "input")
 def low_dynamic_range(bench):
     path = scratch(bench, "day.png", png(64, 32, lambda x, y: (200, 220, 255) if y < 16 else (60, 50, 40)))
     for words in ((), ("--no-cache",)):
@@ -108,7 +108,7 @@ def low_dynamic_range(bench):
         check(len(stats["warnings"]) == 1 and "no high dynamic range" in stats["warnings"][0] and stats["nan_pixels"] == 0, f"{stats['warnings']}")
 
 
-@case("key_lights.cache_that_cannot_be_written_is_a_warning")
+@case("extracted_lights.cache_that_cannot_be_written_is_a_warning")
 def unwritable_cache(bench):
     scratch(bench, "file", b"no folder")
     done = bench.run("render", "--env", "builtin:sky", *SMALL, "--stats", "s.json", env={"XDG_CACHE_HOME": str(bench.folder / "file")}).expect(0)
@@ -117,7 +117,7 @@ def unwritable_cache(bench):
     check(len(json.loads((bench.folder / "s.json").read_text())["warnings"]) == 1, "not in --stats")
 
 
-@case("key_lights.render_the_same_on_every_road", budget=8)
+@case("extracted_lights.render_the_same_on_every_road", budget=8)
 def same_on_every_road(bench):
     available = json.loads(bench.run("info", "--json").expect(0).out)["isa_available"]
     for words in (("--technique", "auto"), ("--technique", "mc", "--samples", "4"), ("--technique", "bent_normal", "--tilt", "10,-5")):

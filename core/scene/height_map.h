@@ -22,6 +22,6 @@ SurfaceMap heights_of_depths(const Image& depths);
 // flat normal map where there is none. Warns of height maps whose coordinates differ from the normal map's, and ignores
 // them. Texels that are not numbers lie at the surface. Errors: more bytes than the texture limit. `file` names the
 // scene in errors.
-Status lay_heights(Scene& scene, const Limits& limits, const std::string& file);
+Status pack_height_maps(Scene& scene, const Limits& limits, const std::string& file);
 
 } // namespace burnish
