@@ -3,7 +3,7 @@
 
 Usage: compare.py OLD.json NEW.json [--threshold PERCENT]
 
-Reads what bench_frame --json writes and what bench_micro --benchmark_format=json prints; both files must be of one kind. A line a
+Reads files of bench_frame --json or of bench_micro --benchmark_format=json; both files must be of one kind. A line a
 workload: medians, their ratio, and the interval in which the ratio lies with about 95 % confidence, from the rounds of both runs (a single
 value is its own interval). A change counts as slower or faster where the ratio is more than PERCENT (3) away from 1 and the interval does
 not hold 1; where only the ratio is, the line says unsure. Where the pictures differ it says other pixels.
@@ -25,7 +25,7 @@ class Unreadable(Exception):
 
 
 def load(path):
-    """{name: [time of each round]}, {name: hash of the picture}, {what the machine was: value}, load average."""
+    """Returns {name: [time of each round]}, {name: hash of the picture}, {fact of the machine: value} and the load average."""
     pixels = {}
     try:
         with open(path, encoding="utf-8") as file:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How a frame's time grows with what is drawn: charts, and whether they are straight lines.
+"""Charts a frame's time by the amount that is drawn, and measures how far each chart is from a straight line.
 
 Usage: growth.py --program build/release/bench_frame -o growth.svg [--isa NAME] [--rounds N] [--json figures.json]
        growth.py --from figures.json -o growth.svg [--fail-bend PERCENT]
 
-Runs the rows growth_* of bench_frame, or reads what its --json wrote: workloads that differ in one number. Through the medians of CPU time
+Runs the rows growth_* of bench_frame, or reads its --json file: workloads that differ in one number. Through the medians of CPU time
 a line is laid that makes the greatest relative distance least; `bend` is that distance, in percent. Of threads it is wall time times threads,
 and the line is level: threads that divide the work, each on a core, need no more of it together. Their row ends with the machine's cores.
 Exit code: 0; 1 a row bends more than --fail-bend; 2 something could not be run or read.
@@ -126,7 +126,7 @@ def table(rows):
 
 
 def chart(heading, rows):
-    """The SVG text: a panel a row, both axes linear and from 0, the line and what was measured."""
+    """Returns the SVG text: a panel a row, both axes linear and from 0, the line and the measured times."""
     height = HEIGHT * -(-len(rows) // COLUMNS) + 50
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {COLUMNS * WIDTH} {height}" width="{COLUMNS * WIDTH}" height="{height}" '
            'role="img" aria-label="Time of a frame by what is drawn">',

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How close every kernel comes to what this machine can do: a roofline chart, and a table.
+"""Measures how close every kernel comes to this machine's limits: a roofline chart, and a table.
 
 Usage: roofline.py --program build/release/bench/micro/bench_micro -o roofline.svg [--json figures.json]
        roofline.py --from figures.json -o roofline.svg
 
-Runs the benchmarks `limit/` and `kernel/` of bench_micro (or reads what they printed as JSON). Limits are measured: multiplications and
+Runs the benchmarks `limit/` and `kernel/` of bench_micro (or reads the JSON that they printed). Limits are measured: multiplications and
 additions a second by instruction set, not fused, as kernels may not fuse them; random 16-byte loads a second from memory of the size of the
 first, second and third cache. A kernel's operations and bytes a fragment are counted by the same text compiled with counting lanes.
 The share of the limit is the larger of two: operations a second over the limit of operations; 16-byte loads a second over the loads of the second
-cache, where the levels of the environment lie that rough metal looks at. What is left goes to what is not counted: integers, selections,
-conversions, shuffles. All of one core and CPU time.
+cache, where the levels of the environment lie that rough metal looks at. The rest goes to operations that are not counted: integers,
+selections, conversions, shuffles. All of one core and CPU time.
 """
 
 import argparse
@@ -67,7 +67,7 @@ def figures_of(text):
 
 
 def share(kernel, isa, limits):
-    """(share of the limit of operations, of loads): what would be 1 if nothing else took time."""
+    """Returns (share of the limit of operations, of loads). A share would be 1 if nothing else took time."""
     return (kernel["operations"] / kernel["ns"] * 1e9 / limits["operations"][isa],
             kernel["bytes"] / LOAD_BYTES / kernel["ns"] * 1e9 / limits["loads"]["L2"])
 

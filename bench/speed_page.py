@@ -5,7 +5,7 @@ Usage: speed_page.py --frames FILE.json --races FILE.json [FILE.json ...]    tak
        speed_page.py                                                         writes the page from speed.json again
        speed_page.py --check                                                 compares the page with speed.json
 
---frames: what bench_frame --isa avx2,avx512 --json wrote. --races: what `burnish race --shaders lean --json` wrote, one file or more for each
+--frames: the file of bench_frame --isa avx2,avx512 --json. --races: files of `burnish race --shaders lean --json`, one or more for each
 instruction set (BN_FORCE_ISA). All files must come from one processor. speed.json keeps the figures that the page shows, and the commit.
 Exit code: 0; 1 the page differs from speed.json (--check); 2 a file cannot be read, or figures come from two processors.
 """

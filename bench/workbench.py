@@ -1,4 +1,4 @@
-"""What scripts that measure the program share: its options, a folder to work in, runs that end the script where they fail."""
+"""Holds code that scripts of measurement share: options, a folder to work in, runs that end the script where they fail."""
 
 import argparse
 import pathlib

@@ -124,8 +124,7 @@ Status add_levels(FileSet& files, const std::vector<std::string>& inputs, const 
         names.push_back(fmt::format("{}_{:02}.png", stem, l));
         const Result<std::vector<std::uint8_t>> bytes = png_bytes(names.back(), coded(levels[l], srgb));
         BN_TRY(bytes);
-        if (Status added = add_file(files, names.back(), *bytes, inputs); !added)
-            return added;
+        BN_TRY(add_file(files, names.back(), *bytes, inputs));
     }
     return {};
 }
@@ -206,9 +205,7 @@ Result<WrittenTextures> write_mip_textures(const std::string& folder, const Scen
                 parts.push_back({"_anisotropy", made.anisotropy, false});
             // Write them, and measure their errors
             for (const Part& part : parts)
-                if (Status added = add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files);
-                    !added)
-                    return added;
+                BN_TRY(add_levels(files, scene.files, stem + part.name, part.levels, part.srgb, a.format, written.files));
             written.figures +=
                 figures_of(names[i], made, source, *levels[i], mip_error_surface(lobe_of_model(a.brdf), m.metallic > 0.5f), jobs);
         }

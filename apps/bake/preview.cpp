@@ -138,12 +138,10 @@ Status write_preview(const std::string& folder, const Preview& pictures, Report&
 {
     if (folder.empty())
         return {};
-    if (Status made = make_output_folder(folder); !made)
-        return made;
+    BN_TRY(make_output_folder(folder));
     for (const PreviewPicture& picture : pictures) {
         const std::string path = preview_path(folder, picture);
-        if (Status written = write_image(path, picture.image); !written)
-            return written;
+        BN_TRY(write_image(path, picture.image));
         report.wrote(path);
     }
     return {};

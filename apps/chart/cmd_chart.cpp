@@ -120,8 +120,7 @@ Status write_report(const ChartReport& chart, const std::string& live, const Cha
     std::set<std::string> used;
     for (const ReportFile& file : files) {
         used.insert(checkpoint.file(file.name));
-        if (const Status written = write_file(checkpoint.file(file.name), file.bytes); !written)
-            return written;
+        BN_TRY(write_file(checkpoint.file(file.name), file.bytes));
         report.detail("wrote", checkpoint.file(file.name));
     }
     for (const ChartRow& row : chart.rows)

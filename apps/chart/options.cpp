@@ -22,8 +22,7 @@ Value sweeps(Sweeps& to)
     value.set = [&to](const std::string&, const std::vector<std::string>& texts) -> Status {
         to = {};
         for (const std::string& text : texts)
-            if (const Status read = parse_sweep(text, to); !read)
-                return read;
+            BN_TRY(parse_sweep(text, to));
         return {};
     };
     value.get = [] { return std::string(); };
@@ -56,8 +55,7 @@ Status check_budgets(const ChartOptions& out)
 Status check_lobes(const FrameDesc& frame, const std::vector<std::string>& techniques)
 {
     for (const std::string& technique : techniques)
-        if (const Status lobe = check_lobe(frame, *find_technique(technique)); !lobe)
-            return lobe;
+        BN_TRY(check_lobe(frame, *find_technique(technique)));
     return {};
 }
 
@@ -90,14 +88,11 @@ Status check_cells(const ChartArguments& in, const OptionTable& given, ChartOpti
             return table.set(option->name, value);
         };
         if (cell.roughness)
-            if (const Status done = set("roughness", fmt::format("{}", *cell.roughness)); !done)
-                return done;
+            BN_TRY(set("roughness", fmt::format("{}", *cell.roughness)));
         if (cell.anisotropy)
-            if (const Status done = set("anisotropy", fmt::format("{}", *cell.anisotropy)); !done)
-                return done;
+            BN_TRY(set("anisotropy", fmt::format("{}", *cell.anisotropy)));
         for (const auto& [name, value] : cell.others)
-            if (const Status done = set(name, value); !done)
-                return done;
+            BN_TRY(set(name, value));
         const Result<RenderOptions> options = check_render_options(arguments, table);
         BN_TRY(options);
         if (options->frame.width != out.base.frame.width || options->frame.height != out.base.frame.height)

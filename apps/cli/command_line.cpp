@@ -196,8 +196,7 @@ Status read_command_line(Command& command, const std::vector<std::string>& words
         if (!options[i].given)
             continue;
         options[i].texts = given.texts[i];
-        if (const Status set = options[i].value.set(options[i].name, given.texts[i]); !set)
-            return set;
+        BN_TRY(options[i].value.set(options[i].name, given.texts[i]));
     }
     return command.options.check_needs();
 }

@@ -113,13 +113,11 @@ Status check_outputs(const std::vector<std::string>& pictures, const std::vector
 {
     std::vector<std::string> files = pictures;
     for (const std::string& path : pictures)
-        if (Status status = check_picture_path(path, inputs); !status)
-            return status;
+        BN_TRY(check_picture_path(path, inputs));
     for (const auto& [option, path] : texts) {
         if (path.empty())
             continue;
-        if (Status status = check_text_path(option, path, inputs); !status)
-            return status;
+        BN_TRY(check_text_path(option, path, inputs));
         files.push_back(path);
     }
     for (std::size_t i = 0; i < files.size(); ++i)
@@ -140,8 +138,7 @@ Status check_picture_path(const std::string& path, const std::vector<std::string
         return output_error(path, "is a folder");
     if (is_special(path))
         return output_error(path, "is not a regular file");
-    if (Status status = check_not_input(path, inputs); !status)
-        return status;
+    BN_TRY(check_not_input(path, inputs));
     return check_folder(path);
 }
 
@@ -154,8 +151,7 @@ Status check_text_path(const std::string& option, const std::string& path, const
         return output_error(path, "is a folder");
     if (path == "-" || is_special(path))
         return {};
-    if (Status status = check_not_input(path, inputs); !status)
-        return status;
+    BN_TRY(check_not_input(path, inputs));
     return check_folder(path);
 }
 

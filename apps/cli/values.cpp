@@ -394,8 +394,7 @@ Value choices(std::vector<int>& to, const std::vector<int>& numbers)
         ValueKind::names,
         [&to, names](const std::string& option, const std::string& written) -> Status {
             Texts parts;
-            if (const Status read = choices(parts, names).set(option, {written}); !read)
-                return read;
+            BN_TRY(choices(parts, names).set(option, {written}));
             to.clear();
             for (const std::string& part : parts)
                 to.push_back(std::stoi(part));

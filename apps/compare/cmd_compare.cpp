@@ -66,8 +66,7 @@ Status check_paths(const CompareOptions& options)
     for (const auto& [option, path] : outputs) {
         const Status status = option == "--error-map" ? check_picture_path(path, compare_inputs(options))
                                                       : check_text_path(option, path, compare_inputs(options));
-        if (!status)
-            return status;
+        BN_TRY(status);
     }
     if (!options.second_reference.empty() && same_file(options.second_reference, options.reference))
         return usage_error("--second-reference", "is the reference itself: take one with another seed");

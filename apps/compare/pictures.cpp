@@ -25,8 +25,7 @@ Status check_variance(const std::string& name, const Image& variance, const Comp
 {
     if (reference.type != PixelType::f32)
         return usage_error("--variance", fmt::format("{} does not hold floats", options.reference));
-    if (Status match = check_match(name, variance, options.reference, reference); !match)
-        return match;
+    BN_TRY(check_match(name, variance, options.reference, reference));
     if (const std::int64_t bad = not_finite_pixels(variance, variance))
         return Error{ExitCode::not_finite, name, "", fmt::format("{} pixels are NaN or Inf", bad)};
     for (std::size_t i = 0; i < variance.bytes.size() / sizeof(float); ++i)

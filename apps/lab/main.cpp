@@ -1,4 +1,4 @@
-// The `burnish-lab` program: all of `burnish`, and what is research of it: subcommands in commands.def, `bake ltc`,
+// The `burnish-lab` program: all of `burnish`, and its research: subcommands in commands.def, `bake ltc`,
 // `chart --mip`, failure scenes.
 #include "apps/cli/command.h"
 #include "apps/cli/program.h"

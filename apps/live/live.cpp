@@ -81,7 +81,7 @@ Result<std::string> worker_text(const PageRenderer& renderer)
     return text;
 }
 
-// Replaces the one place where `what` stands.
+// Replaces the only `what` in the text.
 void replace(std::string& text, const std::string& what, const std::string& with)
 {
     const std::size_t at = text.find(what);
@@ -146,7 +146,7 @@ class Names {
     }
 
     std::map<std::string, std::vector<std::uint8_t>>& files() { return files_; }
-    const std::string& target() const { return target_; } // what the page's renderer serves
+    const std::string& target() const { return target_; } // the scene, or folder of scenes, that the page's renderer serves
 
   private:
     using Pair = std::pair<std::string, std::string>; // scene and environment

@@ -21,7 +21,7 @@ Result<std::optional<DrawRequest>> live_request(const std::vector<std::string>& 
 
 struct LiveRow {
     std::string key;     // of the page
-    DrawRequest request; // what is drawn first; pictures of this size are compared with the page's hash
+    DrawRequest request; // the first picture; pictures of this size are compared with the page's hash
 };
 
 struct LiveWish {

@@ -122,8 +122,7 @@ Result<ChosenView> wanted_view(const RenderOptions& options, const Scene& scene,
 Result<ChosenView> choose_view(const RenderOptions& options, const Scene& scene, const DrawTables& tables)
 {
     Result<ChosenView> chosen = wanted_view(options, scene, tables);
-    if (!chosen)
-        return chosen;
+    BN_TRY(chosen);
     View& view = chosen->view;
     view.tan_half_x /= options.zoom, view.tan_half_y /= options.zoom;
     for (const glm::vec3& v : {view.eye, view.right, view.up, view.forward})

@@ -181,8 +181,7 @@ Status write_files(const ParityOptions& options, const ParityReport& parity, Rep
     for (const auto& file : files) {
         if (file.path.empty())
             continue;
-        if (const Status written = write_text(file.path, file.text(parity)); !written)
-            return written;
+        BN_TRY(write_text(file.path, file.text(parity)));
         if (file.path != "-")
             report.detail("wrote", file.path);
     }

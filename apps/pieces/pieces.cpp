@@ -158,8 +158,8 @@ std::set<std::string> names_in(const std::string& folder)
     return names;
 }
 
-// Takes pieces by lease until all are there. A folder's server answers a limited number of requests, so a look at the folder shows what is
-// left, and each process begins elsewhere. Only pieces that are there at first are looked at one by one.
+// Takes pieces by lease until all are there. A folder's server answers a limited number of requests, so a look at the folder shows the
+// pieces left, and each process begins elsewhere. Only pieces that are there at first are looked at one by one.
 class Taker {
   public:
     Taker(const std::string& folder, const std::vector<JobPiece>& pieces, Maker& maker)
@@ -280,7 +280,7 @@ Status list_pieces(const PieceOptions& options, const std::vector<std::string>& 
     return {};
 }
 
-// Removes what lies beside finished pieces: leases, and files in the making of processes that died.
+// Removes the files beside finished pieces: leases, and files in the making of processes that died.
 void sweep(const std::vector<std::string>& folders, const std::vector<JobPiece>& pieces)
 {
     std::set<std::string> keys;
@@ -293,7 +293,7 @@ void sweep(const std::vector<std::string>& folders, const std::vector<JobPiece>&
             if (const std::string name = at->path().filename(); name.find(".piece.") != std::string::npos && keys.count(name.substr(0, 16)))
                 left.push_back(at->path());
         for (const fs::path& path : left)
-            fs::remove_all(path, ignored); // what stays does no harm
+            fs::remove_all(path, ignored); // files that stay do no harm
     }
 }
 

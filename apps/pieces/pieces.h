@@ -20,7 +20,7 @@ struct PieceOptions {
 
 std::vector<Option> piece_options(PieceOptions& to);
 bool any_pieces(const PieceOptions& o);
-// Checks what can be checked before any file is opened.
+// Checks the options before any file is opened.
 Status check_piece_options(const PieceOptions& o);
 
 struct JobPiece {
@@ -31,14 +31,14 @@ struct JobPiece {
 
 // Returns the key of a piece from the text of all that decides its content. The program's build joins it.
 std::string piece_key(const std::string& text);
-// Returns a name beside a piece's that no other process uses, for what is in the making. A merge sweeps the names of dead processes.
+// Returns a name beside a piece's that no other process uses, for a file in the making. A merge sweeps the names of dead processes.
 std::string own_name_beside(const std::string& file, const std::string& extension);
 
 // Lists pieces, or makes those that the options name. Returns the exit code. words: the command, from its subcommand on.
 int run_pieces(const PieceOptions& options, const std::vector<std::string>& words, const std::vector<JobPiece>& pieces, Report& report);
 
-// Returns the pieces' files, in order, and sweeps what dead processes left. Where some are missing, prints a command for each on standard
-// output; the error has ExitCode::golden_missing.
+// Returns the pieces' files, in order, and sweeps files that dead processes left. Where some are missing, prints a command for each on
+// standard output; the error has ExitCode::golden_missing.
 Result<std::vector<std::string>> finished_pieces(const PieceOptions& options, const std::vector<std::string>& words,
                                                  const std::vector<JobPiece>& pieces);
 

@@ -24,7 +24,7 @@ namespace {
 //   @SHARES@                 1, 2, ... with commas
 //   @MOST@                   how many run at once
 //   @OUTPUTS@                lines with the command's outputs
-//   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes what is missing, and merges again
+//   @MERGE@, @MERGEWORD@, @MERGEJSON@  a shell line that merges, makes the missing pieces, and merges again
 //   @TAKEMERGE@              a shell line in JSON that takes pieces too, then merges
 struct Script {
     const char *name, *text;
@@ -157,7 +157,7 @@ jobs:
 @OUTPUTS@)",
      true, 256}};
 
-// Replaces each place of a template once: what a place holds is not read again.
+// Replaces each place of a template once: a place's content is not read again.
 template <std::size_t N> std::string filled(const std::string& text, const std::pair<const char*, std::string> (&places)[N])
 {
     std::string out;

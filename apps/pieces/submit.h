@@ -16,7 +16,7 @@ struct SubmitOptions {
 };
 
 std::vector<std::string> submit_engines();
-// Refuses what the engine does not take, and words that its script would read otherwise.
+// Refuses options that the engine does not take, and words that its script would read otherwise.
 Status check_submit(const SubmitOptions& options);
 std::string submit_script(const SubmitOptions& options);
 

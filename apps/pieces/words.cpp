@@ -15,7 +15,7 @@ constexpr PieceWord kPieceWords[] = {{"--pieces", false}, {"--piece", true},  {"
                                      {"--take", false},   {"--merge", false}, {"--work", true}};
 constexpr PieceWord kMachineWords[] = {{"--quiet", false}, {"--verbose", false}, {"--threads", true}, {"-t", true}, {"--isa", true}};
 
-// How much of a command letters in one word take: -q, -v, -t4, -qt 4. 0: it holds others.
+// Returns the number of a command's words that letters in one word take: -q, -v, -t4, -qt 4. 0: it holds others.
 std::size_t letters_of_machine(const std::string& word)
 {
     const std::size_t rest = word.size() > 1 && word[0] == '-' ? word.find_first_not_of("qv", 1) : 0;

@@ -92,11 +92,9 @@ Result<Frame> measure(Renderer& renderer, FrameDesc desc, const std::string& sce
 Status write_files(const RenderOptions& options, const ProfileArguments& arguments, const ProfileFigures& figures)
 {
     if (!arguments.json_file.empty())
-        if (Status done = write_text(arguments.json_file, profile_json(options, figures)); !done)
-            return done;
+        BN_TRY(write_text(arguments.json_file, profile_json(options, figures)));
     if (!arguments.svg_file.empty())
-        if (Status done = write_text(arguments.svg_file, profile_svg(options, figures)); !done)
-            return done;
+        BN_TRY(write_text(arguments.svg_file, profile_svg(options, figures)));
     if (!options.trace_file.empty())
         return write_text(options.trace_file, Trace::json());
     return {};

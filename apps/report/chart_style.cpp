@@ -33,7 +33,7 @@ struct TextChange {
     const char* css_class;
     const char* tint; // null: left as it is
     double size;      // px of the em; 0: left as it is
-    double halo;      // px of paper around the letters, so that what they cross does not run through them; 0: left as it is
+    double halo;      // px of paper around the letters, so that lines do not run through them; 0: left as it is
     bool bold, slanted;
 };
 constexpr double kTextSize = 13.0;   // px of the em

@@ -1,4 +1,4 @@
-// How the pieces of a chart look, by their classes: a table that the style sheet of SVG follows.
+// The looks of a chart's pieces, by their classes: a table that the style sheet of SVG follows.
 #pragma once
 #include <string>
 

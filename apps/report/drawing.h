@@ -1,4 +1,4 @@
-// A chart as a list of what is drawn, from back to front, of which SVG text (svg.h) is made. Places are px from the top left corner, y
+// A chart as a list of shapes and texts, from back to front, of which SVG text (svg.h) is made. Places are px from the top left corner, y
 // down. Looks go by classes, which apps/report/chart_style.h gives colours and widths; a group's classes hold for all in it.
 #pragma once
 #include <array>

@@ -66,7 +66,7 @@ std::string json_text(const Json& json, int indent)
 {
     // Escaped beyond ASCII: names come from files, and the text may go to a terminal.
     std::string text = json.dump(indent, ' ', true, Json::error_handler_t::replace);
-    // GitHub obeys "##[" anywhere in what a step prints. Only strings hold a '#'.
+    // GitHub obeys "##[" anywhere in a step's output. Only strings hold a '#'.
     for (std::size_t at = text.find("##["); at != std::string::npos; at = text.find("##[", at))
         text.replace(at + 1, 1, "\\u0023");
     return text;

@@ -23,7 +23,7 @@ std::vector<std::string> words_of(const std::string& text)
 }
 
 constexpr const char* kAmount =
-    "amount="; // of a path, and of a role's words: what follows a failure scene's name (core/lab/failure_scenes.cpp)
+    "amount="; // of a path, and of a role's words: it follows a failure scene's name (core/lab/failure_scenes.cpp)
 
 bool is_amount(const std::string& word)
 {

@@ -10,7 +10,7 @@
 
 namespace burnish {
 
-enum class AtlasReference { reference, full, pattern, render, doubles, shown }; // what errors are against: see apps/risks/atlas.def
+enum class AtlasReference { reference, full, pattern, render, doubles, shown }; // references of errors: see apps/risks/atlas.def
 
 struct AtlasEntry {
     const char *id, *group, *breaks;

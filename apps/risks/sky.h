@@ -8,13 +8,11 @@ namespace burnish {
 
 class Sky {
   public:
-    // Reads the prefiltered levels, without extracted lights, from the first level with at most 128 texels a side. Texels are converted on
-    // each
-    // lookup: a picture asks for fewer texels than there are.
+    // Reads the prefiltered levels, without extracted lights, from the first level with at most 128 texels a side. Texels are converted
+    // on each lookup: a picture asks for fewer texels than there are.
     explicit Sky(const Environment& environment);
     // Returns the luminance for a round lobe with this roughness about `direction` (any length, not 0; environment space, unrotated):
-    // the
-    // nearest texel of the nearest level.
+    // the nearest texel of the nearest level.
     float luminance(const glm::vec3& direction, float roughness) const { return at(direction, level_of(roughness)); }
     float diffuse(const glm::vec3& direction) const { return at(direction, static_cast<int>(last_)); } // for the widest lobe
 

@@ -139,7 +139,7 @@ Result<Drawings::Opened> Drawings::open(const DrawRequest& request)
     options->frame.profile = request.reference_samples == 0;
     Result<Prepared> made = Error{};
     {
-        const Controlled controlled({end_.get_token(), {}}); // what sessions prepare serves later pictures too
+        const Controlled controlled({end_.get_token(), {}}); // a session's preparations serve later pictures too
         made = prepared(request, *options);
     }
     if (!made && made.error().code == ExitCode::stopped)

@@ -69,7 +69,7 @@ Json json_of_band(const DrawnBand& band)
             {"nan_pixels", band.nan_pixels}, {"stage_ns", band.stage_ns}};
 }
 
-// Reads what json_of_band() wrote, with the pixels of all bands. Errors: ExitCode::usage.
+// Reads the output of json_of_band(), with the pixels of all bands. Errors: ExitCode::usage.
 Result<std::vector<DrawnBand>> bands_of(const Json& json, std::span<const std::uint8_t> pixels)
 {
     constexpr int kMostSide = 1 << 14;

@@ -1,4 +1,4 @@
-// Answers what the page of `burnish serve` asks, whichever way the questions come.
+// Answers the questions of `burnish serve`'s page, whichever way they come.
 #pragma once
 #include <cstdint>
 #include <memory>

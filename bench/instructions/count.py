@@ -3,7 +3,7 @@
 
 Usage: count.py --program build/release/bench_instructions [--bless]
 
-Instructions of the AVX2 code on one thread do not depend on the processor or on what else runs, so a change of 3 % is a change of the
+Instructions of the AVX2 code on one thread do not depend on the processor or on other programs, so a change of 3 % is a change of the
 program. Budgets hold for the compiler, the C library and the valgrind that they were blessed with; on others the test is skipped (exit
 code 77). Valgrind knows no AVX-512: where the processor has it, smaller frames are counted by its trap flag. Exit code 1: a workload takes more than 3 % more, or the file has other workloads. --bless writes the file anew.
 """

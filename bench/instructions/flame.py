@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Where a frame's instructions go, by function and by what is inlined into it: a flame chart, alone or above an older program's chart.
+"""Draws a frame's instructions by function and inlined function: a flame chart, alone or above an older program's chart.
 
 Usage: flame.py --program build/flame/bench_instructions [--before PROGRAM] [--unit N] [--table 20] -o flame.svg WORKLOAD
 
 WORKLOAD and --unit are mix.py's. Needs a program with tables of lines, which change no instruction:
     cmake --preset release -B build/flame -DCMAKE_CXX_FLAGS=-g1 && cmake --build build/flame --target bench_instructions
-Below the frame stand the functions that are called, below each what is inlined into it, as wide as its instructions; operations of lanes
-(core/simd, intrinsics) count for who asks for them. A colour is a folder. Two programs are drawn to one scale. --table prints what takes most by itself.
+Below the frame stand the functions that are called, below each the functions inlined into it, as wide as their instructions. Operations of
+lanes (core/simd, intrinsics) count for the function that asks for them. A colour is a folder. Two programs are drawn to one scale. --table
+prints the functions that take most by themselves.
 Exit code: 0; 2 where a program tells no lines; 77 without valgrind or addr2line.
 """
 
@@ -29,7 +30,7 @@ LANES = "core/simd"
 
 
 def folder_of(path):
-    """Of the repository: "shading/surface"; "" of what is not in it."""
+    """Returns the file's folder in the repository ("shading/surface"), or "" for a file outside the repository."""
     found = re.search(r"/?(?:^|/)((?:core|raster|shading|apps|bench)/(?:[a-z_0-9]+/)*)[^/]+$", path)
     return found.group(1).rstrip("/") if found else ""
 
@@ -41,7 +42,7 @@ def colour_of(folder):
 
 
 def stacks_of(program, addresses):
-    """{address: ((function, folder), ...)}, from what is called to what is inlined last, without operations of lanes."""
+    """Returns {address: ((function, folder), ...)}, from the called function to the function inlined last, without operations of lanes."""
     asked = "\n".join(f"0x{a:x}" for a in addresses)
     out = subprocess.run(("addr2line", "-a", "-i", "-f", "-C", "-e", program), input=asked, check=True, capture_output=True, text=True).stdout
     found, lines = {}, []

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What a frame's instructions are: by function, and each function's by kind.
+"""Counts a frame's instructions: by function, and each function's by kind.
 
 Usage: mix.py --program build/release/bench_instructions [--top 6] [--unit N] [--hot FUNCTION] WORKLOAD...
 
 A workload is a name of count.py's, or NAME@WIDTHxHEIGHT in another size: bent_normal@1920x1080. Runs it under valgrind and reads the counts
 beside the program's disassembly. Figures are of one frame, in instructions; with --unit in instructions per N of them, so --unit 259200 gives
-what eight pixels of 1920x1080 take. "stack" are those that read or write the stack, whatever else they do: above a tenth, a function has more
+the instructions of eight pixels of 1920x1080. "stack" are those that read or write the stack, whatever else they do: above a tenth, a function has more
 at hand than registers. --hot prints the instructions of functions whose name holds FUNCTION, with how often each ran.
 """
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is aimed at for the light of environments, and what is reached: one table of HDR-FLIP to the reference.
+"""Measures the light of environments against its aims: one table of HDR-FLIP to the reference.
 
 Usage: aims.py --program build/release/burnish [--instructions build/release/bench_instructions] [--before PROGRAM] [--env FILE|FOLDER]...
                [--work FOLDER] [--short|--quick] [--json FILE]
@@ -8,7 +8,7 @@ Mean HDR-FLIP of `burnish chart` over six environments, half of which no constan
 and without extracted lights:
 
   - lobe_line with as many samples as take no more time than major_axis_weighted with 16: by the instructions of frames of all eta, which
-    do not depend on what else the machine does (--instructions), else by the CPU time of the frames, drawn in turn on one thread: the median
+    do not depend on the machine's other work (--instructions), else by the CPU time of the frames, drawn in turn on one thread: the median
     over all places of its ratio.
   - major_axis_weighted as it was: of PROGRAM (--before: an older burnish), else with the overlap that it had (--axis-beta), which flatters
     it, since levels narrower across the grain and the lobe's own albedo stay. Without extracted lights, which there were none of then.
@@ -16,7 +16,7 @@ and without extracted lights:
   - Extracted lights: places that they make worse, and the mean with them over the mean without where there are some and roughness is at most 0.65.
   - The floor: mean FLIP that the references' own noise alone makes.
 
-References are cached beside environments: a second run does not make them again. What is stopped goes on where --work names
+References are cached beside environments: a second run does not make them again. A stopped run goes on where --work names
 the same folder. Exit code: 0 measured, whether aims are met or not; 2 something could not be run.
 """
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What tables of transformed cosines look like whose entries are fitted and held as others do it: a page of pictures and FLIP.
+"""Draws the artefacts of tables of transformed cosines that are fitted and held as others do it: a page of pictures and FLIP.
 
 Usage: area_artefacts.py --program build/release/burnish -o FOLDER [--size WxH] [--resolution N]
 
@@ -38,7 +38,7 @@ def run(program, *words):
 
 
 def greatest_step(path, other):
-    """Of green between neighbours along rows and columns, of what the picture has more than `other`."""
+    """Returns the greatest step between neighbours along rows and columns, in the green that the picture has more than `other`."""
     def read(p):
         kind, size, scale, rest = p.read_bytes().split(b"\n", 3)
         values = array.array("f")

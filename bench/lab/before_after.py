@@ -6,7 +6,7 @@ Usage: before_after.py --before PROGRAM --program build/release/burnish -o FOLDE
 
 Draws built-in scenes, and the glTF models of the folder, with default options. Scenes changed between programs, so each picture is compared
 with a reference by its own program (light without bounces, as techniques have it), and with the newer program's `compare`. FOLDER gets
-index.html, with every picture at full size and the worst place of the newer one enlarged four times, and table.md. What is there is not made
+index.html, with every picture at full size and the worst place of the newer one enlarged four times, and table.md. Files that exist are not made
 again. Times are medians of five frames on all cores, and need a quiet machine. Exit code: 0 made; 2 something could not be run.
 """
 

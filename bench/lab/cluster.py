@@ -1,10 +1,10 @@
-"""What many workers make of a job in pieces: time, efficiency and requests to the shared folder, by simulation.
+"""Simulates many workers on a job in pieces: time, efficiency and requests to the shared folder.
 
     burnish render lamp.glb --backend reference --samples 4096 --size 1920x1080 --pieces > pieces.txt
     python3 bench/lab/cluster.py pieces.txt --start 0.4 --merge 0.002 --bytes 24000 --memory 120 -o cluster.svg
 
 pieces.txt: the list of --pieces, whose seconds are measured. --start: a worker's time until its first piece (s). --merge: time of the merge
-for a piece (s). --bytes: of a piece. --memory: of a worker (MB). --requests: what the folder's server answers a second. Workers take pieces by lease, each from another
+for a piece (s). --bytes: of a piece. --memory: of a worker (MB). --requests: requests that the folder's server answers a second. Workers take pieces by lease, each from another
 place of the list on, as apps/pieces does, or have shares of their own. Prints a line for each number of workers, for both ways.
 """
 import argparse

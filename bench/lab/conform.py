@@ -27,7 +27,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests/cli"
 from browser import Browser
 
 OWN_FAULTS = {"three": "no_tangents,mirrored_node,normal_map,area_light,minified", "babylon": "no_tangents,normal_map,area_light,minified"}
-# Places in a page's text, and what code there can see.
+# Places in a page's text, and the names that code there can use.
 PLACES = {
     "three": {
         "shader": ("const renderer = new", "before"),  # THREE

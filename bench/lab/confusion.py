@@ -5,7 +5,7 @@ Usage: confusion.py --program build/release/burnish [--work FOLDER] [--mistakes 
 
 Draws the scenes of a conformance folder with one mistake at a time, and lets `conform` judge the pictures. Prints a table in Markdown: a row
 for each mistake that was made, a column for each one that was found. A cell is the share of the wrong pictures whose nearest mistake is the
-column's, in percent; the last column tells what was named. With --work, finished rows are read again. Exit code: 0 measured; 2 something
+column's, in percent; the last column lists the mistakes that the report names. With --work, finished rows are read again. Exit code: 0 measured; 2 something
 could not be run.
 """
 

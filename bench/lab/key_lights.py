@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What extracted lights do to pictures: FLIP to the reference with and without them, by environment, roughness and anisotropy.
+"""Measures the effect of extracted lights: FLIP to the reference with and without them, by environment, roughness and anisotropy.
 
 Usage: key_lights.py --program build/release/burnish [--env FILE|FOLDER]... [--technique NAME,...] [--scene SCENE]... [--work FOLDER]
                      [--quick] [--json FILE]
 
 Under builtin:sky, three skies that it makes (a low sun, two suns, a sun behind thin cloud) and the environments given, or else those that
-lie beside the checkout, `burnish chart` measures every technique twice, with --key-lights auto and off, against one reference. What is
-stopped goes on where --work names the same folder. A line a place: mean FLIP without and with, and the ratio. At the end, by environment,
-how many extracted lights it has, the means, and what is aimed at:
+lie beside the checkout, `burnish chart` measures every technique twice, with --key-lights auto and off, against one reference. A stopped
+run goes on where --work names the same folder. A line a place: mean FLIP without and with, and the ratio. At the end, by environment,
+how many extracted lights it has, the means, and the aims:
   - no place is worse by more than 0.002;
   - where there are extracted lights and roughness is at most 0.65, the mean is at most half.
 
@@ -89,7 +89,7 @@ def write_sky(path, radiance, width=1024):
 
 
 def environments_of(given):
-    """Paths and names; of a folder, what is an environment in it. Nothing given: the folder beside the checkout, where there is one."""
+    """Lists paths and names; of a folder, the environments in it. Nothing given: the folder beside the checkout, where there is one."""
     beside = pathlib.Path(__file__).resolve().parents[3] / "shared/data/env"
     found = []
     for name in given or ([beside] if beside.is_dir() else []):
@@ -107,7 +107,7 @@ def run(command):
 
 
 def charted(program, report, scenes, environments, techniques, size, key_lights, samples="16", more=()):
-    """What `burnish chart` reports of every technique at every place; pictures are as large as frames are timed, on one thread."""
+    """Returns the report of `burnish chart` for every technique at every place. Pictures are as large as timed frames, on one thread."""
     command = [program, "chart", *scenes, "--techniques", techniques, "--sweep", "roughness=" + size["roughness"], "--sweep",
                "anisotropy=" + size["anisotropy"], "--sweep", "samples=" + samples, "--size", size["size"], "--msaa", "16",
                "--reference-samples", size["samples"], "--runs", size.get("runs", "1"), "--no-background", "--key-lights", key_lights,

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""How lobe_line's pictures differ from the reference's: patterns of the error, flicker, instructions. How far on the mean: aims.py.
+"""Compares lobe_line's pictures with the reference's: patterns of the error, flicker, instructions. aims.py has the mean error.
 
 Usage: lobe_line.py --program build/release/burnish [--instructions build/release/bench_instructions] [--env FILE|FOLDER]... [--work FOLDER]
                     [--quick] [--json FILE]
 
   - Patterns: the error less its mean over 5x5 and 17x17 pixels, correlated with itself. At a lag of one and of two pixels: a checker that
-    quads leave correlates more at two than at one. Up to 16 pixels: bands are a rise after the first fall. Beside it what the reference's
-    own noise gives.
+    quads leave correlates more at two than at one. Up to 16 pixels: bands are a rise after the first fall. Beside it stand the figures
+    of the reference's own noise.
   - Flicker: mean FLIP from frame to frame as the camera moves by a tenth of a degree, less the reference's.
-  - Instructions of a frame under valgrind, which do not depend on what else the machine does (--instructions).
+  - Instructions of a frame under valgrind, which do not depend on the machine's other work (--instructions).
 
-What is stopped goes on where --work names the same folder. Exit code: 0 measured; 2 something could not be run.
+A stopped run goes on where --work names the same folder. Exit code: 0 measured; 2 something could not be run.
 """
 
 import argparse
@@ -52,7 +52,7 @@ def picture(program, folder, environment, roughness, eta, words, scene="builtin:
 
 
 def less_its_mean(field, inside, width, height, half):
-    """What is left of a field (0 outside of the surface) without its mean over the window around each pixel."""
+    """Returns a field (0 outside of the surface) less its mean over the window around each pixel."""
     def sums(values):
         table = [[0.0] * (width + 1)]
         for y in range(height):

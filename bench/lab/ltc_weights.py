@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What texture filters do to area lights by transformed cosines.
+"""Measures the error of area lights by transformed cosines under texture filters.
 
 Usage: ltc_weights.py --program build/release/burnish [--bits N]
 

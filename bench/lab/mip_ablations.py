@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What each choice in training nets of mipmaps is worth, at equal CPU time.
+"""Measures the worth of each choice in training nets of mipmaps, at equal CPU time.
 
 Usage: mip_ablations.py --program build/release/burnish [--seconds N] [--brdf NAME] [--only NAMES] [--material FOLDER] [--work FOLDER]
                         [--json FILE]
@@ -8,7 +8,7 @@ Each row is a net that `burnish train mip` makes in --seconds of CPU time (60): 
 fit are trained, on one thread. A row's command makes the same bytes again. Nets are judged by `--evaluate --validation`: new materials of
 trained families, none of those that reports are made of. Columns: FLIP, L1 and MSE times 1000, their change against plain means, how far
 the mean radiance of a level is from the reference's (mean of |found / reference - 1|), and how anisotropic level 3 of round ridges is, the mean of
-its lobes' greater width over the lesser, as a share of what the search `teacher` finds. `--only "two lobes"` is a second table: grain that
+its lobes' greater width over the lesser, as a share of the search `teacher`'s. `--only "two lobes"` is a second table: grain that
 crosses below a texel, by the best lobe a texel that a search finds and by the best two, of half the light each.
 --material adds three rows that are judged on one material alone: of the first net, of one that is trained on nothing else, and of the first
 net trained on from there.

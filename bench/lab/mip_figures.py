@@ -5,7 +5,7 @@ Usage: mip_figures.py --program build/release/burnish -o FOLDER [--figure N,N,..
                       [--seconds N] [--work FOLDER] [--json FILE]
 
 1: the balls of builtin:shaderballs; 4, 5, 6: materials (--textures, a folder each; a normal map alone is a metal) under Ashikhmin and Shirley's, GGX's and Beckmann's
-normals; 8: ridges that become anisotropy, maps of level 2 beside what they draw; 9: the second net seen once and four times in training
+normals; 8: ridges that become anisotropy, maps of level 2 beside their pictures; 9: the second net seen once and four times in training
 (--seconds of CPU time each, 20). FOLDER/figure_N.png is a row a material with a row of FLIP's maps below it, columns as printed; a line a
 picture: mean FLIP, the tone curve's picture at 67 pixels a degree. The reference reads all texels, with 2 N samples.
 Pictures are drawn small, so that balls show middle levels, and shown three times as large.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What distant maps look like by each mip filter, against all of their texels.
+"""Compares distant maps under each mip filter with pictures of all their texels.
 
 Usage: mips.py --program build/release/burnish [--work FOLDER] [--brdf NAMES] [--filters NAMES] [--kappa NUMBERS] [--taps N] [--samples N]
                [--textures FOLDER] [--quick] [--json FILE]

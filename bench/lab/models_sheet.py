@@ -6,7 +6,7 @@ Usage: models_sheet.py --program build/release/burnish -o models.png [--env FILE
 
 Columns: the tile renderer's picture (mc), the reference's, HDR-FLIP between them. `lambert`, which is no lobe, is a sphere that
 reflects diffusely and nothing else, `ellipsoid_dielectric` one of glass, through whose near side the environment is seen.
-What is there in the work folder is not made again. Exit code: 0 drawn; 1 a model is further from its reference than --fail-flip; 2 something could not be run.
+Files in the work folder are not made again. Exit code: 0 drawn; 1 a model is further from its reference than --fail-flip; 2 something could not be run.
 """
 
 import argparse

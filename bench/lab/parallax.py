@@ -107,7 +107,7 @@ def read_png(path):
 
 
 def alpha_of(path):
-    """How much of each pixel is covered, 0 to 255, by rows."""
+    """Returns each pixel's coverage, 0 to 255, by rows."""
     rows, channels = read_png(path)
     assert channels == 4, path
     return [alpha for row in rows for alpha in row[3::4]]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `burnish render --risks` marks beside what is wrong, and what it takes: bench/lab/risks.py PROGRAM [--set] [--keep DIR] [--time N]
+"""Compares the marks of `burnish render --risks` with wrong pixels, and times them: bench/lab/risks.py PROGRAM [--set] [--keep DIR] [--time N]
 
 Pairs of scenes and environments that the constants of apps/risks/risks.cpp were not chosen by; with --set those that they were. Of every pair:
 the share of shaded pixels that is marked, the share of pixels with FLIP above .15 that is among them (recall), the share of marked ones with

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether a sun is nearer to the reference as an extracted light or as an area light: mean HDR-FLIP of both, by place.
+"""Compares a sun as an extracted light with the sun as an area light: mean HDR-FLIP of both to the reference, by place.
 
 Usage: sun_as_disk.py --program build/release/burnish [--size WxH] [--samples N] [--technique NAME] [--work FOLDER] [--json FILE]
 

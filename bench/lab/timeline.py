@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a timeline of a command: what each thread does from its start to its exit, along time.
+"""Draws a timeline of a command: each thread's work from its start to its exit, along time.
 
 Usage: timeline.py -o CHART.svg [--title TEXT] [--rate HZ] COMMAND...
 for instance: timeline.py -o helmet.svg build/release/burnish render FlightHelmet.gltf --size 1920x1080 --msaa 4 -o helmet.png

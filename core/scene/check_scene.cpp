@@ -95,8 +95,7 @@ Status check_factors(const Factor<Of> (&factors)[kFactors], const Of& of, const 
     for (const Factor<Of>& factor : factors) {
         int count = 0;
         const float* values = factor.numbers(of, count);
-        if (Status ok = check_numbers(values, count, factor.least, any ? kAny : factor.most, table, i, factor.name); !ok)
-            return ok;
+        BN_TRY(check_numbers(values, count, factor.least, any ? kAny : factor.most, table, i, factor.name));
     }
     return {};
 }
@@ -131,8 +130,7 @@ constexpr int kAlphaModes = 0
 Status check_material(const Scene& scene, std::size_t i)
 {
     const Material& m = scene.materials[i];
-    if (Status ok = check_factors(kMaterialFactors, m, "materials", i, m.emitter); !ok) // an emitter's colour is its radiance
-        return ok;
+    BN_TRY(check_factors(kMaterialFactors, m, "materials", i, m.emitter)); // an emitter's colour is its radiance
     for (int c = 0; c < 3; ++c)
         if (!std::isfinite(m.emissive[c] * m.emissive_strength))
             return scene_fault(at("materials", i, "emissive_strength"), "the emission overflows");
@@ -141,8 +139,7 @@ Status check_material(const Scene& scene, std::size_t i)
     if (static_cast<int>(m.alpha_mode) >= kAlphaModes)
         return scene_fault(at("materials", i, "alpha_mode"), fmt::format("{} is no alpha mode", static_cast<int>(m.alpha_mode)));
     for (const TextureField& field : kTextureFields)
-        if (Status ok = check_texture_ref(scene, m.*field.ref, i, field.name); !ok)
-            return ok;
+        BN_TRY(check_texture_ref(scene, m.*field.ref, i, field.name));
     return {};
 }
 
@@ -181,8 +178,7 @@ Status check_images(const Scene& scene, const Limits& limits)
 {
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        if (Status ok = check_image(scene.images[i], i, limits); !ok)
-            return ok;
+        BN_TRY(check_image(scene.images[i], i, limits));
         bytes += scene.images[i].bytes.size();
         if (bytes > limits.texture_bytes)
             return scene_fault(fmt::format("/images/{}", i),
@@ -233,8 +229,7 @@ Status check_light(const Light& light, std::size_t i)
     Light ranged = light;
     if (light.range == 0.0f) // unlimited
         ranged.range = 1.0f;
-    if (Status ok = check_factors(kLightFactors, ranged, "lights", i); !ok)
-        return ok;
+    BN_TRY(check_factors(kLightFactors, ranged, "lights", i));
     if (light.type == LightType::spot && light.inner_cone > light.outer_cone)
         return scene_fault(at("lights", i, "inner_cone"), "is wider than outer_cone");
     return {};
@@ -245,8 +240,7 @@ Status check_area_light(const Scene& scene, std::size_t i)
     const AreaLight& light = scene.area_lights[i];
     if (static_cast<int>(light.shape) >= kAreaShapes)
         return scene_fault(at("area_lights", i, "shape"), fmt::format("{} is no shape", static_cast<int>(light.shape)));
-    if (Status ok = check_factors(kAreaFactors, light, "area_lights", i); !ok)
-        return ok;
+    BN_TRY(check_factors(kAreaFactors, light, "area_lights", i));
     if (!names(light.texture, scene.textures.size()))
         return scene_fault(at("area_lights", i, "texture"), beyond(light.texture, "texture", scene.textures.size()));
     if (light.texture == kNone && !light.texture_file.empty())
@@ -268,8 +262,7 @@ Status check_camera(const Camera& c, std::size_t i)
         {"xmag", c.xmag, -kAny, kAny}, {"ymag", c.ymag, -kAny, kAny}, {"znear", c.znear, 0, kAny}, {"zfar", c.zfar, 0, kAny}};
     const Number* const numbers = c.orthographic ? orthographic : perspective;
     for (const Number* n = numbers; n != numbers + (c.orthographic ? std::size(orthographic) : std::size(perspective)); ++n)
-        if (Status ok = check_numbers(&n->value, 1, n->least, n->most, "cameras", i, n->name); !ok)
-            return ok;
+        BN_TRY(check_numbers(&n->value, 1, n->least, n->most, "cameras", i, n->name));
     if (c.orthographic && (c.xmag == 0.0f || c.ymag == 0.0f))
         return scene_fault(at("cameras", i, c.xmag == 0.0f ? "xmag" : "ymag"), "is 0");
     if ((c.orthographic || c.zfar != 0.0f) && !(c.zfar > c.znear))
@@ -281,26 +274,17 @@ Status check_tables(const Scene& s, const Limits& limits)
 {
     const auto each = [](std::size_t count, const auto& check) -> Status {
         for (std::size_t i = 0; i < count; ++i)
-            if (Status ok = check(i); !ok)
-                return ok;
+            BN_TRY(check(i));
         return {};
     };
-    if (Status ok = check_images(s, limits); !ok)
-        return ok;
-    if (Status ok = each(s.textures.size(), [&](std::size_t i) { return check_texture(s, i); }); !ok)
-        return ok;
-    if (Status ok = each(s.materials.size(), [&](std::size_t i) { return check_material(s, i); }); !ok)
-        return ok;
-    if (Status ok = each(s.primitives.size(), [&](std::size_t i) { return check_primitive(s, i); }); !ok)
-        return ok;
-    if (Status ok = each(s.meshes.size(), [&](std::size_t i) { return check_mesh(s, i); }); !ok)
-        return ok;
-    if (Status ok = each(s.lights.size(), [&](std::size_t i) { return check_light(s.lights[i], i); }); !ok)
-        return ok;
-    if (Status ok = each(s.area_lights.size(), [&](std::size_t i) { return check_area_light(s, i); }); !ok)
-        return ok;
-    if (Status ok = each(s.cameras.size(), [&](std::size_t i) { return check_camera(s.cameras[i], i); }); !ok)
-        return ok;
+    BN_TRY(check_images(s, limits));
+    BN_TRY(each(s.textures.size(), [&](std::size_t i) { return check_texture(s, i); }));
+    BN_TRY(each(s.materials.size(), [&](std::size_t i) { return check_material(s, i); }));
+    BN_TRY(each(s.primitives.size(), [&](std::size_t i) { return check_primitive(s, i); }));
+    BN_TRY(each(s.meshes.size(), [&](std::size_t i) { return check_mesh(s, i); }));
+    BN_TRY(each(s.lights.size(), [&](std::size_t i) { return check_light(s.lights[i], i); }));
+    BN_TRY(each(s.area_lights.size(), [&](std::size_t i) { return check_area_light(s, i); }));
+    BN_TRY(each(s.cameras.size(), [&](std::size_t i) { return check_camera(s.cameras[i], i); }));
     return each(s.nodes.size(), [&](std::size_t i) { return check_node(s, i); });
 }
 

@@ -284,8 +284,7 @@ std::vector<PicturesAhead::Wanted> pictures_read(const std::string (&found)[kRol
 // Puts the folder's pictures. found: by role.
 Status put_material(MapWriter& on, Scene& scene, const MaterialOverrides& with, const std::string (&found)[kRoles], const Limits& limits)
 {
-    if (Status worn = on.check_coordinates(with.material); !worn)
-        return worn;
+    BN_TRY(on.check_coordinates(with.material));
     on.each([](Material& m) {
         const std::string name = m.name;
         m = Material();
@@ -377,10 +376,8 @@ Status apply_material_overrides(Scene& scene, const MaterialOverrides& with, con
         BN_TRY(find_pictures(with.material, found, scene.warnings));
     on.look_ahead(pictures_read(found, with), jobs);
     if (has_folder)
-        if (Status put = put_material(on, scene, with, found, limits); !put)
-            return put;
-    if (Status put = put_maps(on, with); !put)
-        return put;
+        BN_TRY(put_material(on, scene, with, found, limits));
+    BN_TRY(put_maps(on, with));
     if (with.normal_y_down)
         BN_TRY(flip_normals(scene));
     if (with.f0)

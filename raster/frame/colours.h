@@ -40,7 +40,7 @@ MipSource normals_of(const Scene& scene, const Material& material); // from the 
 const Image& map_image(const Scene& scene, const TextureRef& used);
 // Finds the levels with this id that fit the image's sides. Null if there are none.
 const MapLevels* find_map(const std::vector<MapLevels>& maps, const MapId& id, const Image& image);
-// Those that were baked beforehand or found in the cache: null where there are none, so that they are made here.
+// Returns the levels that were baked beforehand or found in the cache. Null if there are none: the caller makes them.
 const MapLevels* given_map(const Scene& scene, const SceneMips& mips, const Material& material, const UsedMap& map);
 
 } // namespace burnish

@@ -295,8 +295,7 @@ Status check_desc(const FrameDesc& d)
         return usage("roughness", "the roughness must lie in 0..1, or below 0 for that of the materials");
     if (!(std::fabs(d.anisotropy) <= 1.0f))
         return usage("anisotropy", "the anisotropy must lie in -1..1");
-    if (const Status seen = check_view(d.view); !seen)
-        return seen;
+    BN_TRY(check_view(d.view));
     BN_TRY(check_by_material(d));
     return check_lobe(d, *find_technique(d.technique));
 }

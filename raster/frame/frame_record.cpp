@@ -296,15 +296,13 @@ void FrameMaker::put_behind(const FrameDesc& desc, ShadingFrame& f)
 
 Status FrameMaker::check(const FrameDesc& desc) const
 {
-    if (const Status ok = check_frame(input_.scene, desc); !ok)
-        return ok;
+    BN_TRY(check_frame(input_.scene, desc));
     if ((picture_width(desc) > desc.width || picture_height(desc) > desc.height) && shows_behind(desc))
         return Error{ExitCode::usage, "", "",
                      "surfaces that let light through show the whole picture behind them, and a window shows a part "
                      "(FrameDesc::glass interface draws them by the environment alone)",
                      "FrameDesc::window"};
-    if (const Status ok = check_prepared(input_.mips, desc); !ok)
-        return ok;
+    BN_TRY(check_prepared(input_.mips, desc));
     if (!input_.phong)
         return {};
     const bool compensated = compensates_phong(desc, input_.scene);
@@ -317,10 +315,8 @@ Status FrameMaker::check(const FrameDesc& desc) const
         const double root2 = 1.4142135623730951;
         const lobe_shape shape = only_lobe_shape(f, m);
         if (shape.sigma_u > 0.0f)
-            if (const Status fits = input_.phong->check(phong_exponent(root2 * static_cast<double>(shape.sigma_u)),
-                                                        phong_exponent(root2 * static_cast<double>(shape.sigma_v)));
-                !fits)
-                return fits;
+            BN_TRY(input_.phong->check(phong_exponent(root2 * static_cast<double>(shape.sigma_u)),
+                                       phong_exponent(root2 * static_cast<double>(shape.sigma_v))));
     }
     return {};
 }

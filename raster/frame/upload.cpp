@@ -280,8 +280,7 @@ bool tilts(const Scene& scene, const FrameDesc& desc)
 
 Status check_frame(const Scene& scene, const FrameDesc& desc)
 {
-    if (const Status ok = check_desc(desc); !ok)
-        return ok;
+    BN_TRY(check_desc(desc));
     if (!desc.by_material.empty() && desc.by_material.size() != scene.materials.size())
         return Error{ExitCode::usage, "", "",
                      std::to_string(desc.by_material.size()) + " techniques for " + std::to_string(scene.materials.size()) + " materials",

@@ -46,7 +46,7 @@ Status check_prepared(const SceneMips& mips, const FrameDesc& desc);
 
 // Roughness or anisotropy of materials, or normal maps that lobes were filtered with.
 bool overrides(const Scene& scene, const SceneMips& mips, const FrameDesc& desc);
-// Those of SceneTables that the frame takes, with its overrides, and tilted.
+// Returns the materials as the frame takes them: with its overrides, and tilted. materials: of SceneTables.
 std::vector<MaterialRecord> in_frame(std::vector<MaterialRecord> materials, const FrameDesc& desc);
 
 TextureParams texture_params(const TexturePyramid& pyramid);

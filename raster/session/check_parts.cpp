@@ -55,19 +55,15 @@ Status check_environment(const Environment& e)
         return fault(e, "/rotation_deg", "is not finite");
     const bool picture_only = e.irradiance.texels.empty() && e.specular.texels.empty();
     if (!picture_only)
-        if (Status ok = check_cube(e, e.specular, "/specular"); !ok)
-            return ok;
+        BN_TRY(check_cube(e, e.specular, "/specular"));
     if (!e.irradiance.texels.empty())
-        if (Status ok = check_cube(e, e.irradiance, "/irradiance"); !ok)
-            return ok;
+        BN_TRY(check_cube(e, e.irradiance, "/irradiance"));
     if (!e.extracted_lights.empty() || picture_only)
-        if (Status ok = check_cube(e, e.whole, "/whole"); !ok)
-            return ok;
+        BN_TRY(check_cube(e, e.whole, "/whole"));
     if (e.extracted_lights.size() > static_cast<std::size_t>(kMaxExtractedLights))
         return fault(e, "/extracted_lights", fmt::format("{} lights, more than {}", e.extracted_lights.size(), kMaxExtractedLights));
     for (std::size_t i = 0; i < e.extracted_lights.size(); ++i)
-        if (Status ok = check_extracted_light(e, i); !ok)
-            return ok;
+        BN_TRY(check_extracted_light(e, i));
     return {};
 }
 
@@ -106,14 +102,10 @@ Status check_parts(const SessionParts& parts)
     Limits any; // file readers have already applied their limits
     any.image_side = std::numeric_limits<int>::max(), any.texture_bytes = std::numeric_limits<std::uint64_t>::max();
     const SceneData& data = *parts.scene;
-    if (Status ok = check_scene(data.scene, any, data.name); !ok)
-        return ok;
-    if (Status ok = check_scene_mips(data); !ok)
-        return ok;
-    if (Status ok = check_draw_tables(data.tables, data.scene, data.name); !ok)
-        return ok;
-    if (Status ok = check_environment(*parts.environment); !ok)
-        return ok;
+    BN_TRY(check_scene(data.scene, any, data.name));
+    BN_TRY(check_scene_mips(data));
+    BN_TRY(check_draw_tables(data.tables, data.scene, data.name));
+    BN_TRY(check_environment(*parts.environment));
     return check_dfg(*parts.dfg);
 }
 

@@ -99,8 +99,8 @@ Status settle_mips(SceneData& data, const MipSettings& given, const MipSettings&
 {
     if (data.mips.baked && given.filter == MipFilter{})
         take_filters_of_mips(data.scene, data.mips);
-    else if (Status settled = settle_nets(data.scene, data.mips, asked, limits); !settled)
-        return settled;
+    else
+        BN_TRY(settle_nets(data.scene, data.mips, asked, limits));
     return data.mips.baked ? check_mips(data.scene, data.mips, given.pyramid) : Status();
 }
 

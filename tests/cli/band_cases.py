@@ -130,7 +130,7 @@ def refused(bench):
     run("--size", "20000x20", "-o", "a.jpg").expect(2).expect_one_line("--size", "a.jpg", ".png")
     run("--size", "20000x20", "--backend", "reference").expect(2).expect_one_line("--size", "16384")
     bench.run("parity", "builtin:teapot", "--size", "20000x20").expect(2).expect_one_line("--size", "16384")
-    # Surfaces that let light through show what is behind them
+    # Surfaces that let light through show the picture behind them
     bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "64", "-q").expect(0)
     bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "-q").expect(2).expect_one_line("--band-rows: cannot be combined with", "whole picture", "--glass interface")
     listed = bench.run("render", "builtin:glass", "--size", "64x64", "--band-rows", "16", "--pieces", "-q").expect(2)

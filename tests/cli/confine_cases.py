@@ -153,7 +153,7 @@ def with_few_threads(bench, jobs, counts, user):
                 check(name == "report" or bytes_of(path) == whole, f"{name} by {count}: other bytes")
             else:
                 done.expect_one_line("thread")
-                failed = path.exists() and name == "found.json" and json.loads(path.read_text())["verdict"] == "failed"  # what compare reports
+                failed = path.exists() and name == "found.json" and json.loads(path.read_text())["verdict"] == "failed"  # as compare reports
                 check(name == "report" or failed or not path.exists(), f"{name} by {count}: something is left")
             if not path.exists():
                 continue

@@ -56,7 +56,7 @@ def whole_way(bench):
     check("% of the pixels differ, within 64x48 pixels from 0,0" in results(bench)["pot"]["reason"] and "its hash is" in done.out, done.out)
     suite = xml.etree.ElementTree.parse(bench.folder / "golden-results/junit.xml").getroot()
     check(suite.get("tests") == "3" and suite.get("failures") == "2" and suite.get("errors") == "0", suite.attrib)
-    # The list chooses what is blessed
+    # The list chooses the blessed pictures
     (bench.folder / "list.txt").write_text('"pot"\n')
     done = bench.run("golden", "bless", "m.json", "--from", "list.txt").expect(0)
     check("1 picture blessed" in done.out and "goldens/pot.png" in done.out, done.out)
@@ -495,7 +495,7 @@ def operations(bench):
         bench.run("golden", "check", "m.json").expect(4)
         check("BN_COUNTING_LANES" in results(bench)["plate"]["reason"], results(bench))
         raise Skipped("the program counts no operations")
-    # The count does not depend on the machine's lanes and threads, and sees what a frame does
+    # The count does not depend on the machine's lanes and threads, and follows the frame's work
     count = lambda *more: stats(*more, "--count-operations")["operations"]
     usual = count()
     check(usual > 1e7 and {count("--threads", "1"), count("--isa", "scalar")} == {usual}, f"{usual}")

@@ -137,7 +137,7 @@ def alive(pid):
 
 @case("golden.a_killed_check_ends_its_programs", budget=20)
 def killed(bench):
-    """Signal 9 to a process that makes rows ends their programs, and what these started: no program goes on beside its successor. Busy
+    """Signal 9 to a process that makes rows ends the rows' programs and their children: no program goes on beside its successor. Busy
     machines end them late."""
     here = bench.folder / "go"
     write(bench, [{"name": f"row{i}", "command": ["sh", "-c", f"sleep 60 & echo $! > {here}.{i}; echo $$ >> {here}.{i}; wait"], "picture": f"out{i}.ppm"} for i in range(2)])
@@ -165,8 +165,8 @@ def killed(bench):
 
 @case("golden.merges_of_scripts_end_with_the_verdict", budget=3)
 def merges_of_scripts(bench):
-    """A merge makes what is missing, and its exit code equals one process': 0, or the verdict of golden pictures. No word of a picture's
-    name is run. A merge of k8s takes what no pod makes."""
+    """A merge makes the missing pictures, and its exit code equals one process': 0, or the verdict of golden pictures. No word of a picture's
+    name is run. A merge of k8s takes pieces that no pod makes."""
     import yaml
     name = "$(touch run) `touch run`; touch run"
     (bench.folder / "m.json").write_text(json.dumps({"rows": [{"name": name, "scene": "builtin:plate", "options": ["--size", "48x32", "--env-size", "16", "--env-samples", "16"]}]}))

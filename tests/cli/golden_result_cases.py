@@ -1,4 +1,4 @@
-"""burnish golden: what results may hold and take the place of: NaN, other shards, and stopped runs."""
+"""burnish golden: contents of results, and results that others may replace: NaN, other shards, and stopped runs."""
 
 import json
 import signal

@@ -149,7 +149,7 @@ def furnish(root, packages):
     merged = [path for path in map(pathlib.Path, ("/lib", "/lib64", "/bin", "/sbin")) if path.is_symlink()]
     for path in merged:
         (root / path.name).symlink_to(os.readlink(path))
-    # What the packages' scripts would choose
+    # Copy the choices that the packages' scripts would make
     shutil.copytree("/etc/alternatives", root / "etc/alternatives", symlinks=True)
     chosen = [path for path in pathlib.Path("/usr/lib").glob("*/*.so*") if path.is_symlink() and os.readlink(path).startswith("/etc/alternatives/")]
     for path in chosen:

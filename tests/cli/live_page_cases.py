@@ -1,4 +1,4 @@
-"""Pages with the renderer inside: what files hold, requests that fail, and pages of charts, goldens and comparisons in Chromium."""
+"""Pages with the renderer inside: contents of files, requests that fail, and pages of charts, goldens and comparisons in Chromium."""
 
 import base64
 import json
@@ -22,7 +22,7 @@ def no_renderer(bench, name, script="var Module = 1;\nexport default Module;", v
 
 @case("wasm.pages_hold_what_the_program_draws", budget=8)
 def pages_hold(bench):
-    """With a renderer that cannot run: what is in the file."""
+    """Reads the contents of pages, with a renderer that cannot run."""
     no_renderer(bench, "renderer")
     words = ("--roughness", "0.3", "--technique", "auto", "--no-background", "--env", "builtin:sky", "--env-size", "16", "--size", "32x24")
     bench.run("export", "page", "builtin:sphere", *words, "--renderer", "renderer", "-o", "page.html").expect(0)
@@ -84,7 +84,7 @@ def wrong_pages(bench):
     bench.run("export", "glsl", "--technique", "mc", "--roughness", "0.3", "-o", "x.glsl").expect(2).expect_one_line("--roughness", "WHAT page")
     bench.run("export", "glsl", "--technique", "auto", "-o", "x.glsl").expect(2).expect_one_line("--technique", "auto")
     bench.run("export", "glsl", "-o", "x.glsl").expect(2).expect_one_line("--technique")
-    # What a page cannot hold
+    # Refuse scenes and sizes that a page cannot hold
     for words, code, needle in ((("builtin:sphere", "--size", "5000x20"), 2, "--size"), (("builtin:sphere", "--size", "1920x1200", "--msaa", "16"), 2, "--size"),
                                 (("builtin:sphere", "--env", bench.data_file("flip/ldr_ref.png")), 4, ".hdr"),
                                 ((bench.data_file("models/AnisotropyStrengthTest_meshopt.glb"),), 4, "EXT_meshopt_compression"),

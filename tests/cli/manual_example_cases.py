@@ -113,7 +113,7 @@ def small(line, table):
 
 
 def by_shell(bench, folder, line):
-    """Runs a line by bash. Returns its exit code, None where it did not end in time, and the end of what it said."""
+    """Runs a line by bash. Returns its exit code, None where it did not end in time, and the end of its output."""
     own = {"PATH": f"{folder / 'bin'}:{os.environ.get('PATH', '/usr/bin:/bin')}", "HOME": str(folder)}
     if line.startswith("burnish parity"):
         own["GALLIVM_PERF"] = "nopt" # as in parity_cases
@@ -122,14 +122,14 @@ def by_shell(bench, folder, line):
         try:
             out, err = running.communicate(timeout=LIMIT)
         except subprocess.TimeoutExpired:
-            os.killpg(running.pid, signal.SIGKILL) # the shell and what it started
+            os.killpg(running.pid, signal.SIGKILL) # the shell and its children
             out, err = running.communicate()
             return None, (out[-300:] + err[-500:]).strip()
     return running.returncode, (out[-300:] + err[-500:]).strip()
 
 
 def run_line(bench, folder, line, codes=(0,)):
-    """Runs a line. Returns its fault, and what the machine lacks for it; None: there is none."""
+    """Runs a line. Returns its fault and its unmet need; None: there is none."""
     piped = re.search(r"[^|]\| (\w+)", line)
     if piped and not shutil.which(piped[1]):
         return None, f"`{line}` needs {piped[1]}"
@@ -146,7 +146,7 @@ def run_line(bench, folder, line, codes=(0,)):
 
 
 def run_examples(bench, name, lines, table=SMALL, before=BEFORE, answers=ANSWERS):
-    """Runs examples in turn in one folder. Fails with all faults. Where some need what the machine lacks, it runs the others and skips."""
+    """Runs examples in turn in one folder. Fails with all faults. Where some need something that the machine lacks, it runs the others and skips."""
     if not shutil.which("bash"):
         raise Skipped("no bash")
     if bench.sanitized:

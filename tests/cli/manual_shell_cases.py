@@ -104,7 +104,7 @@ def script_of(page):
 
 
 def copied(home):
-    """Makes a reader's home: a clone of the repository, folders of their own, and what stands in for packages."""
+    """Makes a reader's home: a clone of the repository, folders of their own, and stand-ins for packages."""
     clone = home / "burnish"
     if (ROOT / ".git").exists():
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -142,12 +142,12 @@ def run_script(path, env, log):
         try:
             return running.wait(timeout=LIMIT)
         except subprocess.TimeoutExpired:
-            os.killpg(running.pid, signal.SIGKILL)  # the shell and what it started
+            os.killpg(running.pid, signal.SIGKILL)  # the shell and its children
             return None
 
 
 def run_pages(bench, home, names):
-    """Runs the pages in turn. Returns the fault of the first that fails, and what pages lack; those do not run."""
+    """Runs the pages in turn. Returns the fault of the first that fails, and all unmet needs; pages with unmet needs do not run."""
     env, lacking = environment(bench, home), []
     for name in names:
         page = ROOT / name

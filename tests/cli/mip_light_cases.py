@@ -216,7 +216,7 @@ def rough_metal(bench):
 
 @case("mip.mean_light_by_the_default_technique_is_near_that_of_texels", tier="nightly")
 def default_technique(bench):
-    """One round fetch stands for each group of normals, and lights smaller than its lobe are blurred: bounds hold what is known."""
+    """One round fetch stands for each group of normals, and lights smaller than its lobe are blurred: bounds hold the known error."""
     needs_embree(bench)
     far_off = []
     for kind, most in (("hammered", 0.13), ("knurled", 0.1), ("woven", 0.11), ("scratched", 0.13)):

@@ -363,7 +363,7 @@ def on_webgpu(bench):
             check(not found["error"], f"{name}: {found['error'][:1500]}")
 
 
-# What Godot declares for fragment(), and the words that GLSL has not.
+# Godot's declarations for fragment(), and the words that GLSL has not.
 GODOT = """#version 310 es
 precision highp float;
 precision highp int;

@@ -1,4 +1,4 @@
-"""MaterialX files (--material FILE.mtlx): the pictures of equal glTF materials; what cannot be read."""
+"""MaterialX files (--material FILE.mtlx): the pictures of equal glTF materials; files that cannot be read."""
 
 import gltf_files as files
 from fresnel_cases import CLOSE

@@ -23,7 +23,7 @@ def product(*colours):
     return tuple(math.prod(c) for c in zip(*colours))
 
 
-# Lamps over a plate at the origin: what files say, and [(direction, solid angle)] that a point sees of it.
+# Lamps over a plate at the origin: each lamp as files have it, and the [(direction, solid angle)] that a point sees of it.
 QUAD = ((-0.6, -0.4, 1.2), (-0.7, 0.6, 1.3), (0.3, 0.7, 1.3), (0.4, -0.3, 1.2))
 SUNK = ((1.0, 0.5, -0.5), (1.0, 1.0, 1.0), (-1.0, 1.0, 1.0), (-1.0, 0.5, -0.5))
 DISK = ((0.5, -0.4, 0.9), (0.5, 0.1, 0.9), (1.0, -0.4, 0.9))
@@ -141,7 +141,7 @@ def frame_at(n, pole=(0.0, 1.0, 0.0)):
     return t, light.cross(n, t), n
 
 
-# ---- what stands in the way, and what does not --------------------------------------------------------------------------------------------------
+# ---- things in the way, and things out of the way -----------------------------------------------------------------------------------------------
 
 ROOM = quad(((-1.0, -1.0, 1.6), (-1.0, 1.0, 1.6), (1.0, 1.0, 1.6), (1.0, -1.0, 1.6)), LAMP)
 RATIO = (*COSINES, "--shadows", "ratio", "--shadow-samples", "256")
@@ -183,7 +183,7 @@ def grazing(bench):
 
 @case("outside.things_in_the_way_take_their_share_of_light", tier="nightly")
 def blocked(bench):
-    """A black rectangle half way up covers of the lamp what it is projected to, and of a white sky its form factor."""
+    """A black rectangle half way up covers its projection on the lamp, and its form factor of a white sky."""
     needs_embree(bench)
     low, high, z, top = (-0.2, -0.5), (0.45, 0.1), 0.8, 1.6
     lamp = corners_of((-1.0, -1.0), (1.0, 1.0), top)

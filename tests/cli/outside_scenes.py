@@ -1,4 +1,4 @@
-"""Scenes of the integrals from outside: plates, balls, lamps and skies, as glTF, and what the renderers show of them."""
+"""Scenes of the integrals from outside: plates, balls, lamps and skies, as glTF, and the renderers' pictures of them."""
 
 import base64
 import math
@@ -132,7 +132,7 @@ def black(_):
 
 # ---- pictures -----------------------------------------------------------------------------------------------------------------------------------
 
-# Ways to draw: what a lamp meets, or a sky.
+# Ways to draw under a lamp or a sky.
 REFERENCE = ("--backend", "reference")
 SHADOWED = (*REFERENCE, "--reference-mode", "shadowed")
 PATH = (*REFERENCE, "--reference-mode", "path")

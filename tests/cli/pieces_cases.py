@@ -1,4 +1,4 @@
-"""Jobs in pieces: the files of one process, whatever the shares, their order, and what dies on the way."""
+"""Jobs in pieces: the files of one process, whatever the shares, their order, and the processes that die on the way."""
 
 import base64
 import json

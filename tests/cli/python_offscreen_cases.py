@@ -224,7 +224,7 @@ assert not renderer._cached
 
 @case("python.offscreen_has_pyrender_s_names", budget=10)
 def names(bench):
-    """What burnish does not serve raises burnish.Error, which says what to do instead."""
+    """Calls that burnish does not serve raise burnish.Error, which names another way."""
     python(bench, HEAD + """
 for name in ('Camera', 'PerspectiveCamera', 'OrthographicCamera', 'IntrinsicsCamera', 'Light', 'PointLight', 'DirectionalLight', 'SpotLight', 'Sampler', 'Texture', 'Material',
              'MetallicRoughnessMaterial', 'Primitive', 'Mesh', 'Node', 'Scene', 'Renderer', 'Viewer', 'OffscreenRenderer', 'RenderFlags', 'TextAlign', 'GLTF'):

@@ -299,7 +299,7 @@ def page(bench):
                 line = browser.value("[document.getElementById('line').getAttribute('aria-valuenow'), document.getElementById('view').style.getPropertyValue('--split')]")
                 check(line == ["52", "52%"], str(line))
             browser.screenshot(bench.folder / f"{mode}.png")
-            # Read what belongs together at once: a delayed frame may begin another picture
+            # Read the figures of one picture at once: a delayed frame may begin another picture
             read = f"document.body.dataset.done === '{mode}' && [shown.a.hash, shown.b.hash, ...['command', 'command_b'].map(id => document.getElementById(id).textContent)]"
             browser.until(read, 60)
             seen = browser.value(read)

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 
-# Compiler, what runs its programs, the program's file, its instruction sets, flags (images do not depend on optimisation), targets.
+# Compiler, the runner of its programs, the program's file, its instruction sets, flags (images do not depend on optimisation), targets.
 MACHINES = {
     "aarch64": ("aarch64-linux-gnu-g++", ("qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"), "burnish_hashes", {"scalar", "portable8"},
                 ("-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",), ("burnish_hashes",)),

@@ -53,7 +53,7 @@ MAX_LINES, MAX_LINES_SIMD = 600, 900
 LIBRARIES = ("core", "shading", "raster")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
-# Core describes what files say; mip filters and nets are of those who bake.
+# Core describes files; mip filters and nets belong to baking.
 NOT_OF_CORE = re.compile(r"\b(mipnet|MipFile|MipFilter|MipSettings|SceneMips)\b")
 
 # Each word is written in two pieces, so that this file does not hold it.
@@ -184,7 +184,7 @@ def types_of(path, lines):
 
 
 def check_words(path, lines):
-    """Faults of what libraries say and name."""
+    """Yields faults of words and names in libraries."""
     top = path.parts[0]
     for number, line in enumerate(lines, 1):
         if top in LIBRARIES and path.suffix in (".h", ".cpp", ".def") and not line.lstrip().startswith("//"):

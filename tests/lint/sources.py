@@ -1,4 +1,4 @@
-"""Compiles each source of the product alone, though builds join the sources of a folder: a source includes what it uses.
+"""Compiles each source of the product alone, though builds join the sources of a folder: a source includes the headers that it uses.
 
 Usage: sources.py BUILD_FOLDER [SOURCE...]    SOURCE: only these, as paths from the root
 Exit code 1: a source does not compile. Lane code is never joined, and left out."""

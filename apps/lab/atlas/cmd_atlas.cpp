@@ -220,8 +220,7 @@ Status Atlas::bless()
         golden_ = GoldenTable();
     for (const AtlasResult& r : results_)
         golden_.walks[options_.walk().name][r.entry->id] = row_of(r.measured);
-    if (const Status written = write_text(options_.table, table_text(golden_)); !written)
-        return written;
+    BN_TRY(write_text(options_.table, table_text(golden_)));
     report_.wrote(options_.table);
     return {};
 }
@@ -261,8 +260,7 @@ Status Atlas::write()
         files.emplace_back(options_.folder + "/index.html", atlas_page(results_, options_.walk(), options_.live ? live_html() : ""));
     }
     for (const auto& [path, text] : files) {
-        if (const Status written = write_text(path, text); !written)
-            return written;
+        BN_TRY(write_text(path, text));
         report_.wrote(path);
     }
     return {};

@@ -74,11 +74,9 @@ Status check_atlas_options(AtlasOptions& options, const OptionTable& given)
         if (const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, 1.0, kQuickWalk.side, 0); !setting)
             return Error{ExitCode::usage, "", "--with", setting.error().reason};
     if (!options.json.empty())
-        if (const Status path = check_text_path("--json", options.json, {options.table}); !path)
-            return path;
+        BN_TRY(check_text_path("--json", options.json, {options.table}));
     if (options.bless)
-        if (const Status path = check_text_path("--table", options.table, {}); !path)
-            return path;
+        BN_TRY(check_text_path("--table", options.table, {}));
     const Result<Isa> isa = choose_isa(given, options.isa);
     BN_TRY(isa);
     options.isa = *isa;

@@ -27,7 +27,7 @@ constexpr double kSuspect = 1.4;          // of the noise, from which a scene ma
 constexpr double kNear = 1.3;             // of the noise, up to which pictures are like those with a mistake
 constexpr int kProbes = 4;                // scenes after which a mistake that takes nothing away is given up
 constexpr std::size_t kStride = 11;       // between scenes tried one after the other
-constexpr double kExplained = 0.25;       // of what is wrong in a way, which its mistakes may leave before another way is tried
+constexpr double kExplained = 0.25;       // of the wrong distance in a way, which its mistakes may leave before another way is tried
 constexpr double kWellExplained = 0.05;   // the same, where another way is far from about as few scenes
 constexpr int kAboutAsFew = 2;            // scenes
 constexpr double kHopeful = 0.85;         // of the distance before, which it may leave there
@@ -57,7 +57,7 @@ std::optional<double> exposure_between(const Image& of, const Image& to)
     return *middle;
 }
 
-// What a set of mistakes does in a scene: how much it changes there, and the distance that it leaves. size 0: nothing.
+// A set of mistakes' effect in a scene: the size of its change, and the distance that it leaves. size 0: no change.
 struct Effect {
     double size = 0.0, distance = 0.0; // mean FLIP
 };
@@ -65,12 +65,12 @@ struct Effect {
 // A set of mistakes that may explain pictures.
 struct Candidate {
     std::vector<int> set;
-    double gain = 0.0; // what it takes away, a sum of FLIP over scenes
+    double gain = 0.0; // distance that it takes away, a sum of FLIP over scenes
     FoundMistake found;
     std::vector<double> left; // by scene
 };
 
-// Returns true where a scene may hold a mistake that is not found yet. left: its distance to what is known.
+// Returns true where a scene may hold a mistake that is not found yet. left: its distance to the known mistakes.
 bool is_suspect(const SceneJudgement& scene, const Judgement& judgement, double left)
 {
     return std::min(scene.to_right, left) > std::min(kSuspect * judgement.noise, judgement.right_up_to);
@@ -215,7 +215,7 @@ std::vector<std::vector<int>> Judge::candidates(const std::vector<int>& known, b
     return sets;
 }
 
-// Returns the candidate that takes away most of what is left; empty: none explains enough.
+// Returns the candidate that takes away most of the distance left; empty: none explains enough.
 Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pairs, const std::vector<Image>& without,
                                         const std::vector<double>& left, Judgement& to)
 {
@@ -227,7 +227,7 @@ Result<Candidate> Judge::best_candidate(const std::vector<int>& known, bool pair
         const bool whole = changes_whole_pictures(set.front());
         const Result<std::vector<Effect>> effects = effects_of(mistakes, whole, without, left, to);
         BN_TRY(effects);
-        // Sum what it takes away, weighted by what it changes
+        // Sum the distance that it takes away, weighted by the size of its changes
         Candidate now{set, 0.0, {}, left};
         double before = 0.0, after = 0.0, weight = 0.0;
         bool accepted = whole;
@@ -272,7 +272,7 @@ Status Judge::find_mistakes(bool pairs, Judgement& to)
         }
         if (best->set.empty())
             return {};
-        // Take it for known, and look at what it leaves
+        // Take it for known, and look at the distance that it leaves
         const double count = static_cast<double>(best->found.scenes.size());
         best->found.before /= count, best->found.after /= count;
         for (const int m : best->set) {
@@ -363,7 +363,7 @@ void Judge::judge_by(const std::vector<DrawnWay>& ways, std::size_t at, const st
                 to.scenes[i].to_right <= to.right_up_to ? SceneJudgement::Outcome::right : SceneJudgement::Outcome::wrong;
 }
 
-// Returns how far the pictures are from what explains them, a sum over scenes. Distances that are right do not count. A right picture
+// Returns the distance of the pictures from their explanations, a sum over scenes. Distances that are right do not count. A right picture
 // counts where the mistakes would make it wrong.
 double unexplained_distance(const Judgement& judgement)
 {

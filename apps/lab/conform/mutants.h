@@ -18,7 +18,7 @@ struct Mutant {
     std::uint32_t kernels = 0;                // bits of KernelMutant
     bool (*scene)(Scene& scene) = nullptr;    // edits the scene; false: it has nothing to edit
     MutantSky sky = MutantSky::right;         // of scenes under the environment
-    void (*frame)(FrameDesc& desc) = nullptr; // edits what is drawn
+    void (*frame)(FrameDesc& desc) = nullptr; // edits the frame's settings
     void (*picture)(Image& linear) = nullptr; // edits the finished picture, f32 RGB
 };
 const std::vector<Mutant>& mutants();

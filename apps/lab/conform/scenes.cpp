@@ -137,7 +137,7 @@ SceneFile one_direction_by_map() // 8-bit values that an sRGB curve turns to ano
     return s;
 }
 
-SceneFile mirrored_coordinates() // the left half of what is seen has mirrored coordinates, as its tangents say
+SceneFile mirrored_coordinates() // the visible surface's left half has mirrored coordinates, as its tangents say
 {
     SceneFile s;
     add_grid(s, 64, 64, [](double u, double v) {

@@ -92,8 +92,7 @@ Status check_arguments(const LtcBake& b, const OptionTable& given)
         return usage_error("-o", "the table is no text for standard output");
     if (b.output.empty())
         return {};
-    if (Status path = check_text_path("-o", b.output, {}); !path)
-        return path;
+    BN_TRY(check_text_path("-o", b.output, {}));
     return check_text_path("-o", b.output + ".part", {});
 }
 
@@ -106,8 +105,7 @@ Status write_report_files(const std::string& folder, const Json& figures, const 
         files.emplace_back(name + ".svg", svg_of(drawing, chart_style()));
     for (const auto& [name, bytes] : files) {
         const std::string path = (fs::path(folder) / name).string();
-        if (Status written = write_file_atomic(path, bytes.data(), bytes.size()); !written)
-            return written;
+        BN_TRY(write_file_atomic(path, bytes.data(), bytes.size()));
         report.wrote(path);
     }
     return {};

@@ -195,7 +195,7 @@ void add_row(Race& bench, const RenderOptions& frame, std::size_t device, const 
     bench.out.rows.push_back(row);
 }
 
-// Loads a scene and its view. Leaves out what the lean shader's pass does not draw, and adds a note. Errors: nothing is left.
+// Loads a scene and its view. Leaves out surfaces that the lean shader's pass does not draw, and adds a note. Errors: nothing is left.
 Result<SceneWithView> load_raced_scene(Race& bench, const RenderOptions& base)
 {
     Result<SceneWithView> scene = load_scene_with_view(base.scene, base, bench.report, *bench.jobs);

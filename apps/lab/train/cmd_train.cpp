@@ -104,12 +104,10 @@ Status check_arguments(TrainArguments& a, const OptionTable& given)
     if (a.output == "-")
         return usage_error("-o", "weights are no text for standard output");
     if (!a.json.empty())
-        if (const Status path = check_text_path("--json", a.json, {a.evaluate}); !path)
-            return path;
+        BN_TRY(check_text_path("--json", a.json, {a.evaluate}));
     if (a.output.empty())
         return {};
-    if (const Status path = check_text_path("-o", a.output, {}); !path)
-        return path;
+    BN_TRY(check_text_path("-o", a.output, {}));
     return check_text_path("--checkpoint", a.train.checkpoint, {});
 }
 

@@ -240,8 +240,7 @@ Status read_part(Reader& reader, Part& part, bool& any)
         const std::size_t size = reader.u32();
         if (size > reader.left())
             return reader.error(fmt::format("an attribute of {} bytes does not fit into the file", size));
-        if (Status status = read_attribute(reader, name, type, size, part); !status)
-            return status;
+        BN_TRY(read_attribute(reader, name, type, size, part));
         reader.skip(size);
     }
 }
@@ -258,13 +257,10 @@ Status check_part(const ImageBytes& file, const Part& part, const Limits& limits
         constexpr std::int64_t kFar = 1 << 30;
         if (window->x0 < -kFar || window->y0 < -kFar || window->x1 > kFar || window->y1 > kFar)
             return file.error("header", "a window lies absurdly far away");
-        if (Status sides = check_sides(file, window->width(), window->height(), limits); !sides)
-            return sides;
+        BN_TRY(check_sides(file, window->width(), window->height(), limits));
         const std::uint64_t pixel_bytes = 4 * static_cast<std::uint64_t>(std::min(part.channels, 4));
-        if (Status fits = check_proportion(file, static_cast<std::uint64_t>(window->width()), static_cast<std::uint64_t>(window->height()),
-                                           pixel_bytes);
-            !fits)
-            return fits;
+        BN_TRY(
+            check_proportion(file, static_cast<std::uint64_t>(window->width()), static_cast<std::uint64_t>(window->height()), pixel_bytes));
     }
     // Check the size of tiles or scanline blocks
     const std::uint64_t width = static_cast<std::uint64_t>(part.data.width());

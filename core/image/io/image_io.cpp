@@ -272,8 +272,7 @@ Result<Image> decode_colours(const std::uint8_t* data, std::size_t size, const s
     const Result<ImageProbe> probe = probe_bytes(file, limits);
     BN_TRY(probe);
     Result<Image> image = decode_probed(file, *probe, limits, notes, room);
-    if (!image)
-        return image;
+    BN_TRY(image);
     const StoredColour& colour = probe->colour;
     notes.warnings.insert(notes.warnings.end(), colour.warnings.begin(), colour.warnings.end());
     if (const std::string warning = warning_of_profile(colour); !warning.empty())

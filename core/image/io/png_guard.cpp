@@ -80,8 +80,7 @@ bool depth_fits(unsigned depth, unsigned colour_type)
 Status check_header(const ImageBytes& file, const std::uint8_t* data, const Limits& limits, Header& header)
 {
     header = {read32(data), read32(data + 4), data[8], data[9]};
-    if (Status sides = check_sides(file, static_cast<std::int64_t>(header.width), static_cast<std::int64_t>(header.height), limits); !sides)
-        return sides;
+    BN_TRY(check_sides(file, static_cast<std::int64_t>(header.width), static_cast<std::int64_t>(header.height), limits));
     if (!depth_fits(header.depth, header.colour_type))
         return file.error("byte 24", fmt::format("bit depth {} with colour type {} is no PNG", header.depth, header.colour_type));
     if (data[10] != 0 || data[11] != 0 || data[12] > 1)

@@ -105,8 +105,7 @@ Status read_header(const ImageBytes& file, std::string_view header, StoredColour
 {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find('\n'), header.size());
-        if (Status read = read_line(file, header.substr(0, end), colour); !read)
-            return read;
+        BN_TRY(read_line(file, header.substr(0, end), colour));
         header.remove_prefix(std::min(end + 1, header.size()));
     }
     return {};
@@ -275,8 +274,7 @@ Status read_radiance(const ImageBytes& file, const ImageProbe& probe, const Plac
     for (int line = 0; line < layout.scanlines; ++line, to += 3 * pixels) {
         const Status read = begins_new_scanline(file, at, layout.scanline_pixels) ? read_new_scanline(file, at, pixels, rgbe.data())
                                                                                   : read_old_scanline(file, at, pixels, rgbe.data());
-        if (!read)
-            return read;
+        BN_TRY(read);
         to_floats(rgbe.data(), pixels, to);
     }
     return {};

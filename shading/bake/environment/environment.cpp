@@ -299,8 +299,7 @@ Result<Environment> load_environment(const std::string& spec, const EnvironmentO
     if (!spec.starts_with(builtin) && is_baked_environment(spec)) {
         const auto start = std::chrono::steady_clock::now();
         Result<Environment> baked = read_baked_environment(spec);
-        if (!baked)
-            return baked;
+        BN_TRY(baked);
         baked->name = spec, baked->bake_ms = ms_since(start);
         turn_and_expose(*baked, options);
         return baked;

@@ -21,7 +21,7 @@ RUNS = {
 }
 # The laboratory's runs of the product's subcommands.
 PARTS = {"bake": [(("ltc", "--resolution", "3", "--steps", "1", "--samples", "1", "-o", "t.ltc"), (0,)), (("ltc", "--table", "t.ltc"), (0,))]}
-# Those that take seconds however small.
+# Runs that take seconds however small.
 LONG = {"chart": [(("--mip", "--brdf", "beckmann", "--per-set", "1", "-o", "mips"), (0,))],
         "plot": [(("ltc", "-o", "ltc.svg"), (0,)), (("ellipsoid", "-o", "e.html"), (0,))]}
 

@@ -1,4 +1,4 @@
-"""burnish bake ltc: tables of transformed cosines, and what render says of wrong ones."""
+"""burnish bake ltc: tables of transformed cosines, and render's errors about wrong tables."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""`race`: the lean shaders draw the kernels' pictures, so that both cost what the same picture costs."""
+"""`race`: the lean shaders draw the kernels' pictures, so that both costs are of the same picture."""
 import csv
 import json
 import shutil

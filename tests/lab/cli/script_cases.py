@@ -1,4 +1,4 @@
-"""Scripts of bench/lab: what they measure with the program."""
+"""Scripts of bench/lab: their measurements with the program."""
 
 import colorsys
 import json
