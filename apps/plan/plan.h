@@ -63,10 +63,10 @@ inline constexpr double kPlanSafety = 1.3;
 inline constexpr double kTailSafety = 1.3;  // the same for the 99th percentile
 inline constexpr double kTimeSafety = 1.05; // the same for times
 
-struct PlanFixed {            // by the user
-    std::string technique;    // empty: none
-    int samples = 0;          // 0: none
-    bool area_lights = false; // the frame's method for area lights
+struct PlanFixed {              // by the user
+    std::string technique = {}; // empty: none
+    int samples = 0;            // 0: none
+    bool area_lights = false;   // the frame's method for area lights
 };
 
 // A time budget draws the cheapest plan once, to measure. Errors: ExitCode::usage for a budget that no setting reaches; Error::field names

@@ -123,7 +123,7 @@ class Prober {
                     fetch_[m] = distances_.back()[m], fetch_map_[m] = maps_.size() - 1;
         }
         for (std::size_t m = 0; m < count_; ++m)
-            own_.push_back(own_error(moments_[m], fetch_[m]));
+            own_.push_back(is_body(m) ? kPriorShare * fetch_[m] : own_error(moments_[m], fetch_[m]));
         double instructions = 0.0;
         for (std::size_t m = 0; m < count_; ++m)
             instructions += materials_.pixels[m] * random_over_fetch(kRandomSamples);
@@ -172,8 +172,9 @@ class Prober {
         for (std::size_t m = 0; m < count_; ++m)
             probe_.materials[m].share = materials_.pixels[m] / static_cast<double>(materials_.of.size()),
             probe_.materials[m].default_cost = default_costs[m] + lights;
+        const bool any_prefiltered = std::any_of(settings.begin(), settings.end(), prefiltered);
         for (const MaterialTechnique& s : settings)
-            put_setting(s);
+            put_setting(s, any_prefiltered);
         if (by_pixel_)
             probe_.pixels.material = materials_.of;
         return std::move(probe_);
@@ -240,7 +241,12 @@ class Prober {
         }
     }
 
-    void put_setting(const MaterialTechnique& s)
+    // Returns true for a material whose prefiltered techniques follow light through a whole body. mc samples one interface, so it tells no
+    // errors of those.
+    bool is_body(std::size_t m) const { return small_.glass != 0 && session_.scene().materials[m].transmission > 0.0f; }
+
+    // any_prefiltered: a body takes no other settings.
+    void put_setting(const MaterialTechnique& s, bool any_prefiltered)
     {
         const std::vector<double> costs = mean_costs(s, lobes_, materials_.of, count_);
         const auto at = static_cast<std::size_t>(
@@ -248,7 +254,7 @@ class Prober {
                          [&](const MaterialTechnique& a) { return a.technique == s.technique && a.samples == s.samples; }) -
             all_.begin());
         for (std::size_t m = 0; m < count_; ++m)
-            if (materials_.pixels[m] > 0.0)
+            if (materials_.pixels[m] > 0.0 && !(any_prefiltered && !prefiltered(s) && is_body(m)))
                 probe_.materials[m].settings.push_back(
                     {s, prefiltered(s) ? sum_of_errors(distances_[at][m], own_[m]) : noise_.mean[m] * random_share(s), costs[m]});
         if (!by_pixel_)

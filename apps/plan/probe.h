@@ -54,6 +54,7 @@ std::vector<AreaLightsSetting> plannable_area_lights();
 // error is its distance to the best one, plus the best one's own error. Two noisy pictures by mc tell that error, and mc's noise. A
 // pixel's part of the own error follows the pixel's distance to a single fetch. Settings' errors are those of light from the environment.
 // Where area lights give light, two pictures by points on the lights tell the errors of methods for them.
+// A body of glass has no setting of mc, which samples one interface, unless only such settings are allowed.
 // The same frame gives the same probe on every machine and with any thread count, apart from times. settings: the allowed ones of
 // plannable_settings(); area_lights: likewise. by_pixel: fills Probe::pixels. Expects a tile renderer's session.
 Result<Probe> probe_frame(Session& session, const FrameDesc& desc, const std::vector<MaterialTechnique>& settings,

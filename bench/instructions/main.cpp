@@ -13,7 +13,6 @@
 #include <gnu/libc-version.h>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "bench/frame/subject.h"
 #include "bench/instructions/step_counter.h"
@@ -53,23 +52,6 @@ std::vector<Workload> small_workloads()
     return list;
 }
 
-// Workloads without a budget, drawn only where named: quads that light every pixel.
-std::vector<Workload> named_workloads()
-{
-    std::vector<Workload> list;
-    for (const auto& [name, quads, way] : {std::tuple{"quads_0", 0, "ltc"},
-                                           {"quads_1", 1, "ltc"},
-                                           {"quads_4", 4, "ltc"},
-                                           {"quads_16", 16, "ltc"},
-                                           {"quads_64", 64, "ltc"},
-                                           {"isotropic_1", 1, "ltc-isotropic"},
-                                           {"isotropic_4", 4, "ltc-isotropic"}}) {
-        list.push_back({name, "instructions", BenchScene::sphere, 0, 160, 90, 1, "bent_normal", 0, 0.8f});
-        list.back().quads = quads, list.back().area_way = way;
-    }
-    return list;
-}
-
 // Workloads for counting step by step. Each has one tile, because a step takes thousands of cycles.
 std::vector<Workload> stepped_workloads()
 {
@@ -84,10 +66,7 @@ std::vector<Workload> stepped_workloads()
 std::optional<Workload> known(const char* text)
 {
     const std::string_view all = text;
-    std::vector<Workload> all_known = small_workloads();
-    for (const Workload& w : named_workloads())
-        all_known.push_back(w);
-    for (Workload w : all_known) {
+    for (Workload w : small_workloads()) {
         const std::string_view name = w.name;
         char end = 0;
         const bool sized = all.size() > name.size() && all[name.size()] == '@';

@@ -30,7 +30,8 @@ SIZE = "480x270"
 BUDGETS = (0.1, 0.03, 0.01)
 TAILS = (0.5, 0.3, 0.2)  # of the 99th percentile
 REFERENCE, NOISY = 4096, 1024  # samples of mc
-BUILTINS = ("teapot", "spheres", "sphere", "plate", "bumps", "lacquer", "shaderballs")
+EXACT_LIGHTS = {"builtin:lights": ("--area-lights", "mc", "--light-samples", 1024)}  # of the reference
+BUILTINS = ("teapot", "spheres", "sphere", "plate", "bumps", "lacquer", "shaderballs", "lights")
 UNSEEN_BUILTINS = ("bumps", "shaderballs")
 FIXED = [("split_isotropic", 1), ("bent_normal", 1), ("major_axis_weighted", 4), *(("lobe_line", n) for n in (5, 9, 17, 36, 64)),
          *(("mc", n) for n in (512, 1024))]
@@ -81,8 +82,9 @@ class Bench:
         kept = self.folder / f"{index}.json"
         if kept.exists():
             return json.loads(kept.read_text())
-        reference = self.picture("reference.pfm", case, "--technique", "mc", "--samples", REFERENCE)
-        noisy = self.picture("noisy.pfm", case, "--technique", "mc", "--samples", NOISY, "--seed", 9)
+        lights = EXACT_LIGHTS.get(case[0], ())
+        reference = self.picture("reference.pfm", case, "--technique", "mc", "--samples", REFERENCE, *lights)
+        noisy = self.picture("noisy.pfm", case, "--technique", "mc", "--samples", NOISY, "--seed", 9, *lights)
         noises = [flip * (NOISY / REFERENCE) ** 0.5 for flip in self.flips(reference, noisy)]  # of the reference
 
         def errors(path):

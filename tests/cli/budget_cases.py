@@ -61,6 +61,52 @@ def percentile(bench):
         bench.run(*POT, *words).expect(2).expect_one_line(needle)
 
 
+LIT = ("render", "builtin:lights", "--size", "320x180", "--msaa", "1", *SMALL)
+
+
+@case("budget.holds_under_area_lights", budget=10)
+def area_lit(bench):
+    """Cosines for area lights err by more than a small budget, so its picture has points on the lights. The reference's points cost most of the time."""
+    bench.run(*LIT, "--technique", "mc", "--samples", "1024", "--area-lights", "mc", "--light-samples", "256", "-o", "reference.pfm").expect(0)
+    ways = []
+    for budget in (0.1, 0.03):
+        done = bench.run(*LIT, "--budget", budget, "-o", "a.pfm", "--stats", "a.json", "--plan-out", "plan.json").expect(0)
+        plan, stats, error = stats_of(bench, "plan.json"), stats_of(bench, "a.json"), flip(bench, "reference.pfm", "a.pfm")
+        check(error <= budget and error <= 1.3 * plan["predicted_flip"], f"the error is {error}, predicted {plan['predicted_flip']}, the budget {budget}")
+        check(re.search(r"budget +area lights: .*, error [\d.]+ over the picture; next ", done.err), done.err)
+        ways.append(plan["area_lights"]["method"])
+        # The plan file and the step of an animation take the same method
+        bench.run(*LIT, "--plan", "plan.json", "--stats", "b.json").expect(0)
+        check(stats["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], f"{budget}: another picture by the plan file")
+        bench.run(*LIT, "--budget", budget, "--animate", "exposure=0:1", "--steps", "2", "--stats", "b.json").expect(0)
+        check(all(step["pixel_hash"] == stats["pixel_hash"] for step in stats_of(bench, "b.json")["steps"]), f"{budget}: another picture in a row")
+    check(ways[0] != "mc" and ways[1] == "mc", f"{ways}")
+    # A given method stays
+    for words in (("--area-lights", "ltc"), ("--light-samples", "16")):
+        bench.run(*LIT, "--budget", "0.1", *words, "--plan-out", "given.json").expect(0)
+        check(stats_of(bench, "given.json")["area_lights"]["method"] == "ltc", f"{words}")
+    bench.run(*LIT, "--budget", "0.02", "--area-lights", "ltc").expect(2).expect_one_line("no setting reaches 0.02")
+    bench.run(*LIT, "--budget", "0.1", "--area-lights", "off", "--plan-out", "off.json").expect(0)
+    check("area_lights" not in stats_of(bench, "off.json"), "lights without light have a method")
+
+
+@case("budget.leaves_bodies_of_glass_to_techniques_that_follow_light_through_them", budget=6)
+def glass(bench):
+    """By mc a body is as dark as one interface over a black inside."""
+    lit = ("render", "builtin:glass", "--size", "320x180", "--msaa", "1", *SMALL)
+
+    def technique_of(*words):
+        bench.run(*lit, *words, "--plan-out", "plan.json").expect(0)
+        return {m["name"]: m["technique"] for m in stats_of(bench, "plan.json")["materials"] if m["share"] > 0}
+
+    bodies = {"clear", "frosted", "rough", "brushed amber"}
+    planned = technique_of("--budget", "0.04")
+    check(bodies <= set(planned) and "mc" in planned.values(), f"{planned}")
+    check(all(planned[name] != "mc" for name in bodies), f"{planned}")
+    check(technique_of("--budget", "0.04", "--glass", "interface")["brushed amber"] == "mc", "one interface is not left to mc")
+    check(set(technique_of("--budget", "0.2", "--technique", "mc").values()) == {"mc"}, "a given technique is not kept")
+
+
 @case("budget.plans_are_drawn_again_with_the_same_pixels", budget=3)
 def replayed(bench):
     bench.run(*POT, "--budget", "0.06", "--plan-out", "plan.json", "--stats", "a.json").expect(0)
