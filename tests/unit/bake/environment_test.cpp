@@ -261,8 +261,10 @@ TEST(environment, bad_pixels_are_repaired_and_reported)
     EXPECT_EQ(e.warnings[2], "1 infinite values of the environment set to its largest finite value, 77");
     EXPECT_EQ(e.peak_source, 77.0f);
     image.f32()[20] = 1e30f; // no light
-    EXPECT_EQ(bake(image, small_bake()).warnings, e.warnings);
-    EXPECT_EQ(bake(image, small_bake()).peak_source, 77.0f);
+    const Environment huge = bake(image, small_bake());
+    ASSERT_EQ(huge.warnings.size(), 3u);
+    EXPECT_EQ(huge.warnings[2], "1 values of the environment above 1e+12 set to its largest value below that, 77");
+    EXPECT_EQ(huge.peak_source, 77.0f);
     for (const std::uint16_t t : e.specular.texels)
         ASSERT_TRUE(std::isfinite(half_to_float(t)));
 }

@@ -201,7 +201,7 @@ TEST(plan, every_setting_has_a_technique_that_materials_may_have)
 
 class plan_file : public testing::Test {
   protected:
-    const std::string path_ = testing::TempDir() + "plan_test.json";
+    const std::string path_ = testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
     const PlanSubject subject_ = {"a scene", "a sky", "a view", 480, 320, "0123"};
     void write(const std::string& text) { ASSERT_TRUE(write_file_atomic(path_, text.data(), text.size())); }
     void refused(const PlanSubject& subject, std::size_t materials, const std::string& place)
