@@ -1,5 +1,7 @@
 // `burnish race`: times the tile renderer against Vulkan's CPU devices on one picture.
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 
@@ -49,7 +51,7 @@ struct RaceArguments {
                              shaders = {std::begin(kRaceShaders), std::end(kRaceShaders)};
     std::vector<int> msaa = {1, 4};
     int runs = 5;
-    std::string json, csv;
+    std::string json, csv, pictures;
 };
 
 struct Timed {
@@ -78,8 +80,33 @@ Status draw_device(Session& device, const FrameDesc& desc, Frame& frame, Timed& 
     return {};
 }
 
+// Writes the tile renderer's picture with the device's to its right.
+Status write_beside(const std::string& path, const Image& tile, const Image& device)
+{
+    Image both = make_image(2 * tile.width, tile.height, tile.channels, tile.type);
+    const std::size_t row = tile.bytes.size() / static_cast<std::size_t>(tile.height);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(tile.height); ++y) {
+        std::copy_n(tile.bytes.data() + y * row, row, both.bytes.data() + 2 * y * row);
+        std::copy_n(device.bytes.data() + y * row, row, both.bytes.data() + (2 * y + 1) * row);
+    }
+    const RenderOptions usual;
+    return write_picture(path, both, usual.tonemap, usual.exposure_ev);
+}
+
+// Returns the name of a row's picture: its number, and all that tells the row.
+std::string picture_name(std::size_t number, const RenderOptions& frame, const std::string& shader, const std::string& device)
+{
+    std::string name = fmt::format("{:03}-{}-{}-{}x-{}-{}", number, std::filesystem::path(frame.scene).stem().string(),
+                                   frame.frame.technique, frame.frame.msaa, shader, device.substr(0, device.find(' ')));
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.')
+            c = '_';
+    return name + ".png";
+}
+
 // Alternates A B A B: a slow phase of the machine slows both. Skips the first round, in which pipelines are compiled.
-Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int runs, const Jobs& jobs)
+// picture: written with both frames; empty: none.
+Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int runs, const Jobs& jobs, const std::string& picture)
 {
     Timed a, b;
     Frame of_tile, of_device;
@@ -103,6 +130,8 @@ Result<RaceRow> race(Session& tile, Session& device, const FrameDesc& desc, int 
         silhouettes = silhouettes_of(of_tile, desc.msaa, tile.tables());
     }
     compare_pictures(of_tile.color, of_device.color, silhouettes, jobs, row);
+    if (!picture.empty())
+        BN_TRY(write_beside(picture, of_tile.color, of_device.color));
     return row;
 }
 
@@ -117,6 +146,7 @@ RaceRow failed_row(const FrameDesc& desc, const Error& error)
 struct RacePlan {
     std::vector<RenderOptions> frames; // by scene, technique, msaa
     std::vector<std::string> devices, shaders;
+    std::string pictures; // folder; empty: none
     int runs = 5;
     bool lean = false; // the lean shader is among them: normal maps have no horizon and no facets, and scenes are opaque
 };
@@ -136,10 +166,12 @@ Result<RacePlan> check(const RaceArguments& in, const OptionTable& given)
                 BN_TRY(checked);
                 plan.frames.push_back(*checked);
             }
-    plan.devices = in.devices, plan.shaders = in.shaders, plan.runs = in.runs;
+    plan.devices = in.devices, plan.shaders = in.shaders, plan.runs = in.runs, plan.pictures = in.pictures;
     std::vector<std::string> inputs = in.scenes;
     inputs.push_back(in.render.plain.env);
     BN_TRY(check_outputs({}, {{"--json", in.json}, {"--csv", in.csv}}, inputs));
+    if (!in.pictures.empty())
+        BN_TRY(check_folder_path(in.pictures));
     return plan;
 }
 
@@ -238,8 +270,14 @@ void race_scene(Race& bench, std::size_t first, std::size_t last)
             const Activity activity(fmt::format("row {} of {}: {} {}", i * bench.devices.size() + d + 1,
                                                 frames.size() * bench.devices.size(), frames[i].scene, desc.technique));
             desc.view = scene->view;
+            const Opponent& opponent = bench.devices[d];
+            const std::string picture = bench.plan.pictures.empty() ? ""
+                                                                    : bench.plan.pictures + "/" +
+                                                                          picture_name(i * bench.devices.size() + d + 1, frames[i],
+                                                                                       opponent.shader, opponent.device->info().name);
             add_row(bench, frames[i], d,
-                    renderers[d] ? race(*tile, *renderers[d], desc, bench.plan.runs, *bench.jobs) : Result<RaceRow>(renderers[d].error()));
+                    renderers[d] ? race(*tile, *renderers[d], desc, bench.plan.runs, *bench.jobs, picture)
+                                 : Result<RaceRow>(renderers[d].error()));
         }
 }
 
@@ -262,6 +300,9 @@ int run_race(const RaceArguments& arguments, const OptionTable& given)
     for (const std::string& warning : (*environment)->warnings)
         report.warning(warning);
     report.release();
+    if (!checked->pictures.empty())
+        if (const Status made = make_output_folder(checked->pictures); !made)
+            return fail(made.error());
     Race bench{*checked, devices, *environment, jobs, report, out, Error{ExitCode::ok, "", "", ""}};
     for (std::size_t i = 0; i < checked->frames.size();) {
         const std::size_t first = i;
@@ -293,7 +334,9 @@ OptionTable option_table(RaceArguments& to)
                    {"--msaa", "N,N", "Samples a pixel, separated by commas", choices(to.msaa, {1, 2, 4, 8, 16})},
                    {"--runs", "N", "Timed frames for every row and renderer, in turn", integer(to.runs, 1, 10000)},
                    {"--json", "FILE", "Rows as JSON; - for standard output", file(to.json)},
-                   {"--csv", "FILE", "Rows as CSV; - for standard output", file(to.csv)}});
+                   {"--csv", "FILE", "Rows as CSV; - for standard output", file(to.csv)},
+                   {"--pictures", "DIR", "Folder for a picture of each row: the tile renderer's frame, with the device's to its right",
+                    folder(to.pictures)}});
     table.take(of_render, "",
                {"--size",
                 {"--samples", "Samples of the techniques, if they take any", ""},

@@ -1,6 +1,7 @@
 """`race`: the lean shaders draw the kernels' pictures, so that both costs are of the same picture."""
 import csv
 import json
+import re
 import shutil
 
 from harness import Skipped, case, check
@@ -41,7 +42,7 @@ def lean_coats(bench):
 @case("race.rows_hold_picture_and_times", tier="nightly")
 def race_rows(bench):
     done = bench.run("race", "--size", "96x64", "--techniques", "split_isotropic", "--msaa", "1", "--runs", "2", "--devices", "lavapipe,abacus", *COARSE,
-                     "--json", "race.json", "--csv", "race.csv", timeout=540.0)
+                     "--json", "race.json", "--csv", "race.csv", "--pictures", "beside", timeout=540.0)
     if done.code == 77:
         raise Skipped(done.err.strip())
     done.expect(0)
@@ -58,6 +59,11 @@ def race_rows(bench):
         check(abs(row["ratio"] - row["device_cpu_ms"] / row["tile_cpu_ms"]) < 1e-6 * row["ratio"], f"another ratio: {row}")
         check(abs(report["geomean_ratio"][row["shader"]] - row["ratio"]) < 1e-6 * row["ratio"], "the mean of one row is that row")
     check(any("abacus" in note for note in report["notes"]), "nothing is said of the device that is absent")
+    beside = sorted(path.name for path in (bench.folder / "beside").iterdir())
+    check([re.sub("-[^-]*$", "", name) for name in beside] == ["001-builtin_teapot-split_isotropic-1x-own", "002-builtin_teapot-split_isotropic-1x-lean"],
+          f"{beside}")
+    for name in beside:
+        check((bench.folder / "beside" / name).read_bytes()[16:24] == bytes((0, 0, 0, 192, 0, 0, 0, 64)), f"{name} is not twice as wide as a frame")
 
 
 @case("race.goes_on_after_a_row_that_fails", tier="nightly")
