@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/core.h>
+#include <optional>
+#include <string_view>
 
 #include "apps/cli/parse.h"
 #include "apps/options/scene_view.h"
-#include "apps/risks/assets.h"
-#include "apps/risks/golden_figures.h"
+#include "apps/risks/path_reader.h"
 #include "apps/risks/sky.h"
-#include "core/base/check.h"
 #include "shading/bake/environment/cube_map.h"
 #include "shading/bake/environment/turn.h"
 #include "shading/lang/tables.h"
@@ -30,6 +30,9 @@ struct Rule {
     float (*measure)(const RiskInputs& i);
     Change change;
     const char *readers, *says;
+    const char* words;
+    bool geometric;
+    const char* path;
 };
 
 #define BN_RISK_MEASURE(id, value)                                                                                                         \
@@ -39,9 +42,20 @@ struct Rule {
     }
 #include "apps/risks/risks.def"
 
+constexpr bool straight = false, geometric = true; // kinds of risks.def
 constexpr Rule kRules[] = {
-#define BN_RISK(entry, measure, change, readers, says) {#entry, measure_##measure, Change::change, readers, says},
+#define BN_RISK(entry, measure, change, readers, says, words, kind, path)                                                                  \
+    {#entry, measure_##measure, Change::change, readers, says, words, kind, path},
 #include "apps/risks/risks.def"
+};
+
+struct Onset {
+    const char* entry;
+    double s;
+};
+constexpr Onset kOnsets[] = {
+#define BN_ONSET(entry, s) {#entry, s},
+#include "apps/risks/onsets.def"
 };
 
 static_assert(std::size(kRules) <= 32, "a pixel's rules are the bits of a word");
@@ -74,34 +88,41 @@ bool names(const char* beginnings, const std::string& technique)
     return false;
 }
 
-// Describes an entry's onset for any scene. A failure scene's eye and a tilt by two angles become an angle.
-std::string onset_words(const AtlasSetting& setting, const RiskInputs& at)
+// Returns the place on the rule's path where its failure begins, or none if it begins nowhere.
+std::optional<double> onset_of(const Rule& rule)
 {
-    if (setting.options.eye && setting.values.starts_with("eye "))
+    for (const Onset& onset : kOnsets)
+        if (std::string_view(onset.entry) == rule.entry)
+            return onset.s;
+    return std::nullopt;
+}
+
+// Describes a failure's onset for any scene. The eye in the path's own scene and a tilt by two angles become an angle.
+std::string onset_words(const PicturePlace& place, const RiskInputs& at)
+{
+    if (place.options.eye && place.values.starts_with("eye "))
         return fmt::format("seen from lower than {:.0f} degrees above the surface",
                            glm::degrees(std::asin(std::clamp(at.n_dot_v, 0.0f, 1.0f))));
-    if (setting.values.starts_with("tilt "))
+    if (place.values.starts_with("tilt "))
         return fmt::format("a tilt of {:.0f} degrees", glm::degrees(at.tilt));
-    return setting.values;
+    return place.values;
 }
 
 Result<std::vector<Active>> active_rules(const FrameDesc& desc)
 {
-    const std::string table(kAtlasGolden.bytes, kAtlasGolden.size);
     std::vector<Active> out;
-    SettingReader reader;
+    PathReader reader;
     for (std::size_t r = 0; r < std::size(kRules); ++r) {
         const Rule& rule = kRules[r];
         if (!names(rule.readers, technique_of(desc).name))
             continue;
-        // kEarly relates to the row's onset; above 1: none
-        const std::optional<GoldenFigures> row = find_row(table, kQuickWalk.name, rule.entry);
-        if (!row || row->onset > 1.0)
+        const std::optional<double> onset = onset_of(rule);
+        if (!onset)
             continue;
-        const Result<AtlasSetting> setting = reader.read(*find_entry(rule.entry), AtlasRole::test, row->onset, kQuickWalk.side, 0);
-        BN_TRY(setting);
-        const RiskInputs at = inputs_of_setting(setting->options);
-        out.push_back({r, kEarly * rule.measure(at), onset_words(*setting, at)});
+        const Result<PicturePlace> place = reader.read({rule.entry, split(rule.words, ' '), rule.path, rule.geometric}, *onset);
+        BN_TRY(place);
+        const RiskInputs at = inputs_of_setting(place->options);
+        out.push_back({r, kEarly * rule.measure(at), onset_words(*place, at)});
     }
     return out;
 }
@@ -320,13 +341,6 @@ RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment
     i.texel = 1.5708f / static_cast<float>(environment.specular.size);
     i.separable = desc.masking != 0 ? 1.0f : 0.0f, i.fit = desc.dfg_fit != 0 ? 1.0f : 0.0f;
     return i;
-}
-
-RiskInputs inputs_of_entry(const AtlasEntry& entry, double s)
-{
-    const Result<AtlasSetting> setting = setting_of(entry, AtlasRole::test, s, 64, 0);
-    BN_CHECK(setting);
-    return inputs_of_setting(setting->options);
 }
 
 RiskInputs inputs_of_setting(const RenderOptions& o)

@@ -1,15 +1,15 @@
-// Finds pixels with inputs beyond the validated range of a technique, by the atlas: `burnish render --risks`.
+// Finds pixels with inputs beyond the validated range of a technique: `burnish render --risks`.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "apps/risks/entries.h"
+#include "apps/options/options.h"
 #include "core/image/image.h"
 #include "raster/session/session.h"
 
 namespace burnish {
 
-// Inputs of a technique at a pixel, or at the onset of an atlas entry.
+// Inputs of a technique at a pixel, or at the onset of a failure.
 struct RiskInputs {
     float along = 0.0f, across = 0.0f;     // lobe widths, alpha (1 +- eta)
     float n_dot_v = 1.0f;                  // [0,1]
@@ -25,8 +25,7 @@ struct RiskInputs {
 
 // Returns the inputs common to a whole picture.
 RiskInputs inputs_of_frame(const FrameDesc& desc, const Environment& environment);
-// Returns the inputs for an entry's failing picture at s, and for a picture with these options.
-RiskInputs inputs_of_entry(const AtlasEntry& entry, double s);
+// Returns the inputs for a picture with these options.
 RiskInputs inputs_of_setting(const RenderOptions& o);
 
 struct RiskFinding {

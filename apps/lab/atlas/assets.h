@@ -4,6 +4,7 @@
 
 namespace burnish {
 
+extern const EmbeddedFile kAtlasGolden;     // golden_figures.txt
 extern const EmbeddedFile kAtlasPageStyle;  // page.css
 extern const EmbeddedFile kAtlasPageScript; // page.js
 

@@ -12,12 +12,12 @@
 #include "apps/cli/report.h"
 #include "apps/cli/stop_signal.h"
 #include "apps/cli/words.h"
+#include "apps/lab/atlas/assets.h"
 #include "apps/lab/atlas/options.h"
 #include "apps/lab/atlas/page.h"
 #include "apps/live/live.h"
 #include "apps/pieces/packed.h"
 #include "apps/pieces/pieces.h"
-#include "apps/risks/assets.h"
 #include "core/base/clock.h"
 #include "core/base/file.h"
 #include "core/image/io/image_io.h"
@@ -41,7 +41,7 @@ Examples:
   burnish atlas --quick -o atlas
   burnish atlas bent_normal_bends_too_far -o bent
   burnish atlas --quick --with "--axis-beta 1.15"
-  burnish atlas --quick --bless --table apps/risks/golden_figures.txt)";
+  burnish atlas --quick --bless --table apps/lab/atlas/golden_figures.txt)";
 
 int list_entries(const AtlasOptions& options)
 {

@@ -7,49 +7,8 @@ namespace burnish {
 namespace {
 
 constexpr double kNear = 0.05; // relative to worst: a smaller change counts as held
-constexpr const char* kNothing = "-";
-
-constexpr const char* kHead = R"(# Where methods break
-
-Figures of the atlas' entries (apps/risks/atlas.def), written by `burnish atlas --bless --table apps/risks/golden_figures.txt`.
-`burnish atlas` holds what it measures to two of them: the onset, which may come later, and the largest error, which may fall.
-
-- onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.
-- worst: the largest error.
-- flicker: how much more the error changes from step to step than the reference does.
-- double: the error at the worst place, shaded in double.
-- cure: the largest error with the cure, where one is known.
-- kind: precision: doubles leave less than half of the error. Sampling: 64 times the samples do. Filtering: a reference that filters textures alike does. Else approximation.
-
-)";
-
-std::string cell_of(double value, bool there)
-{
-    return there ? fmt::format("{:.4f}", value) : kNothing;
-}
 
 } // namespace
-
-std::string table_text(const GoldenTable& table)
-{
-    std::string text = fmt::format("{}Version {}\n", kHead, table.version);
-    for (const AtlasWalk& walk : {kQuickWalk, kFullWalk}) {
-        const auto rows = table.walks.find(walk.name);
-        if (rows == table.walks.end() || rows->second.empty())
-            continue;
-        text += fmt::format(
-            "\n## {}\n\n| entry | onset | worst | flicker | double | cure | kind |\n| --- | --- | --- | --- | --- | --- | --- |\n",
-            walk.name);
-        for (const AtlasEntry& entry : atlas_entries())
-            if (const auto found = rows->second.find(entry.id); found != rows->second.end()) {
-                const GoldenFigures& row = found->second;
-                text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0),
-                                    row.worst, row.flicker, cell_of(row.in_double.value_or(0.0), row.in_double.has_value()),
-                                    cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
-            }
-    }
-    return text;
-}
 
 GoldenFigures row_of(const MeasuredEntry& m)
 {

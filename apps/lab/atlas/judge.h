@@ -1,13 +1,11 @@
-// Judges an entry's measurements against the golden figures, and writes the page of golden figures.
+// Judges an entry's measurements against the golden figures.
 #pragma once
 #include <string>
 
+#include "apps/lab/atlas/golden_figures.h"
 #include "apps/lab/atlas/measure.h"
-#include "apps/risks/golden_figures.h"
 
 namespace burnish {
-
-std::string table_text(const GoldenTable& table); // rows in entry order; rows without an entry are dropped
 
 enum class Verdict { unknown, held, better, worse, uncured }; // unknown: not in the table
 struct Judged {

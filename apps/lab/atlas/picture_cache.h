@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/lab/atlas/entries.h"
 #include "apps/render/cached_reference.h"
-#include "apps/risks/entries.h"
 #include "raster/session/session.h"
 
 namespace burnish {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "apps/lab/atlas/measure.h"
-#include "apps/risks/entries.h"
+#include "apps/lab/atlas/entries.h"
+#include "apps/options/animate.h"
 
 namespace burnish {
 namespace {
@@ -21,7 +21,8 @@ TEST(atlas_entries, all_that_can_break_has_one)
         covered.insert(of_entry->begin(), of_entry->end());
     }
     for (const std::string& name : to_be_covered())
-        EXPECT_NE(covered.count(name), kWithout.count(name)) << name << " has no entry in apps/risks/atlas.def, or need not be excepted";
+        EXPECT_NE(covered.count(name), kWithout.count(name))
+            << name << " has no entry in apps/lab/atlas/atlas.def, or need not be excepted";
     EXPECT_GE(to_be_covered().size(), 25u);
 }
 

@@ -1,6 +1,7 @@
 // Queries of --risks to an environment and to the atlas.
 #include <gtest/gtest.h>
 
+#include "apps/lab/atlas/entries.h"
 #include "apps/risks/risks.h"
 #include "apps/risks/sky.h"
 #include "core/simd/half.h"
@@ -38,15 +39,18 @@ TEST(atlas_sky, texels_are_where_cubes_have_them)
 
 TEST(atlas_risks, widths_of_entries_are_those_of_their_words)
 {
-    AtlasEntry entry = *find_entry("bent_normal_bends_too_far"); // --roughness 0.4, anisotropy 0 to 0.95
-    const RiskInputs none = inputs_of_entry(entry, 0.0), most = inputs_of_entry(entry, 1.0);
+    const auto inputs_at = [](const char* entry, double s) {
+        return inputs_of_setting(setting_of(*find_entry(entry), AtlasRole::test, s, 64, 0)->options);
+    };
+    const char* bent = "bent_normal_bends_too_far"; // --roughness 0.4, anisotropy 0 to 0.95
+    const RiskInputs none = inputs_at(bent, 0.0), most = inputs_at(bent, 1.0);
     EXPECT_FLOAT_EQ(none.along, 0.16f);
     EXPECT_FLOAT_EQ(none.across, 0.16f);
     EXPECT_FLOAT_EQ(most.along, 0.16f * 1.95f);
     EXPECT_NEAR(most.eta(), 0.95f, 1e-5f);
-    EXPECT_NEAR(inputs_of_entry(*find_entry("prefilter_knows_no_angle"), 1.0).n_dot_v, 0.14f / 0.9131f, 1e-3f);
-    EXPECT_NEAR(inputs_of_entry(*find_entry("prefiltered_tilt"), 1.0).tilt, 1.0472f, 1e-4f);
-    EXPECT_EQ(inputs_of_entry(*find_entry("mc_fireflies"), 1.0).samples, 64.0f);
+    EXPECT_NEAR(inputs_at("prefilter_knows_no_angle", 1.0).n_dot_v, 0.14f / 0.9131f, 1e-3f);
+    EXPECT_NEAR(inputs_at("prefiltered_tilt", 1.0).tilt, 1.0472f, 1e-4f);
+    EXPECT_EQ(inputs_at("mc_fireflies", 1.0).samples, 64.0f);
 }
 
 } // namespace

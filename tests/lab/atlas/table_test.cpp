@@ -1,8 +1,8 @@
 // Golden figures: written, read and compared.
 #include <gtest/gtest.h>
 
+#include "apps/lab/atlas/assets.h"
 #include "apps/lab/atlas/result_cache.h"
-#include "apps/risks/assets.h"
 
 namespace burnish {
 namespace {
@@ -49,27 +49,6 @@ TEST(atlas_table, what_is_written_is_read)
     EXPECT_GT(back->walks.at("full").at("mc_fireflies").onset, 1.0);
     EXPECT_DOUBLE_EQ(back->walks.at("full").at("mc_fireflies").flicker, -0.01);
     EXPECT_EQ(table_text(*back), table_text(table));
-}
-
-TEST(atlas_table, one_row_is_found_as_all_are_read)
-{
-    const std::string text(kAtlasGolden.bytes, kAtlasGolden.size);
-    const auto table = parse_table(text, "golden_figures.txt");
-    ASSERT_TRUE(table);
-    for (const auto& [walk, rows] : table->walks)
-        for (const auto& [id, row] : rows) {
-            const auto found = find_row(text, walk.c_str(), id);
-            ASSERT_TRUE(found) << id;
-            EXPECT_EQ(found->onset, row.onset) << id;
-            EXPECT_EQ(found->worst, row.worst) << id;
-            EXPECT_EQ(found->kind, row.kind) << id;
-        }
-    const std::string two =
-        "Version 3\n\n## quick\n\n| a | 0.5 | 1 | 0 | - | - | none |\n\n## full\n\n| b | 0.5 | 1 | 0 | - | - | none |\n";
-    EXPECT_TRUE(find_row(two, "full", "b"));
-    EXPECT_FALSE(find_row(two, "quick", "b"));
-    EXPECT_FALSE(find_row(two, "full", "a"));
-    EXPECT_FALSE(find_row(two, "other", "a"));
 }
 
 TEST(atlas_table, what_is_no_table_is_refused)

@@ -21,7 +21,7 @@ SMALL = {
     "burnish train mip --evaluate": (),
 }
 BEFORE = {
-    "burnish atlas --quick --bless": ("mkdir -p apps/risks", f"cp {shlex.quote(str(ROOT / 'apps/risks/golden_figures.txt'))} apps/risks"),
+    "burnish atlas --quick --bless": ("mkdir -p apps/lab/atlas", f"cp {shlex.quote(str(ROOT / 'apps/lab/atlas/golden_figures.txt'))} apps/lab/atlas"),
     "burnish conform conform": ("burnish conform conform pictures --draw -q",),
 }
 

@@ -75,7 +75,7 @@ def limits(bench):
     """Wrong pictures have the options of their entry, at a place past its golden onset. Right ones have the cure that the row names."""
     text = (MANUAL / "limits.md").read_text()
     drawn = {words[words.index("-o") + 1]: options_of(words[2:]) for words, _ in pages.commands_of(text) if "-o" in words}
-    golden = (ROOT / "apps/risks/golden_figures.txt").read_text().partition("\n## full\n")[2]
+    golden = (ROOT / "apps/lab/atlas/golden_figures.txt").read_text().partition("\n## full\n")[2]
     onsets = {entry: float(onset) for entry, onset in re.findall(r"^\| (\w+) \| ([\d.]+) \|", golden, re.M)}
     known, wrong = entries_of(bench), []
     rows = ROW.findall(text)

@@ -22,6 +22,6 @@ struct GoldenTable {
 };
 
 Result<GoldenTable> parse_table(const std::string& text, const std::string& file);
-// Returns one row of a valid table, or none if the row is missing.
-std::optional<GoldenFigures> find_row(const std::string& text, const char* walk, const std::string& id);
+std::string table_text(const GoldenTable& table); // rows in entry order; rows without an entry are dropped
+
 } // namespace burnish

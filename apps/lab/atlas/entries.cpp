@@ -1,18 +1,28 @@
-#include "apps/risks/entries.h"
+#include "apps/lab/atlas/entries.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <fmt/core.h>
 
-#include "apps/cli/command_line.h"
-#include "apps/cli/report.h"
+#include "apps/cli/parse.h"
+#include "apps/options/animate.h"
 #include "shading/bake/mip/levels.h"
 #include "shading/lang/records.h"
 
 namespace burnish {
 namespace {
 
-constexpr bool straight = false, geometric = true; // kinds of atlas.def
+constexpr bool straight = false, geometric = true; // kinds of atlas.def and risks.def
+
+// Paths of the rules of `burnish render --risks`.
+namespace rules {
+struct RulePath {
+    const char* words;
+    bool geometric;
+    const char* path;
+};
+#define BN_RISK(entry, measure, change, readers, says, words, kind, path) constexpr RulePath entry{words, kind, path};
+#include "apps/risks/risks.def"
+} // namespace rules
 
 // Splits at blanks. Values contain no blanks.
 std::vector<std::string> words_of(const std::string& text)
@@ -38,18 +48,6 @@ std::string path_of_options(const AtlasEntry& entry)
         if (!is_amount(part))
             text += (text.empty() ? "" : ",") + part;
     return text;
-}
-
-Result<std::vector<OptionPath>> paths_of(const AtlasEntry& entry, OptionTable& table) // tries both ends on `table`
-{
-    const std::string text = path_of_options(entry);
-    if (text.empty())
-        return std::vector<OptionPath>();
-    Result<std::vector<OptionPath>> paths = parse_option_paths("path", text, table);
-    if (paths)
-        for (OptionPath& path : *paths)
-            path.geometric = entry.geometric;
-    return paths;
 }
 
 // Returns a role's options beyond the entry's own.
@@ -122,7 +120,9 @@ const std::vector<AtlasEntry>& atlas_entries()
     static const std::vector<AtlasEntry> entries = {
 #define BN_ATLAS(id, group, breaks, words, kind, path, reference, reference_words, threshold, cure)                                        \
     {#id, #group, breaks, words, kind, path, AtlasReference::reference, reference_words, threshold, cure},
-#include "apps/risks/atlas.def"
+#define BN_ATLAS_OF_RULE(id, group, breaks, reference, reference_words, threshold, cure)                                                   \
+    BN_ATLAS(id, group, breaks, rules::id.words, rules::id.geometric, rules::id.path, reference, reference_words, threshold, cure)
+#include "apps/lab/atlas/atlas.def"
     };
     return entries;
 }
@@ -148,43 +148,22 @@ Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double 
     return SettingReader().read(entry, role, s, side, samples);
 }
 
-SettingReader::SettingReader() : command_{"render", "", render_option_table(arguments_), "", {}} {}
-
 Result<AtlasSetting> SettingReader::read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples)
 {
-    const auto wrong = [&](Error error) {
-        error.place = error.place.empty() ? entry.id : fmt::format("{}: {}", entry.id, error.place);
-        return error;
-    };
-    const Result<std::vector<OptionPath>> paths = paths_of(entry, command_.options);
-    if (!paths)
-        return wrong(paths.error());
-    AtlasSetting out;
-    arguments_ = {};
     const std::vector<std::string> own = own_words(entry, role, samples);
     std::vector<std::string> words = words_of(fmt::format("{0} --size {1}x{1} --no-background -q", entry.words, side));
     words.insert(words.end(), own.begin(), own.end());
     const std::string amount = amount_at(entry, own, s);
     settle_scene(words, amount);
+    Result<PicturePlace> place = reader_.read({entry.id, words, path_of_options(entry), entry.geometric, own}, s); // a role's words stay
+    BN_TRY(place);
+    AtlasSetting out;
+    static_cast<PicturePlace&>(out) = std::move(*place);
     if (!amount.empty())
-        out.values = "amount " + amount;
-    if (const Status read = read_command_line(command_, words); !read)
-        return wrong(read.error());
-    for (const OptionPath& path : *paths) {
-        const std::string value = value_at(path, s);
-        out.values += fmt::format("{}{} {}", out.values.empty() ? "" : ", ", path.option.substr(2), value);
-        if (std::find(own.begin(), own.end(), path.option) != own.end())
-            continue; // the role fixes this option
-        if (const Status set = command_.options.set(path.option, value); !set)
-            return wrong(set.error());
-    }
-    const Result<RenderOptions> options = check_render_options(arguments_, command_.options);
-    if (!options)
-        return wrong(options.error());
-    out.options = *options;
+        out.values = fmt::format("amount {}{}{}", amount, out.values.empty() ? "" : ", ", out.values);
     out.in_double = role == AtlasRole::reference && entry.reference == AtlasReference::doubles;
     out.displayed = entry.reference == AtlasReference::shown;
-    set_keys(command_.options, words, out);
+    set_keys(given(), words, out);
     return out;
 }
 

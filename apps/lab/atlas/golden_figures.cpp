@@ -1,4 +1,4 @@
-#include "apps/risks/golden_figures.h"
+#include "apps/lab/atlas/golden_figures.h"
 
 #include <charconv>
 #include <cmath>
@@ -6,12 +6,32 @@
 #include <iterator>
 
 #include "apps/cli/parse.h"
+#include "apps/lab/atlas/entries.h"
 
 namespace burnish {
 namespace {
 
 constexpr const char* kVersionMark = "Version ";
 constexpr const char* kNothing = "-";
+
+constexpr const char* kHead = R"(# Where methods break
+
+Figures of the atlas' entries (apps/lab/atlas/atlas.def), written by `burnish atlas --bless --table apps/lab/atlas/golden_figures.txt`.
+`burnish atlas` holds what it measures to two of them: the onset, which may come later, and the largest error, which may fall.
+
+- onset: the first place on the entry's path, from 0 to 1, where the error is above the entry's threshold.
+- worst: the largest error.
+- flicker: how much more the error changes from step to step than the reference does.
+- double: the error at the worst place, shaded in double.
+- cure: the largest error with the cure, where one is known.
+- kind: precision: doubles leave less than half of the error. Sampling: 64 times the samples do. Filtering: a reference that filters textures alike does. Else approximation.
+
+)";
+
+std::string cell_of(double value, bool there)
+{
+    return there ? fmt::format("{:.4f}", value) : kNothing;
+}
 
 std::string trimmed(const std::string& text)
 {
@@ -76,15 +96,25 @@ Result<GoldenTable> parse_table(const std::string& text, const std::string& file
     return table;
 }
 
-std::optional<GoldenFigures> find_row(const std::string& text, const char* walk, const std::string& id)
+std::string table_text(const GoldenTable& table)
 {
-    const std::size_t begin = text.find(fmt::format("\n## {}\n", walk)),
-                      end = text.find("\n## ", begin == std::string::npos ? begin : begin + 1);
-    const std::size_t at = begin == std::string::npos ? begin : text.find(fmt::format("\n| {} |", id), begin);
-    if (at == std::string::npos || at > end)
-        return std::nullopt;
-    const auto row = row_in(text.substr(at + 1, text.find('\n', at + 1) - at - 1));
-    return row ? std::optional(row->second) : std::nullopt;
+    std::string text = fmt::format("{}Version {}\n", kHead, table.version);
+    for (const AtlasWalk& walk : {kQuickWalk, kFullWalk}) {
+        const auto rows = table.walks.find(walk.name);
+        if (rows == table.walks.end() || rows->second.empty())
+            continue;
+        text += fmt::format(
+            "\n## {}\n\n| entry | onset | worst | flicker | double | cure | kind |\n| --- | --- | --- | --- | --- | --- | --- |\n",
+            walk.name);
+        for (const AtlasEntry& entry : atlas_entries())
+            if (const auto found = rows->second.find(entry.id); found != rows->second.end()) {
+                const GoldenFigures& row = found->second;
+                text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", entry.id, cell_of(row.onset, row.onset <= 1.0),
+                                    row.worst, row.flicker, cell_of(row.in_double.value_or(0.0), row.in_double.has_value()),
+                                    cell_of(row.cure_worst, entry.cure[0] != 0), row.kind);
+            }
+    }
+    return text;
 }
 
 } // namespace burnish

@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/command.h"
-#include "apps/options/animate.h"
-#include "apps/options/options.h"
+#include "apps/risks/path_reader.h"
 
 namespace burnish {
 
-enum class AtlasReference { reference, full, pattern, render, doubles, shown }; // references of errors: see apps/risks/atlas.def
+enum class AtlasReference { reference, full, pattern, render, doubles, shown }; // references of errors: see atlas.def
 
 struct AtlasEntry {
     const char *id, *group, *breaks;
@@ -41,10 +39,8 @@ struct AtlasWalk {
 };
 inline constexpr AtlasWalk kQuickWalk{"quick", 7, 64, 256, 2}, kFullWalk{"full", 33, 96, 1024, 1};
 
-// One picture of an entry: its options, and keys for its scene and environment.
-struct AtlasSetting {
-    RenderOptions options;
-    std::string values; // the values on the path, such as "anisotropy 0.5"
+// One picture of an entry, with keys for its scene and environment.
+struct AtlasSetting : PicturePlace {
     std::string scene_key, environment_key;
     bool displayed = false; // compared as 8-bit display pictures
     bool in_double = false; // by the tile renderer in doubles: raster/tile/twins.h
@@ -55,17 +51,14 @@ enum class AtlasRole { test, cure, reference };
 // ignore it.
 Result<AtlasSetting> setting_of(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
 
-// Reads many settings with one option table: making the table takes longer than reading a setting.
+// Reads many settings with one option table.
 class SettingReader {
   public:
-    SettingReader();
-    SettingReader(const SettingReader&) = delete;
     Result<AtlasSetting> read(const AtlasEntry& entry, AtlasRole role, double s, int side, std::uint64_t samples);
-    const OptionTable& given() const { return command_.options; } // of the setting that was read last
+    const OptionTable& given() const { return reader_.given(); } // of the setting that was read last
 
   private:
-    RenderArguments arguments_;
-    Command command_; // refers to arguments_
+    PathReader reader_;
 };
 
 // Returns the subjects of models.def that an entry covers, from its options: "technique bent_normal", "area light ltc", "model ward",

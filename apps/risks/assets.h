@@ -1,9 +1,0 @@
-// Files of this folder, embedded as text at build time.
-#pragma once
-#include "core/base/embedded.h"
-
-namespace burnish {
-
-extern const EmbeddedFile kAtlasGolden; // golden_figures.txt
-
-} // namespace burnish
