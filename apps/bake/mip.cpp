@@ -156,6 +156,104 @@ Status take_levels(const std::vector<std::string>& files, const std::vector<JobP
     return {};
 }
 
+const char* name_filter(MipFilter filter)
+{
+    return mip_filters()[static_cast<std::size_t>(filter)].name;
+}
+
+// Checks the options that need no file.
+Status check_mip_bake(const MipBake& bake)
+{
+    const MipArguments& a = bake.options;
+    if (bake.material.empty())
+        return usage_error("PICTURE", "is needed: a scene, or a folder of a material's pictures");
+    if (!makes_lobes(a.filter))
+        return usage_error("--mip-filter", fmt::format("{} makes no levels of lobes", name_filter(a.filter)));
+    if (bake.output.empty())
+        return usage_error("-o", "is needed");
+    const bool pyramid = a.format == MipFormat::pyramid;
+    if (!pyramid && !bake.preview.empty() && same_file(bake.preview, bake.output))
+        return usage_error("--preview", "is the folder of -o, whose textures it could write over");
+    if (pyramid)
+        BN_TRY(check_text_path("-o", bake.output, {bake.material}));
+    if (!pyramid)
+        BN_TRY(check_folder_path(bake.output));
+    if (!bake.preview.empty())
+        BN_TRY(check_folder_path(bake.preview));
+    return {};
+}
+
+MipSettings choose_mip_settings(const MipArguments& a)
+{
+    MipSettings mips;
+    mips.filter = a.filter;
+    mips.couple_albedo = a.couple_albedo, mips.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
+    mips.net = a.net, mips.fallback = a.fallback, mips.brdf = a.brdf, mips.gains = a.gains;
+    if (a.kappa)
+        mips.kappa = static_cast<float>(*a.kappa);
+    return mips;
+}
+
+// Opens the scene, or a sphere with the material from a folder of pictures.
+Result<std::shared_ptr<const SceneData>> open_baked_scene(const MipBake& bake, const Jobs& jobs)
+{
+    MaterialOverrides overrides;
+    std::error_code none;
+    const bool is_folder = std::filesystem::is_directory(bake.material, none);
+    if (is_folder)
+        overrides.material = bake.material;
+    return open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, overrides, choose_mip_settings(bake.options), {}, {}, {},
+                      &jobs);
+}
+
+// Lists or makes pieces, and returns the exit code. For a merge, takes the pieces' levels into `mips` and returns nothing.
+std::optional<int> run_mip_pieces(const MipBake& bake, const Scene& scene, SceneMips& mips, const Jobs& jobs, Report& report)
+{
+    const std::vector<JobPiece> pieces = material_pieces(bake, scene, mips, jobs);
+    if (!bake.pieces.merge)
+        return run_pieces(bake.pieces, command_words(), pieces, report);
+    const auto files = finished_pieces(bake.pieces, command_words(), pieces);
+    if (!files)
+        return fail(files.error());
+    if (const Status taken = take_levels(*files, pieces, mips); !taken)
+        return fail(taken.error());
+    return {};
+}
+
+// Returns the materials' levels, without duplicates.
+std::vector<const MipLevels*> collect_levels(const MaterialLevels& levels)
+{
+    std::vector<const MipLevels*> each;
+    for (const std::shared_ptr<const MipLevels>& of : levels)
+        if (of && std::none_of(each.begin(), each.end(), [&](const MipLevels* there) { return there == of.get() || same(*there, *of); }))
+            each.push_back(of.get());
+    return each;
+}
+
+Status write_pyramid(const std::string& output, const SceneData& data, const std::vector<const MipLevels*>& each, const Jobs& jobs,
+                     Report& report)
+{
+    const Scene& scene = data.scene;
+    const std::vector<MaterialMap> maps = all_maps(scene, data.mips, jobs);
+    const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, maps[i].id, jobs); };
+    BN_TRY(write_mip_file(output, {each, maps.size(), levels_of}));
+    report.release();
+    report.wrote(output);
+    return {};
+}
+
+Status write_textures(const MipBake& bake, const SceneData& data, const MaterialLevels& levels, const Jobs& jobs, Report& report)
+{
+    const Result<WrittenTextures> written = write_mip_textures(bake.output, data, levels, bake.options, jobs);
+    BN_TRY(written);
+    report.release();
+    for (const std::string& file : written->files)
+        report.detail("wrote", file);
+    report.event("wrote", fmt::format("{}: {}", bake.output, counted(written->files.size(), "file")));
+    report.figures(written->figures);
+    return {};
+}
+
 } // namespace
 
 Value lobe_value(int& to)
@@ -233,45 +331,17 @@ std::vector<Option> mip_options(MipArguments& to)
 int run_mip(const MipBake& bake)
 {
     const MipArguments& a = bake.options;
-    const auto name_of = [](MipFilter filter) { return mip_filters()[static_cast<std::size_t>(filter)].name; };
-    // Check the options that need no file
-    if (bake.material.empty())
-        return fail(usage_error("PICTURE", "is needed: a scene, or a folder of a material's pictures"));
-    if (!makes_lobes(a.filter))
-        return fail(usage_error("--mip-filter", fmt::format("{} makes no levels of lobes", name_of(a.filter))));
-    if (bake.output.empty())
-        return fail(usage_error("-o", "is needed"));
-    const bool pyramid = a.format == MipFormat::pyramid;
-    if (!pyramid && !bake.preview.empty() && same_file(bake.preview, bake.output))
-        return fail(usage_error("--preview", "is the folder of -o, whose textures it could write over"));
-    if (pyramid)
-        if (const Status path = check_text_path("-o", bake.output, {bake.material}); !path)
-            return fail(path.error());
-    if (!pyramid)
-        if (const Status path = check_folder_path(bake.output); !path)
-            return fail(path.error());
-    if (!bake.preview.empty())
-        if (const Status path = check_folder_path(bake.preview); !path)
-            return fail(path.error());
-    MipSettings mips;
-    mips.filter = a.filter;
-    mips.couple_albedo = a.couple_albedo, mips.kaiser_colours = a.color_kernel == ColourKernel::kaiser;
-    mips.net = a.net, mips.fallback = a.fallback, mips.brdf = a.brdf, mips.gains = a.gains;
-    if (a.kappa)
-        mips.kappa = static_cast<float>(*a.kappa);
-    MaterialOverrides overrides;
-    std::error_code none;
-    const bool is_folder = std::filesystem::is_directory(bake.material, none);
-    if (is_folder)
-        overrides.material = bake.material;
+    if (const Status options = check_mip_bake(bake); !options)
+        return fail(options.error());
     const Jobs jobs(bake.threads);
-    const auto data = open_scene(is_folder ? "builtin:sphere" : bake.material, bake.limits, overrides, mips, {}, {}, {}, &jobs);
+    const auto data = open_baked_scene(bake, jobs);
     if (!data)
         return fail(data.error());
     const Scene& scene = (*data)->scene;
     // Check the output again, with the scene's own files as inputs
     std::vector<std::string> inputs = scene.files;
     inputs.push_back(bake.material);
+    const bool pyramid = a.format == MipFormat::pyramid;
     if (pyramid)
         if (const Status path = check_text_path("-o", bake.output, inputs); !path)
             return fail(path.error());
@@ -279,30 +349,18 @@ int run_mip(const MipBake& bake)
     for (const std::string& warning : scene.warnings)
         report.warning(warning);
     if (a.gains && !takes_gains(a.filter))
-        report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_of(a.filter)));
-    // List or make pieces, or filter the levels
+        report.warning(fmt::format("--mip-gain has no effect with --mip-filter {}", name_filter(a.filter)));
     const double begin_ms = wall_ms();
     SceneMips scene_mips = (*data)->mips;
-    if (any_pieces(bake.pieces)) {
-        const std::vector<JobPiece> pieces = material_pieces(bake, scene, scene_mips, jobs);
-        if (!bake.pieces.merge)
-            return run_pieces(bake.pieces, command_words(), pieces, report);
-        const auto files = finished_pieces(bake.pieces, command_words(), pieces);
-        if (!files)
-            return fail(files.error());
-        if (const Status taken = take_levels(*files, pieces, scene_mips); !taken)
-            return fail(taken.error());
-    }
+    if (any_pieces(bake.pieces))
+        if (const std::optional<int> code = run_mip_pieces(bake, scene, scene_mips, jobs, report))
+            return *code;
     const MaterialLevels levels = levels_of_materials(scene, scene_mips, jobs, bake.quiet);
-    // Collect the materials with levels
-    std::vector<const MipLevels*> each;
-    for (const std::shared_ptr<const MipLevels>& of : levels)
-        if (of && std::none_of(each.begin(), each.end(), [&](const MipLevels* there) { return there == of.get() || same(*there, *of); }))
-            each.push_back(of.get());
+    const std::vector<const MipLevels*> each = collect_levels(levels);
     if (each.empty())
         return fail({ExitCode::bad_input, bake.material, "", "has no maps of normals, roughness or anisotropy"});
     report.event("levels",
-                 fmt::format("of {} by {} in {:.0f} ms", counted(each.size(), "material"), name_of(a.filter), wall_ms() - begin_ms));
+                 fmt::format("of {} by {} in {:.0f} ms", counted(each.size(), "material"), name_filter(a.filter), wall_ms() - begin_ms));
     // Make the preview before writing anything
     Preview preview;
     if (!bake.preview.empty())
@@ -310,24 +368,10 @@ int run_mip(const MipBake& bake)
     inputs.push_back(bake.output);
     if (const Status fits = check_preview(bake.preview, preview, inputs); !fits)
         return fail(fits.error());
-    // Write the pyramid file or the textures
-    if (pyramid) {
-        const std::vector<MaterialMap> maps = all_maps(scene, (*data)->mips, jobs);
-        const auto levels_of = [&](std::size_t i) { return map_levels(scene, *maps[i].material, maps[i].map, maps[i].id, jobs); };
-        if (const Status written = write_mip_file(bake.output, {each, maps.size(), levels_of}); !written)
-            return fail(written.error());
-        report.release();
-        report.wrote(bake.output);
-    } else {
-        const Result<WrittenTextures> written = write_mip_textures(bake.output, **data, levels, a, jobs);
-        if (!written)
-            return fail(written.error());
-        report.release();
-        for (const std::string& file : written->files)
-            report.detail("wrote", file);
-        report.event("wrote", fmt::format("{}: {}", bake.output, counted(written->files.size(), "file")));
-        report.figures(written->figures);
-    }
+    const Status made =
+        pyramid ? write_pyramid(bake.output, **data, each, jobs, report) : write_textures(bake, **data, levels, jobs, report);
+    if (!made)
+        return fail(made.error());
     if (const Status written = write_preview(bake.preview, preview, report); !written)
         return fail(written.error());
     return 0;

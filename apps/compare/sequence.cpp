@@ -106,76 +106,100 @@ Result<Frames> read_frames(const CompareOptions& options, int number, const Imag
     return frames;
 }
 
-} // namespace
+// Figures over all frames. take_means() turns the sums of changes into means.
+struct SequenceFigures {
+    Json rows = Json::array(); // by frame
+    double errors = 0.0;       // sum of the frames' mean FLIP
+    double worst = 0.0;        // largest mean FLIP
+    int worst_number = 0;      // its frame
+    double test_changes = 0.0, reference_changes = 0.0;
+    double mean_error = 0.0, flicker = 0.0; // from take_means()
+};
 
-int compare_sequences(const CompareOptions& options)
-{
-    const Result<std::vector<int>> numbers = numbers_of(options);
-    if (!numbers)
-        return fails_unread(options, numbers.error());
-    const Jobs jobs(options.threads);
-    Report report(options.quiet, options.verbosity);
-    report.promise_stdout({options.json, options.csv, options.junit, options.html});
-    report.release();
-    Json rows = Json::array();
-    double errors = 0.0, worst = 0.0, test_changes = 0.0, reference_changes = 0.0;
-    int worst_number = numbers->front();
-    std::optional<Frames> before;
-    std::set<std::string> said;
-    bool floats = false, noted = false;
-    // Compare each frame with its reference and with the previous frame
-    for (const int number : *numbers) {
-        Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
-        if (!frames)
-            return fails_unread(options, frames.error());
-        if (!frames->note.empty() && !noted)
-            report.event("note", frames->note), noted = true; // once, for the first picture
-        floats = frames->reference.type == PixelType::f32;
-        if (options.metrics && options.metrics->flip_hdr && !floats)
-            return fail(usage_error("--metric", "flip-hdr needs float pictures"));
-        const bool hdr = floats && !(options.metrics && options.metrics->flip);
-        FlipOptions flip = options.flip;
-        if (hdr) { // all four differences use the reference's exposures
-            const FlipExposures range = find_exposures(frames->reference, flip, jobs);
-            flip.start_ev = range.start_ev, flip.stop_ev = range.stop_ev, flip.exposures = range.count;
-        }
-        const auto difference = [&](const Image& a, const Image& b) {
-            return mean_of((hdr ? flip_hdr(a, b, flip, jobs) : flip_ldr(a, b, flip, jobs)).error);
-        };
-        Json row;
-        row["frame"] = number;
-        const double error = difference(frames->reference, frames->test);
-        row["flip_mean"] = error;
-        errors += error;
-        if (error > worst)
-            worst = error, worst_number = number;
-        if (before) {
-            const double of_reference = difference(before->reference, frames->reference), of_test = difference(before->test, frames->test);
-            row["change"] = of_test, row["reference_change"] = of_reference;
-            test_changes += of_test, reference_changes += of_reference;
-        }
-        rows.push_back(std::move(row));
-        before = std::move(*frames);
+// FLIP with the same settings for all differences of a frame.
+struct FrameFlip {
+    FlipOptions options;
+    bool hdr;
+    const Jobs& jobs;
+
+    double measure(const Image& a, const Image& b) const
+    {
+        return mean_of((hdr ? flip_hdr(a, b, options, jobs) : flip_ldr(a, b, options, jobs)).error);
     }
-    // Report the means and the flicker
-    const double count = static_cast<double>(numbers->size());
-    test_changes /= count - 1.0, reference_changes /= count - 1.0;
-    const double flicker = test_changes - reference_changes;
-    report.figure("frames", fmt::format("{} to {}", numbers->front(), numbers->back()));
-    report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", errors / count, worst, worst_number));
-    report.figure("changes", fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", test_changes, reference_changes));
-    report.figure("flicker", fmt::format("{:.6f}", flicker));
-    // Check the limits
+};
+
+FrameFlip choose_flip(const CompareOptions& options, const Image& reference, const Jobs& jobs)
+{
+    const bool hdr = reference.type == PixelType::f32 && !(options.metrics && options.metrics->flip);
+    FrameFlip flip{options.flip, hdr, jobs};
+    if (hdr) { // all four differences use the reference's exposures
+        const FlipExposures range = find_exposures(reference, flip.options, jobs);
+        flip.options.start_ev = range.start_ev, flip.options.stop_ev = range.stop_ev, flip.options.exposures = range.count;
+    }
+    return flip;
+}
+
+// Compares a frame with its reference and with the previous frame.
+void add_frame(const Frames& frames, const std::optional<Frames>& before, const FrameFlip& flip, SequenceFigures& figures)
+{
+    Json row;
+    row["frame"] = frames.number;
+    const double error = flip.measure(frames.reference, frames.test);
+    row["flip_mean"] = error;
+    figures.errors += error;
+    if (error > figures.worst)
+        figures.worst = error, figures.worst_number = frames.number;
+    if (before) {
+        const double of_reference = flip.measure(before->reference, frames.reference), of_test = flip.measure(before->test, frames.test);
+        row["change"] = of_test, row["reference_change"] = of_reference;
+        figures.test_changes += of_test, figures.reference_changes += of_reference;
+    }
+    figures.rows.push_back(std::move(row));
+}
+
+void take_means(std::size_t frames, SequenceFigures& figures)
+{
+    const double count = static_cast<double>(frames);
+    figures.test_changes /= count - 1.0, figures.reference_changes /= count - 1.0;
+    figures.flicker = figures.test_changes - figures.reference_changes;
+    figures.mean_error = figures.errors / count;
+}
+
+void report_sequence(const std::vector<int>& numbers, const SequenceFigures& figures, Report& report)
+{
+    report.figure("frames", fmt::format("{} to {}", numbers.front(), numbers.back()));
+    report.figure("FLIP mean", fmt::format("{:.6f}, at most {:.6f} in frame {}", figures.mean_error, figures.worst, figures.worst_number));
+    report.figure("changes",
+                  fmt::format("{:.6f} from frame to frame, {:.6f} of the reference", figures.test_changes, figures.reference_changes));
+    report.figure("flicker", fmt::format("{:.6f}", figures.flicker));
+}
+
+// Returns an Error with ExitCode::differ for the first limit exceeded.
+Status judge_sequence(const CompareOptions& options, const SequenceFigures& figures)
+{
     Status verdict;
-    for (const auto& [option, limit, value, what] : {std::tuple{"--fail-flip", options.fail_flip, errors / count, "FLIP's mean"},
-                                                     std::tuple{"--fail-flicker", options.fail_flicker, flicker, "flicker"}})
+    for (const auto& [option, limit, value, what] : {std::tuple{"--fail-flip", options.fail_flip, figures.mean_error, "FLIP's mean"},
+                                                     std::tuple{"--fail-flicker", options.fail_flicker, figures.flicker, "flicker"}})
         if (verdict && limit && value > *limit)
             verdict = Error{ExitCode::differ, options.test, option, fmt::format("{} is {:.6f}, more than {:g}", what, value, *limit)};
-    // Write the outputs, trying each
+    return verdict;
+}
+
+Json describe_sequence(const CompareOptions& options, const Status& verdict, const SequenceFigures& figures)
+{
     Json json = verdict_json(options, verdict);
-    json["frames"] = numbers->size(), json["flip_mean"] = errors / count, json["flip_worst"] = worst, json["worst_frame"] = worst_number;
-    json["change"] = test_changes, json["reference_change"] = reference_changes, json["flicker"] = flicker;
-    json["by_frame"] = rows;
+    json["frames"] = figures.rows.size(), json["flip_mean"] = figures.mean_error;
+    json["flip_worst"] = figures.worst, json["worst_frame"] = figures.worst_number;
+    json["change"] = figures.test_changes, json["reference_change"] = figures.reference_changes, json["flicker"] = figures.flicker;
+    json["by_frame"] = figures.rows;
+    return json;
+}
+
+// Writes the outputs, trying each. Returns the first failure.
+Status write_sequence(const CompareOptions& options, const Status& verdict, const SequenceFigures& figures, const Jobs& jobs,
+                      Report& report)
+{
+    const Json json = describe_sequence(options, verdict, figures);
     Status written;
     const auto write = [&](const std::string& path, const auto& text_of) {
         if (path.empty())
@@ -190,9 +214,43 @@ int compare_sequences(const CompareOptions& options)
             fail(status.error());
     };
     write(options.json, [&] { return Result<std::string>(json_text(json, 2) + "\n"); });
-    write(options.csv, [&] { return Result<std::string>(csv_text(csv_rows(options, verdict, rows))); });
+    write(options.csv, [&] { return Result<std::string>(csv_text(csv_rows(options, verdict, figures.rows))); });
     write(options.junit, [&] { return Result<std::string>(compare_junit({verdict_case(options.test, verdict)})); });
     write(options.html, [&] { return sequence_page(options, verdict, json, jobs); });
+    return written;
+}
+
+} // namespace
+
+int compare_sequences(const CompareOptions& options)
+{
+    const Result<std::vector<int>> numbers = numbers_of(options);
+    if (!numbers)
+        return fails_unread(options, numbers.error());
+    const Jobs jobs(options.threads);
+    Report report(options.quiet, options.verbosity);
+    report.promise_stdout({options.json, options.csv, options.junit, options.html});
+    report.release();
+    SequenceFigures figures;
+    figures.worst_number = numbers->front();
+    std::optional<Frames> before;
+    std::set<std::string> said;
+    bool noted = false;
+    for (const int number : *numbers) {
+        Result<Frames> frames = read_frames(options, number, before ? &before->reference : nullptr, said, report);
+        if (!frames)
+            return fails_unread(options, frames.error());
+        if (!frames->note.empty() && !noted)
+            report.event("note", frames->note), noted = true; // once, for the first picture
+        if (options.metrics && options.metrics->flip_hdr && frames->reference.type != PixelType::f32)
+            return fail(usage_error("--metric", "flip-hdr needs float pictures"));
+        add_frame(*frames, before, choose_flip(options, frames->reference, jobs), figures);
+        before = std::move(*frames);
+    }
+    take_means(numbers->size(), figures);
+    report_sequence(*numbers, figures, report);
+    const Status verdict = judge_sequence(options, figures);
+    const Status written = write_sequence(options, verdict, figures, jobs, report);
     const int code = verdict ? 0 : fail(verdict.error());
     return written ? code : fail(written.error());
 }

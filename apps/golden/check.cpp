@@ -164,77 +164,95 @@ std::string golden_hash(const Image& image)
 
 namespace {
 
-// Makes and judges a row as check_row() tells, but for the copy of the golden.
-GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
+// Returns a result with names alone.
+GoldenResult name_result(const GoldenManifest& manifest, const GoldenRow& row)
 {
-    const std::string stem = file_stem(row.name), results = setting.results + "/";
+    const std::string stem = file_stem(row.name);
     GoldenResult result;
     result.name = row.name, result.golden = golden_path(manifest, row), result.hash_alone = row.hash_alone;
     result.picture = "pictures/" + stem + row.extension;
     if (row.kind != GoldenKind::picture)
         result.log = "logs/" + stem + ".txt";
-    const auto fails = [&](const std::string& reason) {
-        result.verdict = GoldenVerdict::failed, result.reason = reason;
-        return result;
-    };
-    // Make the picture
+    return result;
+}
+
+// Makes the row's picture and shows the picture for the page. No limit, mask or golden allows NaN. Only an error's reason counts.
+Result<Image> make_finite_picture(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, GoldenResult& result)
+{
+    const std::string stem = file_stem(row.name), results = setting.results + "/";
     std::error_code ignored;
     fs::remove(results + result.picture, ignored);
     if (const Status made = make_picture(manifest, row, setting, results + result.picture, results + "logs/" + stem + ".txt"); !made) {
         const ExitCode code = made.error().code;
         result.not_finite = row.kind == GoldenKind::scene && code == ExitCode::not_finite;
         result.of_machine = code == ExitCode::unavailable || (row.kind == GoldenKind::scene && code == ExitCode::output_failed);
-        return fails(made.error().reason);
+        return made.error();
     }
-    const Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
-    if (!picture)
-        return fails(picture.error().reason);
+    Result<Image> picture = picture_at(results + result.picture, row.picture.empty() ? "its picture" : row.picture, setting.limits);
+    BN_TRY(picture);
     result.width = picture->width, result.height = picture->height, result.linear = picture->type == PixelType::f32;
-    const std::string shown = results + "shown/" + stem;
-    if (const Status written = show(*picture, 0.0f, shown + ".png"); !written) {
+    if (const Status written = show(*picture, 0.0f, results + "shown/" + stem + ".png"); !written) {
         result.of_machine = true;
-        return fails(written.error().line());
+        return bad(written.error().line());
     }
-    // Judge it, and let no limit, mask or golden allow NaN
     if (const std::int64_t bad_pixels = not_finite_pixels(*picture, *picture)) {
         result.not_finite = true;
-        return fails(fmt::format("{} of {} pixels are NaN or Inf", bad_pixels, std::int64_t{picture->width} * picture->height));
+        return bad(fmt::format("{} of {} pixels are NaN or Inf", bad_pixels, std::int64_t{picture->width} * picture->height));
     }
-    const auto judged = [&] {
-        if (row.limits.operations && result.verdict != GoldenVerdict::failed)
-            judge_operations(results + result.picture + ".stats.json", *row.limits.operations, result);
-        fs::remove(results + result.picture + ".stats.json", ignored); // its times are of this run
-        return result;
-    };
-    if (!file_exists(result.golden)) {
-        result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
-        return judged();
-    }
-    if (row.hash_alone) {
-        judge_hash(row, result.golden, *picture, result);
-        return judged();
-    }
-    Result<Image> golden = picture_at(result.golden, row.golden, setting.limits);
-    if (!golden)
-        return fails(golden.error().reason);
-    DifferenceInput input{std::move(*golden), *picture, {}, {}, {}};
+    return picture;
+}
+
+// Reads the golden and all that the row's limits need besides. made: path of the row's picture.
+Result<DifferenceInput> read_golden(const GoldenManifest& manifest, const GoldenRow& row, const Image& picture, const std::string& made,
+                                    const Limits& limits)
+{
+    const std::string path = golden_path(manifest, row);
+    Result<Image> golden = picture_at(path, row.golden, limits);
+    BN_TRY(golden);
+    DifferenceInput input{std::move(*golden), picture, {}, {}, {}};
     if (!row.mask.empty()) {
-        Result<Image> mask = picture_at(in_folder(manifest.folder, row.mask), row.mask, setting.limits);
-        if (!mask)
-            return fails(mask.error().reason);
+        Result<Image> mask = picture_at(in_folder(manifest.folder, row.mask), row.mask, limits);
+        BN_TRY(mask);
         input.mask = std::move(*mask);
     }
     if (row.limits.z) {
-        Result<Image> of_golden = picture_at(result.golden + ".variance.exr", row.golden + ".variance.exr", setting.limits);
-        if (!of_golden)
-            return fails(of_golden.error().reason);
+        Result<Image> of_golden = picture_at(path + ".variance.exr", row.golden + ".variance.exr", limits);
+        BN_TRY(of_golden);
         input.golden_variance = std::move(*of_golden);
-        if (file_exists(results + result.picture + ".variance.exr"))
-            if (Result<Image> own = picture_at(results + result.picture + ".variance.exr", "its variance", setting.limits))
+        if (file_exists(made + ".variance.exr"))
+            if (Result<Image> own = picture_at(made + ".variance.exr", "its variance", limits))
                 input.variance = std::move(*own);
     }
-    judge(row.limits, std::move(input), jobs, shown, result);
-    return judged();
+    return input;
+}
+
+// Makes and judges a row as check_row() tells, but for the copy of the golden.
+GoldenResult judged_row(const GoldenManifest& manifest, const GoldenRow& row, const GoldenSetting& setting, const Jobs& jobs)
+{
+    GoldenResult result = name_result(manifest, row);
+    const auto fails = [&](const std::string& reason) {
+        result.verdict = GoldenVerdict::failed, result.reason = reason;
+        return result;
+    };
+    const Result<Image> picture = make_finite_picture(manifest, row, setting, result);
+    if (!picture)
+        return fails(picture.error().reason);
+    const std::string made = setting.results + "/" + result.picture;
+    if (!file_exists(result.golden)) {
+        result.verdict = GoldenVerdict::missing, result.reason = fmt::format("there is no golden {}", row.golden);
+    } else if (row.hash_alone) {
+        judge_hash(row, result.golden, *picture, result);
+    } else {
+        Result<DifferenceInput> input = read_golden(manifest, row, *picture, made, setting.limits);
+        if (!input)
+            return fails(input.error().reason);
+        judge(row.limits, std::move(*input), jobs, setting.results + "/shown/" + file_stem(row.name), result);
+    }
+    if (row.limits.operations && result.verdict != GoldenVerdict::failed)
+        judge_operations(made + ".stats.json", *row.limits.operations, result);
+    std::error_code ignored;
+    fs::remove(made + ".stats.json", ignored); // its times are of this run
+    return result;
 }
 
 } // namespace

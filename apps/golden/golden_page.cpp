@@ -139,9 +139,8 @@ void add_exposures(const std::string& folder, const std::string& shown, Json& pl
     place["exposures"] = steps, row["exposures"] = pictures;
 }
 
-} // namespace
-
-Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live)
+// Returns failed rows first, and among equal verdicts large errors first.
+std::vector<const GoldenResult*> order_results(const std::vector<GoldenResult>& results)
 {
     std::vector<const GoldenResult*> ordered;
     for (const GoldenResult& r : results)
@@ -150,65 +149,96 @@ Result<std::string> golden_page(const std::vector<GoldenResult>& results, const 
         const int rank_a = rank_of(a->verdict), rank_b = rank_of(b->verdict);
         return rank_a != rank_b ? rank_a < rank_b : a->flip > b->flip;
     });
-    const GoldenCounts counts = count_of(results);
-    const std::size_t bad = results.size() - counts.passed;
+    return ordered;
+}
+
+// The page's rows and sliders.
+struct PageRows {
     std::string rows, walls;
     Json places = Json::array(), data_rows = Json::object();
-    std::size_t bytes_left = kMostInlineBytes, compared = 0;
+    std::size_t compared = 0; // rows with an error map
+};
+
+// Adds a row's slider. wall: its index.
+void add_slider(const GoldenResult& r, const std::string& folder, int wall, PageRows& page)
+{
+    const std::string shown = "shown/" + file_stem(r.name);
+    const std::string key = std::to_string(wall), figures = figures_of(r);
+    page.walls += fmt::format("<section class=\"pair\" id=\"wall-{}\"><h2>{}</h2><p>{}</p>\n<div class=\"place\" data-place=\"{}\"><div "
+                              "class=\"wall\"></div></div></section>\n",
+                              wall, escaped(r.name), escaped(r.reason), wall);
+    Json row = {{"technique", r.name},
+                {"setting", ""},
+                {"text", r.name + ", " + figures},
+                {"figures", figures},
+                {"picture", address(shown + ".png")},
+                {"live", r.name},
+                {"error", address(shown + "%error.png")}};
+    Json place = {{"reference", address(shown + "%golden.png")},
+                  {"width", r.width},
+                  {"height", r.height},
+                  {"rows", Json::array({key})},
+                  {"shown", Json::array({key})}};
+    add_exposures(folder, shown, place, row);
+    page.data_rows[key] = std::move(row);
+    page.places.push_back(std::move(place));
+}
+
+// Returns all rows, and sliders for the first of those that have an error map.
+PageRows fill_page(const std::vector<const GoldenResult*>& ordered, const std::string& folder)
+{
+    PageRows page;
+    std::size_t bytes_left = kMostInlineBytes;
     for (const GoldenResult* r : ordered) {
-        const std::string shown = "shown/" + file_stem(r->name);
-        const bool has_map = r->verdict != GoldenVerdict::passed && file_exists(folder + "/" + shown + "%error.png");
-        compared += has_map;
-        const int wall = has_map && places.size() < kMostWalls ? static_cast<int>(places.size()) : -1;
-        rows += row_html(*r, folder, wall, bytes_left);
-        if (wall < 0)
-            continue;
-        const std::string key = std::to_string(wall), figures = figures_of(*r);
-        walls += fmt::format("<section class=\"pair\" id=\"wall-{}\"><h2>{}</h2><p>{}</p>\n<div class=\"place\" data-place=\"{}\"><div "
-                             "class=\"wall\"></div></div></section>\n",
-                             wall, escaped(r->name), escaped(r->reason), wall);
-        Json row = {{"technique", r->name},
-                    {"setting", ""},
-                    {"text", r->name + ", " + figures},
-                    {"figures", figures},
-                    {"picture", address(shown + ".png")},
-                    {"live", r->name},
-                    {"error", address(shown + "%error.png")}};
-        Json place = {{"reference", address(shown + "%golden.png")},
-                      {"width", r->width},
-                      {"height", r->height},
-                      {"rows", Json::array({key})},
-                      {"shown", Json::array({key})}};
-        add_exposures(folder, shown, place, row);
-        data_rows[key] = std::move(row);
-        places.push_back(std::move(place));
+        const bool has_map = r->verdict != GoldenVerdict::passed && file_exists(folder + "/shown/" + file_stem(r->name) + "%error.png");
+        page.compared += has_map;
+        const int wall = has_map && page.places.size() < kMostWalls ? static_cast<int>(page.places.size()) : -1;
+        page.rows += row_html(*r, folder, wall, bytes_left);
+        if (wall >= 0)
+            add_slider(*r, folder, wall, page);
     }
-    const bool blessable = std::any_of(results.begin(), results.end(), can_bless);
+    return page;
+}
+
+// Returns the page's beginning, to the counts.
+std::string write_page_head(const std::vector<GoldenResult>& results)
+{
+    const GoldenCounts counts = count_of(results);
+    const std::size_t bad = results.size() - counts.passed;
     const std::string title = bad == 0 ? fmt::format("All {} golden pictures passed", results.size())
                                        : fmt::format("{} of {} golden pictures did not pass", bad, results.size());
-    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
-                                   "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
-                                   "<p>{3}.</p>\n",
-                                   title, kChartPageStyle.bytes, kStyle, counts_in_words(counts));
+    return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
+                       "<link rel=\"icon\" href=\"data:,\">\n<style>{1}{2}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n"
+                       "<p>{3}.</p>\n",
+                       title, kChartPageStyle.bytes, kStyle, counts_in_words(counts));
+}
+
+} // namespace
+
+Result<std::string> golden_page(const std::vector<GoldenResult>& results, const std::string& folder, const std::string& live)
+{
+    const PageRows made = fill_page(order_results(results), folder);
+    const bool blessable = std::any_of(results.begin(), results.end(), can_bless);
+    std::string page = write_page_head(results);
     page += "<table class=\"rows\">\n<tr><th>" +
             std::string(blessable ? "<input type=\"checkbox\" id=\"all\" aria-label=\"bless all\">" : "") +
-            "</th><th></th><th>picture</th></tr>\n" + rows + "</table>\n";
+            "</th><th></th><th>picture</th></tr>\n" + made.rows + "</table>\n";
     if (blessable)
         page +=
             "<h2>Bless</h2>\n<p>Check the rows whose new picture is right, save the list, and run <code class=\"command\">burnish golden "
             "bless MANIFEST --from bless.txt -o RESULTS</code>. MANIFEST is that of this run, RESULTS the folder of this page; without -o "
             "it is golden-results.</p>\n<p><a id=\"save\" download=\"bless.txt\">Save the list</a></p>\n<textarea id=\"list\" readonly "
             "aria-label=\"list of rows to bless\"></textarea>\n";
-    if (!places.empty())
+    if (!made.places.empty())
         page += "<p>Error maps show FLIP (HDR-FLIP for linear pictures, LDR-FLIP for others): black is 0, purple and orange lie between, "
                 "light yellow is 1.</p>\n";
-    if (compared > places.size())
+    if (made.compared > made.places.size())
         page += fmt::format("<p>The first {} of {} pictures that differ have a slider here; the table links the others.</p>\n",
-                            places.size(), compared);
-    const Json data = {{"subject", "New picture"}, {"other", "Golden"}, {"width", 1}, {"height", 1},
-                       {"places", places},         {"rows", data_rows}};
-    return page + walls +
+                            made.places.size(), made.compared);
+    const Json data = {{"subject", "New picture"}, {"other", "Golden"},     {"width", 1}, {"height", 1},
+                       {"places", made.places},    {"rows", made.data_rows}};
+    return page + made.walls +
            fmt::format(
                "</main>\n<div id=\"tip\" role=\"tooltip\" hidden></div>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
                "{}<script>\n{}</script>\n<script>{}</script>\n</body>\n</html>\n",

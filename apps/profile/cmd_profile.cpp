@@ -100,28 +100,71 @@ Status write_files(const RenderOptions& options, const ProfileArguments& argumen
     return {};
 }
 
-int run_profile(const ProfileArguments& arguments, const OptionTable& given)
+// Checks the options, and refuses options of other subcommands.
+Result<RenderOptions> check_profile_options(const ProfileArguments& arguments, const OptionTable& given)
 {
-    // Check the options, and refuse options of other subcommands
     Result<RenderOptions> checked = check_render_options(arguments.render, given);
-    if (!checked)
-        return fail(checked.error());
-    RenderOptions& options = *checked;
-    if (options.backend != "tile")
-        return fail(usage_error("--backend", "only the tile renderer is profiled"));
-    if (!options.stats_file.empty())
-        return fail(usage_error("--stats", "belongs to burnish render; here figures go to --json"));
+    BN_TRY(checked);
+    if (checked->backend != "tile")
+        return usage_error("--backend", "only the tile renderer is profiled");
+    if (!checked->stats_file.empty())
+        return usage_error("--stats", "belongs to burnish render; here figures go to --json");
     for (const char* option : {"--aov", "--risks", "--animate", "--turntable", "--shadows", "--floor", "--budget", "--budget-p99",
                                "--budget-ms", "--plan", "--plan-out", "--verify"})
         if (given.given(option))
-            return fail(usage_error(option, "belongs to burnish render; here one picture is drawn, over and over"));
-    if (Status files = check_files(options, arguments, {options.scene, options.env}); !files)
-        return fail(files.error());
+            return usage_error(option, "belongs to burnish render; here one picture is drawn, over and over");
+    BN_TRY(check_files(*checked, arguments, {checked->scene, checked->env}));
+    return checked;
+}
+
+// Loads the environment and makes the session. options: with the environment's name.
+Result<Session> open_session(const RenderOptions& options, const ProfileArguments& arguments, const SceneWithView& seen,
+                             const std::shared_ptr<const Jobs>& jobs, Report& report)
+{
+    const Result<std::shared_ptr<const Environment>> environment =
+        open_environment(options.env, options.environment, options.limits, *jobs);
+    BN_TRY(environment);
+    BN_TRY(check_files(options, arguments, (*environment)->files));
+    for (const std::string& warning : (*environment)->warnings)
+        report.warning(warning);
+    SessionOptions tile;
+    tile.isa = options.isa;
+    SessionParts parts = {seen.data, *environment, jobs, {}};
+    BN_TRY(read_tables(options, parts, report));
+    return Session::make(std::move(parts), tile);
+}
+
+// Returns the figures that are known before the first frame.
+ProfileFigures start_figures(const Session& session, int frames)
+{
+    ProfileFigures figures;
+    figures.device = session.device(), figures.threads = session.parts().jobs->threads();
+    figures.frames = frames;
+    for (const Material& material : session.scene().materials)
+        figures.materials.push_back(material.name.empty() ? fmt::format("material {}", figures.materials.size()) : material.name);
+    return figures;
+}
+
+Status write_pictures(const RenderOptions& options, const Frame& last, Report& report)
+{
+    const Image color = options.frame.background ? last.color : with_coverage(last.color, last.triangle_ids, last.through);
+    for (const std::string& path : options.outputs) {
+        const TraceSpan span("write picture");
+        BN_TRY(write_picture(path, color, options.tonemap, options.exposure_ev, last.parts, options.resolve));
+        report.wrote(path);
+    }
+    return {};
+}
+
+int run_profile(const ProfileArguments& arguments, const OptionTable& given)
+{
+    Result<RenderOptions> checked = check_profile_options(arguments, given);
+    if (!checked)
+        return fail(checked.error());
+    RenderOptions& options = *checked;
     Report report(options.quiet, options.verbosity);
     for (const std::string& warning : options.warnings)
         report.warning(warning);
-
-    // Load the scene and the environment, and make the session
     const auto jobs = std::make_shared<const Jobs>(options.threads);
     const Result<SceneWithView> seen = load_scene_with_view(options.scene, options, report, *jobs);
     if (!seen)
@@ -132,20 +175,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     if (const Status frame = check_frame(scene, options.frame); !frame)
         return fail(frame.error());
     options.env = light_name(options, *seen->data);
-    const Result<std::shared_ptr<const Environment>> environment =
-        open_environment(options.env, options.environment, options.limits, *jobs);
-    if (!environment)
-        return fail(environment.error());
-    if (Status files = check_files(options, arguments, (*environment)->files); !files)
-        return fail(files.error());
-    for (const std::string& warning : (*environment)->warnings)
-        report.warning(warning);
-    SessionOptions tile;
-    tile.isa = options.isa;
-    SessionParts parts = {seen->data, *environment, jobs, {}};
-    if (Status read = read_tables(options, parts, report); !read)
-        return fail(read.error());
-    Result<Session> session = Session::make(std::move(parts), tile);
+    Result<Session> session = open_session(options, arguments, *seen, jobs, report);
     if (!session)
         return fail(session.error());
     report.release();
@@ -154,11 +184,7 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
     FrameDesc desc = options.frame;
     desc.view = seen->view;
     desc.parts = needs_parts(options), desc.triangle_ids = !desc.background;
-    ProfileFigures figures;
-    figures.device = session->device(), figures.threads = jobs->threads();
-    figures.frames = given.given("--frames") ? options.frames : kFrames;
-    for (const Material& material : scene.materials)
-        figures.materials.push_back(material.name.empty() ? fmt::format("material {}", figures.materials.size()) : material.name);
+    ProfileFigures figures = start_figures(*session, given.given("--frames") ? options.frames : kFrames);
     if (!options.trace_file.empty())
         Trace::start();
     const Result<Frame> last = measure(session->renderer(), session->drawn(desc), options.scene, figures);
@@ -166,13 +192,8 @@ int run_profile(const ProfileArguments& arguments, const OptionTable& given)
         return fail(last.error());
     // Write the pictures and the report
     const std::uint64_t begin = Trace::now_ns();
-    const Image color = desc.background ? last->color : with_coverage(last->color, last->triangle_ids, last->through);
-    for (const std::string& path : options.outputs) {
-        const TraceSpan span("write picture");
-        if (Status done = write_picture(path, color, options.tonemap, options.exposure_ev, last->parts, options.resolve); !done)
-            return fail(done.error());
-        report.wrote(path);
-    }
+    if (Status done = write_pictures(options, *last, report); !done)
+        return fail(done.error());
     figures.write_ms = static_cast<double>(Trace::now_ns() - begin) * 1e-6;
     if (arguments.json_file != "-" && arguments.svg_file != "-") // standard output holds one thing only
         fmt::print("{}", printable_lines(profile_table(options, figures)));

@@ -369,6 +369,72 @@ int run_row_pieces(const PieceOptions& options, Row& row, const RenderOptions& f
     return merged ? 0 : fail(merged.error());
 }
 
+// The figures of a row's steps so far.
+struct RowFigures {
+    RenderFigures last; // of the last step
+    std::vector<double> times;
+    Json steps = Json::array();
+};
+
+// Writes a step's pictures, and adds the picture to the moving ones.
+Status write_step_pictures(const Row& row, const Step& step, const Rendered& rendered, MovingPicture& movie)
+{
+    const Jobs* const jobs = row.session.parts().jobs.get();
+    for (const std::string& path : step.options.outputs)
+        BN_TRY(write_rendered(path, rendered, step.options, jobs));
+    if (!row.animation.movies().empty())
+        BN_TRY(movie.add(row.animation.movies()[0], shown_picture(step, rendered, jobs)));
+    return {};
+}
+
+// Draws each step and writes its files.
+Status draw_steps(Row& row, const RenderOptions& first, MovingPicture& movie, RowFigures& figures, Report& report)
+{
+    for (int i = 0; i < row.animation.count(); ++i) {
+        const Step step = std::move(*row.animation.step(i));
+        const Result<Rendered> rendered = draw_step(row, step, i);
+        BN_TRY(rendered);
+        figures.last = rendered->figures;
+        const RenderFigures& last = figures.last;
+        figures.times.push_back(last.frame.ms);
+        Json json = step.json;
+        json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
+        figures.steps.push_back(json);
+        BN_TRY(write_step_pictures(row, step, *rendered, movie));
+        report.event(fmt::format("{} of {}", i + 1, row.animation.count()),
+                     fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
+                                 hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
+        if (last.nan_pixels)
+            return Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
+                         fmt::format("{} pixels are NaN or Inf", last.nan_pixels)};
+    }
+    return {};
+}
+
+// Writes the statistics with one entry a step.
+Status write_row_stats(Animation& row, RowFigures figures, const std::string& path, Report& report)
+{
+    figures.last.frame_ms = std::move(figures.times);
+    figures.last.warnings = report.warnings();
+    Json json = stats_json(row.step(row.count() - 1)->options, figures.last);
+    json["steps"] = std::move(figures.steps);
+    BN_TRY(write_text(path, json_text(json, 2) + "\n"));
+    report.wrote(path);
+    return {};
+}
+
+// Draws the row, then writes its moving pictures and statistics.
+Status draw_row(Row& row, const RenderOptions& first, Report& report)
+{
+    report.release();
+    RowFigures figures;
+    figures.last = row.figures;
+    MovingPicture movie(first.fps);
+    BN_TRY(draw_steps(row, first, movie, figures, report));
+    BN_TRY(write_movies(row.animation.movies(), movie, report));
+    return first.stats_file.empty() ? Status() : write_row_stats(row.animation, std::move(figures), first.stats_file, report);
+}
+
 } // namespace
 
 int run_animation(RenderArguments& arguments, OptionTable& given)
@@ -403,49 +469,8 @@ int run_animation(RenderArguments& arguments, OptionTable& given)
     Row drawn{*row, *session, turntable, *planned, figures, lost_checkpoint};
     if (any_pieces(arguments.pieces))
         return run_row_pieces(arguments.pieces, drawn, first, given, report);
-    report.release();
-    Json steps = Json::array();
-    RenderFigures last = figures;
-    std::vector<double> times;
-    MovingPicture movie(first.fps);
-    // Render each step
-    for (int i = 0; i < row->count(); ++i) {
-        const Step step = std::move(*row->step(i));
-        const Result<Rendered> rendered = draw_step(drawn, step, i);
-        if (!rendered)
-            return fail(rendered.error());
-        last = rendered->figures;
-        // Record the step and write its files
-        times.push_back(last.frame.ms);
-        Json json = step.json;
-        json["pixel_hash"] = hash_text(last.hash), json["ms"] = last.frame.ms;
-        steps.push_back(json);
-        for (const std::string& path : step.options.outputs)
-            if (const Status written = write_rendered(path, *rendered, step.options, drawn.session.parts().jobs.get()); !written)
-                return fail(written.error());
-        if (!row->movies().empty())
-            if (const Status added = movie.add(row->movies()[0], shown_picture(step, *rendered, drawn.session.parts().jobs.get())); !added)
-                return fail(added.error());
-        report.event(fmt::format("{} of {}", i + 1, row->count()),
-                     fmt::format("{}{:.2f} ms, pixel hash {}{}", step.values.empty() ? "" : step.values + ": ", last.frame.ms,
-                                 hash_text(last.hash), step.options.outputs.empty() ? "" : ", " + join(step.options.outputs)));
-        if (last.nan_pixels)
-            return fail(Error{ExitCode::not_finite, first.scene, fmt::format("step {}", i),
-                              fmt::format("{} pixels are NaN or Inf", last.nan_pixels)});
-    }
-    if (const Status written = write_movies(row->movies(), movie, report); !written)
-        return fail(written.error());
-    // Write the statistics with one entry a step
-    if (first.stats_file.empty())
-        return 0;
-    last.frame_ms = std::move(times);
-    last.warnings = report.warnings();
-    Json json = stats_json(row->step(row->count() - 1)->options, last);
-    json["steps"] = std::move(steps);
-    const Status written = write_text(first.stats_file, json_text(json, 2) + "\n");
-    if (written)
-        report.wrote(first.stats_file);
-    return written ? 0 : fail(written.error());
+    const Status done = draw_row(drawn, first, report);
+    return done ? 0 : fail(done.error());
 }
 
 } // namespace burnish

@@ -135,6 +135,88 @@ Status check_pieces(const RenderArguments& arguments, const OptionTable& given, 
     return {};
 }
 
+// Checks the options of one picture, and the paths.
+Result<RenderOptions> check_picture_options(RenderArguments& arguments, OptionTable& given)
+{
+    arguments.may_have_bands = true;
+    if (given.given("--steps"))
+        return usage_error("--steps", "needs --animate");
+    if (given.given("--fps"))
+        return usage_error("--fps", "needs --animate or --turntable");
+    Result<RenderOptions> checked = check_render_options(arguments, given);
+    BN_TRY(checked);
+    if (any_pieces(arguments.pieces) && checked->backend != "reference" && !checked->band_rows)
+        return usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate, --turntable and --band-rows have");
+    if (any_pieces(arguments.pieces) && checked->band_rows && given.given("--stats"))
+        return usage_error("--stats", "cannot be combined with pieces of a picture: its times are of one process");
+    checked->mips.frames_override = sets_materials(checked->frame);
+    if (any_pieces(arguments.pieces) && !checked->band_rows)
+        checked->reference.part = std::make_shared<ReferencePart>(), checked->in_pieces = true;
+    BN_TRY(check_paths(*checked, {checked->scene, checked->env}));
+    return checked;
+}
+
+void report_setup(const Session& session, const ChosenView& view, const RenderFigures& figures, Report& report)
+{
+    const DrawTables& tables = session.tables();
+    const Scene& scene = session.scene();
+    report.detail("bounds", fmt::format("{} to {} m", world_place(tables.bounds_min, scene, 5), world_place(tables.bounds_max, scene, 5)));
+    report.detail("camera", fmt::format("{}: {}", view.description, camera_options(view.view, scene, tables)));
+    report.detail("", fmt::format("world to clip {}", describe_matrix(view.view, scene)));
+    report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
+}
+
+// Lists or makes pieces of the picture, and returns the exit code. For a merge, takes over all pieces and returns nothing.
+std::optional<int> run_picture_pieces(const PieceOptions& asked, const RenderOptions& options, const FrameDesc& desc, Session& session,
+                                      Report& report)
+{
+    const std::vector<JobPiece> pieces = reference_pieces(options, desc, session);
+    if (!asked.merge)
+        return run_pieces(asked, command_words(), pieces, report);
+    const auto files = finished_pieces(asked, command_words(), pieces);
+    if (!files)
+        return fail(files.error());
+    if (const Status taken = take_reference_pieces(options, *files, pieces); !taken)
+        return fail(taken.error());
+    return {};
+}
+
+// A session that is ready to draw one picture, with its figures so far.
+struct ReadyPicture {
+    const RenderOptions& options;
+    Session& session;
+    RenderFigures& figures;
+    const std::optional<Error>& lost_checkpoint;
+    Report& report;
+};
+
+// Plans the frame, renders it and writes the outputs. Returns the exit code.
+int draw_picture(const ReadyPicture& ready, FrameDesc desc)
+{
+    const auto& [options, session, figures, lost_checkpoint, report] = ready;
+    const Result<std::optional<Plan>> plan = plan_frame(options, desc, session, report);
+    if (!plan)
+        return fail(plan.error());
+    report.release();
+    note_plan(options, desc, *plan, figures);
+    Result<Rendered> rendered = render_frames(options, desc, session, std::move(figures));
+    if (!rendered)
+        return fail(rendered.error());
+    report_frames(options, rendered->figures, report);
+    rendered->figures.warnings = report.warnings();
+    if (rendered->figures.frame.sampling.stopped) {
+        report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
+        return 128 + stop_signal(); // as a shell reports a process ended by a signal
+    }
+    Status verified;
+    if (options.verify)
+        verified = verify_plan(options, desc, session, rendered->color, *plan, report);
+    int code = finish(options, *rendered, *session.parts().jobs, report);
+    if (!verified)
+        code = std::max(fail(verified.error()), code);
+    return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first
+}
+
 int run_render(RenderArguments& arguments, OptionTable& given)
 {
     const bool row = arguments.plain.turntable || !arguments.animate.empty();
@@ -144,26 +226,10 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return fail(usage_error("--band-rows", "is for one picture, without --animate and --turntable"));
     if (row)
         return run_animation(arguments, given);
-    arguments.may_have_bands = true;
-    if (given.given("--steps"))
-        return fail(usage_error("--steps", "needs --animate"));
-    if (given.given("--fps"))
-        return fail(usage_error("--fps", "needs --animate or --turntable"));
-    // Check the options and the paths
-    Result<RenderOptions> checked = check_render_options(arguments, given);
+    const Result<RenderOptions> checked = check_picture_options(arguments, given);
     if (!checked)
         return fail(checked.error());
-    if (any_pieces(arguments.pieces) && checked->backend != "reference" && !checked->band_rows)
-        return fail(
-            usage_error("--backend", "has no pieces: a frame is one; --backend reference, --animate, --turntable and --band-rows have"));
-    if (any_pieces(arguments.pieces) && checked->band_rows && given.given("--stats"))
-        return fail(usage_error("--stats", "cannot be combined with pieces of a picture: its times are of one process"));
-    checked->mips.frames_override = sets_materials(checked->frame);
-    if (any_pieces(arguments.pieces) && !checked->band_rows)
-        checked->reference.part = std::make_shared<ReferencePart>(), checked->in_pieces = true;
     const RenderOptions& options = *checked;
-    if (Status paths = check_paths(options, {options.scene, options.env}); !paths)
-        return fail(paths.error());
     if (!options.trace_file.empty())
         Trace::start();
 
@@ -179,55 +245,20 @@ int run_render(RenderArguments& arguments, OptionTable& given)
         return fail(session.error());
     if (Status paths = check_paths(options, session->scene().files); !paths) // textures and buffers are known now
         return fail(paths.error());
-    // Choose the view and report the setup
     const Result<ChosenView> view = choose_view(options, session->scene(), session->tables());
     if (!view)
         return fail(view.error());
-    const DrawTables& tables = session->tables();
-    const Scene& scene = session->scene();
-    report.detail("bounds", fmt::format("{} to {} m", world_place(tables.bounds_min, scene, 5), world_place(tables.bounds_max, scene, 5)));
-    report.detail("camera", fmt::format("{}: {}", view->description, camera_options(view->view, scene, tables)));
-    report.detail("", fmt::format("world to clip {}", describe_matrix(view->view, scene)));
-    report.detail("device", fmt::format("{}, {} threads", figures.device, figures.threads));
+    report_setup(*session, *view, figures, report);
     FrameDesc desc = options.frame;
     desc.view = view->view;
     if (options.band_rows)
         return run_bands(arguments, given, options, desc, *session, std::move(figures), report);
     if (Status checkpoint = check_reference_checkpoint(session->parts().input(), session->drawn(desc), options.reference); !checkpoint)
         return fail(checkpoint.error());
-    // List or make pieces of the picture, or take over all of them
-    if (any_pieces(arguments.pieces)) {
-        const std::vector<JobPiece> pieces = reference_pieces(options, desc, *session);
-        if (!arguments.pieces.merge)
-            return run_pieces(arguments.pieces, command_words(), pieces, report);
-        const auto files = finished_pieces(arguments.pieces, command_words(), pieces);
-        if (!files)
-            return fail(files.error());
-        if (const Status taken = take_reference_pieces(options, *files, pieces); !taken)
-            return fail(taken.error());
-    }
-    // Plan the frame, render it and write the outputs
-    const Result<std::optional<Plan>> plan = plan_frame(options, desc, *session, report);
-    if (!plan)
-        return fail(plan.error());
-    report.release();
-    note_plan(options, desc, *plan, figures);
-    Result<Rendered> rendered = render_frames(options, desc, *session, std::move(figures));
-    if (!rendered)
-        return fail(rendered.error());
-    report_frames(options, rendered->figures, report);
-    rendered->figures.warnings = report.warnings();
-    if (rendered->figures.frame.sampling.stopped) {
-        report.event("stopped", fmt::format("the same command goes on from {}; no picture was written", options.reference.checkpoint));
-        return 128 + stop_signal(); // as a shell reports a process ended by a signal
-    }
-    Status verified;
-    if (options.verify)
-        verified = verify_plan(options, desc, *session, rendered->color, *plan, report);
-    int code = finish(options, *rendered, *session->parts().jobs, report);
-    if (!verified)
-        code = std::max(fail(verified.error()), code);
-    return lost_checkpoint ? std::max(fail(*lost_checkpoint), code) : code; // the picture comes first
+    if (any_pieces(arguments.pieces))
+        if (const std::optional<int> code = run_picture_pieces(arguments.pieces, options, desc, *session, report))
+            return *code;
+    return draw_picture({options, *session, figures, lost_checkpoint, report}, desc);
 }
 
 } // namespace

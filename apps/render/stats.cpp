@@ -13,6 +13,56 @@
 #include "core/scene/gltf/extensions.h"
 
 namespace burnish {
+namespace {
+
+Json describe_plan(const PlanFigures& plan)
+{
+    const auto value = [](const std::optional<double>& number) { return number ? Json(*number) : Json(); };
+    return {
+        {"budget", value(plan.budget)},      {"budget_p99", value(plan.budget_p99)},           {"budget_ms", value(plan.budget_ms)},
+        {"predicted_flip", plan.predicted},  {"predicted_p99", value(plan.predicted_p99)},     {"predicted_ms", value(plan.predicted_ms)},
+        {"instructions", plan.instructions}, {"usual_instructions", plan.default_instructions}};
+}
+
+// Adds the frame's and the renderer's settings.
+void add_settings(const RenderOptions& options, const RenderFigures& figures, Json& json)
+{
+    const FrameDesc& frame = options.frame;
+    json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
+    json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
+    json.update(parameters_json(frame));
+    json["backend"] = options.backend;
+    json["device"] = figures.device;
+    json["isa"] = isa_name(options.isa);
+    json["threads"] = figures.threads;
+    json["width"] = picture_width(frame);
+    json["height"] = picture_height(frame);
+    if (options.band_rows)
+        json["band_rows"] = options.band_rows;
+    json["msaa"] = frame.msaa;
+    json["tile_size"] = frame.tile_size;
+    constexpr const char* kResolves[] = {"linear", "display", "weighted"};
+    json["resolve"] = kResolves[static_cast<std::size_t>(options.resolve)];
+    json["aov"] = options.aov;
+    json["frames"] = options.frames;
+}
+
+// Replaces the technique and its samples by the reference's figures.
+void add_reference(const RenderOptions& options, const SamplingStats& s, Json& json)
+{
+    json["technique"] = "reference";
+    json["samples"] = s.samples; // taken, which a target error may make fewer
+    json["reference"] = {{"mode", reference_mode_name(options)},
+                         {"samples_before", s.samples_before},
+                         {"relative_error", s.relative_error},
+                         {"million_samples_per_second", s.million_samples_per_second},
+                         {"rays", s.rays},
+                         {"ray_time_fraction", s.ray_share}};
+    if (options.reference.mode == ReferenceMode::path)
+        json["reference"]["bounces"] = options.reference.bounces;
+}
+
+} // namespace
 
 double median(std::vector<double> values)
 {
@@ -46,54 +96,17 @@ std::uint64_t peak_memory_bytes()
 
 Json stats_json(const RenderOptions& options, const RenderFigures& figures)
 {
-    const FrameDesc& frame = options.frame;
     Json json;
     json["version"] = version();
     json["scene"] = options.scene;
     json["env"] = figures.env;
-    json["technique"] = figures.planned ? Json() : Json(frame.technique);
-    json["samples"] = figures.planned ? Json() : Json(frame.samples);
-    if (const std::optional<PlanFigures>& plan = figures.plan) {
-        const auto value = [](const std::optional<double>& number) { return number ? Json(*number) : Json(); };
-        json["plan"] = {{"budget", value(plan->budget)},
-                        {"budget_p99", value(plan->budget_p99)},
-                        {"budget_ms", value(plan->budget_ms)},
-                        {"predicted_flip", plan->predicted},
-                        {"predicted_p99", value(plan->predicted_p99)},
-                        {"predicted_ms", value(plan->predicted_ms)},
-                        {"instructions", plan->instructions},
-                        {"usual_instructions", plan->default_instructions}};
-    }
-    json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
-    json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
-    json.update(parameters_json(frame));
-    json["backend"] = options.backend;
-    json["device"] = figures.device;
-    json["isa"] = isa_name(options.isa);
-    json["threads"] = figures.threads;
-    json["width"] = picture_width(frame);
-    json["height"] = picture_height(frame);
-    if (options.band_rows)
-        json["band_rows"] = options.band_rows;
-    json["msaa"] = frame.msaa;
-    json["tile_size"] = frame.tile_size;
-    constexpr const char* kResolves[] = {"linear", "display", "weighted"};
-    json["resolve"] = kResolves[static_cast<std::size_t>(options.resolve)];
-    json["aov"] = options.aov;
-    json["frames"] = options.frames;
-    if (options.backend == "reference") {
-        const SamplingStats& s = figures.frame.sampling;
-        json["technique"] = "reference";
-        json["samples"] = s.samples; // taken, which a target error may make fewer
-        json["reference"] = {{"mode", reference_mode_name(options)},
-                             {"samples_before", s.samples_before},
-                             {"relative_error", s.relative_error},
-                             {"million_samples_per_second", s.million_samples_per_second},
-                             {"rays", s.rays},
-                             {"ray_time_fraction", s.ray_share}};
-        if (options.reference.mode == ReferenceMode::path)
-            json["reference"]["bounces"] = options.reference.bounces;
-    }
+    json["technique"] = figures.planned ? Json() : Json(options.frame.technique);
+    json["samples"] = figures.planned ? Json() : Json(options.frame.samples);
+    if (figures.plan)
+        json["plan"] = describe_plan(*figures.plan);
+    add_settings(options, figures, json);
+    if (options.backend == "reference")
+        add_reference(options, figures.frame.sampling, json);
     json["ms_min"] = *std::min_element(figures.frame_ms.begin(), figures.frame_ms.end());
     json["ms_median"] = median(figures.frame_ms);
     json["ms_p95"] = percentile_95(figures.frame_ms);

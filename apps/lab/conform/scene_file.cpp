@@ -66,12 +66,9 @@ std::string data_of(const char* type, const std::string& bytes)
     return std::string("data:") + type + ";base64," + base64(bytes);
 }
 
-} // namespace
-
-Result<std::string> scene_file_text(const std::string& name, const SceneFile& scene)
+// Adds the mesh's columns. Returns the primitive that refers to them.
+Json add_primitive(const SceneFile& scene, Buffer& buffer)
 {
-    // The mesh
-    Buffer buffer;
     Json attributes = Json::object();
     attributes["POSITION"] = buffer.column<glm::vec3>(scene.vertices, "VEC3", [](const FileVertex& v) { return v.position; });
     glm::vec3 least = scene.vertices.front().position, most = least;
@@ -85,8 +82,14 @@ Result<std::string> scene_file_text(const std::string& name, const SceneFile& sc
     attributes["TEXCOORD_0"] = buffer.column<glm::vec2>(scene.vertices, "VEC2", [](const FileVertex& v) { return v.uv0; });
     attributes["TEXCOORD_1"] = buffer.column<glm::vec2>(scene.vertices, "VEC2", [](const FileVertex& v) { return v.uv1; });
     const int indices = buffer.add(scene.triangles.data(), scene.triangles.size() * 4, kIndices, "SCALAR", scene.triangles.size());
+    Json primitive = Json::object();
+    primitive["attributes"] = std::move(attributes), primitive["indices"] = indices, primitive["material"] = 0;
+    return primitive;
+}
 
-    // Nodes: the mesh's chain, the camera, the lamp
+// Adds the scene and its nodes: the mesh's chain, the camera, the lamp.
+void add_scene(const std::string& name, const SceneFile& scene, std::vector<std::string>& extensions, Json& file)
+{
     Json nodes = Json::array(), roots = Json::array();
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         nodes.push_back(node_of(scene.nodes[i]));
@@ -99,8 +102,6 @@ Result<std::string> scene_file_text(const std::string& name, const SceneFile& sc
     nodes.push_back(node_of(looking(scene.eye, scene.target)));
     nodes.back()["camera"] = 0;
     roots.push_back(nodes.size() - 1);
-    std::vector<std::string> extensions;
-    Json file = {{"asset", {{"version", "2.0"}, {"generator", "burnish"}}}, {"scene", 0}};
     if (scene.lamp) {
         nodes.push_back(node_of(looking(kLampFrom, glm::vec3(0.0f))));
         nodes.back()["extensions"]["KHR_lights_punctual"]["light"] = 0;
@@ -111,15 +112,11 @@ Result<std::string> scene_file_text(const std::string& name, const SceneFile& sc
     }
     file["scenes"] = Json::array({{{"name", name}, {"nodes", roots}}});
     file["nodes"] = std::move(nodes);
-    file["cameras"] = Json::array({{{"type", "perspective"},
-                                    {"perspective",
-                                     {{"yfov", shortest_decimal(scene.fov_y_rad)},
-                                      {"aspectRatio", shortest_decimal(scene.aspect)},
-                                      {"znear", 0.1},
-                                      {"zfar", 100.0}}}}});
-    file["meshes"] = Json::array({{{"primitives", Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", 0}}})}}});
+}
 
-    // The material and its textures
+// Adds the material and its textures.
+Status add_textured_material(const SceneFile& scene, std::vector<std::string>& extensions, Json& file)
+{
     file["materials"] = Json::array({scene.material});
     if (scene.material.contains("extensions"))
         for (const auto& [extension, unused] : scene.material["extensions"].items())
@@ -134,6 +131,26 @@ Result<std::string> scene_file_text(const std::string& name, const SceneFile& sc
     }
     if (!scene.textures.empty())
         file["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}}}); // linear, and between mip levels
+    return {};
+}
+
+} // namespace
+
+Result<std::string> scene_file_text(const std::string& name, const SceneFile& scene)
+{
+    Buffer buffer;
+    const Json primitive = add_primitive(scene, buffer);
+    std::vector<std::string> extensions;
+    Json file = {{"asset", {{"version", "2.0"}, {"generator", "burnish"}}}, {"scene", 0}};
+    add_scene(name, scene, extensions, file);
+    file["cameras"] = Json::array({{{"type", "perspective"},
+                                    {"perspective",
+                                     {{"yfov", shortest_decimal(scene.fov_y_rad)},
+                                      {"aspectRatio", shortest_decimal(scene.aspect)},
+                                      {"znear", 0.1},
+                                      {"zfar", 100.0}}}}});
+    file["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
+    BN_TRY(add_textured_material(scene, extensions, file));
     if (!extensions.empty())
         file["extensionsUsed"] = extensions;
     file["accessors"] = std::move(buffer.accessors);
