@@ -14,6 +14,11 @@ namespace burnish {
 // +d and -d are equal.
 Image anisotropy_tensor(const Image& image, int power);
 
+struct DirectionTensor {
+    float xx = 0.0f, yy = 0.0f, xy = 0.0f;
+};
+DirectionTensor direction_tensor(const Image& image, std::size_t texel, int power); // of one texel
+
 // Returns a channel as a number, for images of any type. Gray stands for all colours.
 float texel_channel(const Image& image, std::size_t texel, std::size_t channel);
 

@@ -101,6 +101,24 @@ void normals(const work::NormalWork& w)
     }
 }
 
+// As direction_tensor() of anisotropy.h, with the same bits.
+void directions(const work::DirectionWork& w)
+{
+    const real most = splat(3.40282347e38f), one = lit(1.0), zero = lit(0.0);
+    for (std::size_t at = 0; at < w.count; at += kLane) {
+        const auto code = [&](std::size_t k) { return load(w.codes + k * w.stride + at); };
+        const real x = lit(2.0) * code(0) - one, y = lit(2.0) * code(1) - one, strength = code(2), length2 = x * x + y * y;
+        const mask any = both(both(length2 >= lit(1e-4), length2 <= most), abs(strength) <= most);
+        const real whole = select(any, length2, one), s2 = strength * strength;
+        const real weights[2] = {s2 / whole, s2 * s2 / whole};
+        for (std::size_t k = 0; k < 2; ++k) {
+            float* const to = w.tensors + 3 * k * w.stride + at;
+            store(to, select(any, weights[k] * x * x, zero)), store(to + w.stride, select(any, weights[k] * y * y, zero));
+            store(to + 2 * w.stride, select(any, weights[k] * x * y, zero));
+        }
+    }
+}
+
 // Writes the lobes' covariances from roughness and anisotropy.
 void covariances(const work::CovarianceWork& w)
 {
@@ -314,6 +332,7 @@ void hash(const work::HashWork& w)
 constexpr work::Fns kMipFns = {codes,
                                blend,
                                normals,
+                               directions,
                                covariances,
                                by_mean<States, work::StateWork>,
                                by_mean<Merge, work::MergeWork>,

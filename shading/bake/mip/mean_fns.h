@@ -49,6 +49,12 @@ struct NormalWork { // converts a normal map's red, green, blue in place to unit
     float* planes;
 };
 
+struct DirectionWork { // converts a direction map's red, green, blue to tensors; values that are not finite give none
+    std::size_t count, stride;
+    const float* codes; // 3 planes
+    float* tensors;     // 6 planes: xx, yy, xy with powers 2 and 4 (anisotropy.h)
+};
+
 struct CovarianceWork {
     std::size_t count, stride;
     const float* roughness; // null: factor alone
@@ -101,6 +107,7 @@ struct Fns {
     void (*codes)(const CodeWork& work);
     void (*blend)(const BlendWork& work);
     void (*normals)(const NormalWork& work);
+    void (*directions)(const DirectionWork& work);
     void (*covariances)(const CovarianceWork& work);
     void (*states)(const StateWork& work);
     void (*merge)(const MergeWork& work);

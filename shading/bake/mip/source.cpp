@@ -1,6 +1,7 @@
 #include "shading/bake/mip/source.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "core/base/check.h"
@@ -54,8 +55,6 @@ Grid grid_of(const MipMaps& maps)
 MipSource::MipSource(const MipMaps& maps) : maps_(maps), grid_(grid_of(maps))
 {
     BN_CHECK(grid_.width > 0 && grid_.height > 0);
-    if (maps.direction)
-        tensors_[0] = anisotropy_tensor(*maps.direction, 2), tensors_[1] = anisotropy_tensor(*maps.direction, 4);
     const auto turn = static_cast<double>(maps.anisotropy_rotation);
     rotation_ = vec2_of(static_cast<float>(det_cos(turn)), static_cast<float>(det_sin(turn)));
     const float roughness = std::clamp(maps.roughness_factor, 0.0f, 1.0f);
@@ -108,6 +107,51 @@ void MipSource::put_row(const Image& map, int y, int first, int count, const flo
 
 namespace {
 
+constexpr int kPowers[] = {2, 4};
+constexpr std::size_t kTensorPlanes = 6;
+
+// Writes the tensors of a map's row, as many as the map is wide.
+void put_row_tensors(const Image& map, int y, std::size_t stride, float* to)
+{
+    const mip::Fns& fns = pick<mip::Fns>();
+    const auto texels = static_cast<std::size_t>(map.width);
+    Column<float> codes;
+    codes.resize_for_overwrite(3 * stride);
+    for (std::size_t k = 0; k < 3; ++k)
+        std::fill(codes.data() + k * stride + texels, codes.data() + (k + 1) * stride, 0.0f);
+    if (map.type == PixelType::u8 && map.channels >= 3) {
+        const auto* from = reinterpret_cast<const std::uint8_t*>(map.bytes.data()) +
+                           static_cast<std::size_t>(y) * texels * static_cast<std::size_t>(map.channels);
+        fns.codes({from, map.channels, 0, 3, texels, stride, codes.data()});
+    } else {
+        for (std::size_t k = 0; k < 3; ++k)
+            put_channel(map, y, k, std::numeric_limits<float>::quiet_NaN(), codes.data() + k * stride);
+    }
+    fns.directions({texels, stride, codes.data(), to});
+}
+
+} // namespace
+
+void MipSource::put_tensors(int y, std::size_t stride, float* to) const
+{
+    const Image& map = *maps_.direction;
+    if (map.width == grid_.width && map.height == grid_.height) {
+        put_row_tensors(map, y, stride, to);
+        return;
+    }
+    // Interpolate between the map's two rows and columns
+    const auto columns = std::find_if(columns_.begin(), columns_.end(), [&](const Columns& found) { return found.map_width == map.width; });
+    const Neighbours v = neighbours(y, grid_.height, map.height, grid_.wrap_t, grid_.nearest);
+    const std::size_t of_map = mip::row_stride(static_cast<std::size_t>(map.width));
+    std::vector<float> low(kTensorPlanes * of_map), high(low.size());
+    put_row_tensors(map, v.low, of_map, low.data()), put_row_tensors(map, v.high, of_map, high.data());
+    for (std::size_t k = 0; k < kTensorPlanes; ++k)
+        pick<mip::Fns>().blend({static_cast<std::size_t>(grid_.width), low.data() + k * of_map, high.data() + k * of_map,
+                                columns->left.data(), columns->right.data(), columns->share.data(), v.share, to + k * stride});
+}
+
+namespace {
+
 MipPoint point_at(const float* planes, std::size_t stride, std::size_t x)
 {
     const auto at = [&](std::size_t k) { return planes[k * stride + x]; };
@@ -116,12 +160,13 @@ MipPoint point_at(const float* planes, std::size_t stride, std::size_t x)
 
 } // namespace
 
-template <class Read> void MipSource::put(std::size_t count, const Read& read, float* to) const
+template <class Read, class ReadTensors>
+void MipSource::put(std::size_t count, const Read& read, const ReadTensors& read_tensors, float* to) const
 {
     const mip::Fns& fns = pick<mip::Fns>();
     const std::size_t stride = mip::row_stride(count);
     const auto plane = [&](std::size_t k) { return to + k * stride; };
-    constexpr float kLevel[3] = {0.5f, 0.5f, 1.0f}, kZero[3] = {0.0f, 0.0f, 0.0f}, kWhole = 1.0f;
+    constexpr float kLevel[3] = {0.5f, 0.5f, 1.0f}, kWhole = 1.0f;
     // Normals
     if (maps_.normal) {
         read(*maps_.normal, 0, 3, kLevel, stride, to);
@@ -137,8 +182,8 @@ template <class Read> void MipSource::put(std::size_t count, const Read& read, f
             std::fill(own.data() + k * stride + count, own.data() + (k + 1) * stride, 0.0f);
         if (maps_.roughness)
             read(*maps_.roughness, 1, 1, &kWhole, stride, own.data());
-        for (std::size_t k = 0; maps_.direction && k < 2; ++k)
-            read(tensors_[k], 0, 3, kZero, stride, own.data() + (1 + 3 * k) * stride);
+        if (maps_.direction)
+            read_tensors(stride, own.data() + stride);
         fns.covariances({count, stride, maps_.roughness ? own.data() : nullptr, maps_.direction ? own.data() + stride : nullptr,
                          maps_.roughness_factor, maps_.anisotropy_strength, rotation_.x, rotation_.y, plane(3)});
     } else {
@@ -167,6 +212,15 @@ void MipSource::points(std::size_t count, const int* x, const int* y, float* to)
                         return finite_or(texel_channel(map, texel, static_cast<std::size_t>(first + k)), others[k]);
                     });
         },
+        [&](std::size_t stride, float* out) {
+            for (const int power : kPowers)
+                for (float DirectionTensor::*part : {&DirectionTensor::xx, &DirectionTensor::yy, &DirectionTensor::xy}) {
+                    for (std::size_t i = 0; i < count; ++i)
+                        out[i] = on_grid(*maps_.direction, grid_, x[i], y[i],
+                                         [&](std::size_t texel) { return direction_tensor(*maps_.direction, texel, power).*part; });
+                    out += stride;
+                }
+        },
         to);
 }
 
@@ -186,7 +240,7 @@ void MipSource::planes(int y, float* to) const
         [&](const Image& map, int first, int channels, const float* others, std::size_t stride, float* out) {
             put_row(map, y, first, channels, others, stride, out);
         },
-        to);
+        [&](std::size_t stride, float* out) { put_tensors(y, stride, out); }, to);
 }
 
 std::uint64_t MipSource::hash(const Jobs& jobs) const

@@ -48,7 +48,10 @@ class MipSource {
 
   private:
     // read: (map, first channel, number of channels, substitutes for values that are not finite, stride, to)
-    template <class Read> void put(std::size_t count, const Read& read, float* to) const;
+    // read_tensors: (stride, to), 6 planes of tensors with powers 2 and 4 from the map of directions
+    template <class Read, class ReadTensors>
+    void put(std::size_t count, const Read& read, const ReadTensors& read_tensors, float* to) const;
+    void put_tensors(int y, std::size_t stride, float* to) const; // of a grid row
 
     // The columns of a map beside each place of a grid row, in whole slots.
     struct Columns {
@@ -62,7 +65,6 @@ class MipSource {
     MipMaps maps_;
     Grid grid_;
     std::vector<Columns> columns_; // by width of those maps that have another size than the grid
-    Image tensors_[2];
     real2 rotation_;
     slope_covariance only_; // the lobe if only factors define it
 };

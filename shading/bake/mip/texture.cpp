@@ -268,20 +268,20 @@ ImageRow linear_rows(const Image& image, TextureEncoding encoding)
 
 namespace {
 
-Size level_size(const Image& image, int l)
+Size level_size(Size level0, int l)
 {
-    return {std::max(1, image.width >> l), std::max(1, image.height >> l)};
+    return {std::max(1, level0.w >> l), std::max(1, level0.h >> l)};
 }
 
 using FloatRow = std::function<const float*(int y)>;
 
 // Filters a band of level 0 to its rows on levels 1 to `levels`. Returns the last level's rows.
-std::vector<float> filter_band(const Image& image, const ImageRow& decode, int levels, int band, const LevelRow& use)
+std::vector<float> filter_band(int width, const ImageRow& decode, int levels, int band, const LevelRow& use)
 {
     const int first = band << levels;
-    std::vector<float> row(static_cast<std::size_t>(image.width) * 4), finer;
+    std::vector<float> row(static_cast<std::size_t>(width) * 4), finer;
     for (int l = 1; l <= levels; ++l) {
-        const Size from = {image.width >> (l - 1), 1 << (levels - l + 1)}, to = {image.width >> l, 1 << (levels - l)};
+        const Size from = {width >> (l - 1), 1 << (levels - l + 1)}, to = {width >> l, 1 << (levels - l)};
         const FloatRow rows = [&](int y) -> const float* {
             if (l > 1)
                 return finer.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(from.w) * 4;
@@ -299,28 +299,28 @@ std::vector<float> filter_band(const Image& image, const ImageRow& decode, int l
 } // namespace
 
 // Each level comes from the smallest earlier level whose texels tile its footprints, else from level 0. Both are exact.
-void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use)
+void each_box_row(int width, int height, const ImageRow& decode, const Jobs& jobs, const LevelRow& use)
 {
-    const ImageRow decode = linear_rows(image, encoding);
-    const int banded = banded_levels(image.width, image.height);
+    const Size level0 = {width, height};
+    const int banded = banded_levels(width, height);
     std::array<std::vector<float>, kMaxTextureLevels> levels;
     // Make the first levels in bands of rows
     if (banded > 0) {
-        const Size last = level_size(image, banded);
+        const Size last = level_size(level0, banded);
         const std::size_t texels = static_cast<std::size_t>(last.w) * 4;
         std::vector<float>& whole = levels[static_cast<std::size_t>(banded)];
         whole.resize(static_cast<std::size_t>(last.h) * texels);
         jobs.parallel_for(static_cast<std::size_t>(last.h), [&](std::size_t band, int) {
-            const std::vector<float> row = filter_band(image, decode, banded, static_cast<int>(band), use);
+            const std::vector<float> row = filter_band(width, decode, banded, static_cast<int>(band), use);
             std::copy(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(band * texels));
         });
     }
     // Make the other levels one by one
-    std::vector<float> row(static_cast<std::size_t>(image.width) * 4);
-    for (int l = banded + 1; l <= levels_below(image.width, image.height); ++l) {
-        const Size size = level_size(image, l);
-        const int finer = finer_level(image.width, image.height, l);
-        const std::size_t stride = static_cast<std::size_t>(level_size(image, finer).w) * 4, texels = static_cast<std::size_t>(size.w) * 4;
+    std::vector<float> row(static_cast<std::size_t>(width) * 4);
+    for (int l = banded + 1; l <= levels_below(width, height); ++l) {
+        const Size size = level_size(level0, l);
+        const int finer = finer_level(width, height, l);
+        const std::size_t stride = static_cast<std::size_t>(level_size(level0, finer).w) * 4, texels = static_cast<std::size_t>(size.w) * 4;
         const FloatRow rows = [&](int y) -> const float* {
             if (finer > 0)
                 return levels[static_cast<std::size_t>(finer)].data() + static_cast<std::size_t>(y) * stride;
@@ -328,10 +328,15 @@ void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs
             return row.data();
         };
         std::vector<float>& to = levels[static_cast<std::size_t>(l)];
-        to = box_filter(level_size(image, finer), size, rows);
+        to = box_filter(level_size(level0, finer), size, rows);
         for (int y = 0; y < size.h; ++y)
             use(l, size.w, y, to.data() + static_cast<std::size_t>(y) * texels);
     }
+}
+
+void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use)
+{
+    each_box_row(image.width, image.height, linear_rows(image, encoding), jobs, use);
 }
 
 TexturePyramid make_texture_pyramid(const Image& image, const Texture& sampler, TextureEncoding encoding)

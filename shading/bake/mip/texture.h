@@ -51,5 +51,7 @@ ImageRow linear_rows(const Image& image, TextureEncoding encoding);
 // Calls `use` for each row of the box filter's levels from 1 on, 4 floats per texel, in any order and for several rows at once.
 using LevelRow = std::function<void(int level, int width, int y, const float* texels)>;
 void each_box_row(const Image& image, TextureEncoding encoding, const Jobs& jobs, const LevelRow& use);
+// The same for rows of `width` texels that `level0` makes; finite floats.
+void each_box_row(int width, int height, const ImageRow& level0, const Jobs& jobs, const LevelRow& use);
 
 } // namespace burnish
