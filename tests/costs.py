@@ -91,7 +91,7 @@ def main():
         print(f"over budget: {name}: {figures}")
     bad = len({name for name, _ in [*failed, *over]})
     print(f"{len(tests) - bad - skipped} passed, {bad} failed, {skipped} skipped")
-    sys.exit(bool(bad))
+    sys.exit(bool(bad) or not tests)
 
 
 if __name__ == "__main__":

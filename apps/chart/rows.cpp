@@ -44,7 +44,9 @@ Json settings_json(const ChartReport& report, const ChartRow& row)
                  {"height", report.height},
                  {"error_width", report.error_width},
                  {"error_height", report.error_height}};
-    json.update(parameters_json(report.frame));
+    FrameDesc drawn = report.frame;
+    row.setting.planned.put(drawn);
+    json.update(parameters_json(drawn));
     for (const auto& [option, value] : row.cell.others) {
         const std::optional<double> number = number_in(value);
         std::string key = option;

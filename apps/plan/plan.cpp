@@ -152,9 +152,12 @@ Probe with_area_lights(const Probe& probe, const ProbedAreaLights& area)
     for (std::size_t m = 0; m < with.materials.size(); ++m)
         for (ProbedSetting& s : with.materials[m].settings)
             s.error = sum_of_errors(s.error, area.error[m]), s.cost += area.cost;
+    std::vector<double> squares;
+    for (const float error : area.of_pixel)
+        squares.push_back(squared(static_cast<double>(error)));
     for (std::vector<float>& errors : with.pixels.error)
         for (std::size_t p = 0; p < errors.size(); ++p)
-            errors[p] = static_cast<float>(sum_of_errors(static_cast<double>(errors[p]), static_cast<double>(area.of_pixel[p])));
+            errors[p] = static_cast<float>(flip_of(squared(static_cast<double>(errors[p])) + squares[p]));
     return with;
 }
 
@@ -165,7 +168,8 @@ struct Candidate {
     Choice choice;
     double error = 0.0, cost = 0.0; // of the picture
     std::optional<double> p99;
-    bool holds = true; // the budgets
+    bool mean_holds = true; // the mean error's budget, if there is one
+    bool holds = true;      // all budgets
 
     const ProbedSetting& setting(std::size_t h, std::size_t material) const
     {
@@ -211,7 +215,9 @@ class Planner {
                 return a.holds;
             if (a.holds != timed)
                 return a.cost < b.cost;
-            return timed || !budget_.p99 || a.p99 == b.p99 ? a.error < b.error : a.p99 < b.p99;
+            if (!timed && a.mean_holds != b.mean_holds)
+                return a.mean_holds;
+            return !timed && a.mean_holds && budget_.p99 ? a.p99 < b.p99 : a.error < b.error;
         };
         return told(*std::min_element(all.begin(), all.end(), before));
     }
@@ -219,8 +225,10 @@ class Planner {
   private:
     void choose(Candidate& to) const
     {
-        if (budget_.error || budget_.p99) // by the percentile alone: the cheapest
-            to.choice.at = within_error(to.choice.fronts, budget_.error ? *budget_.error / kPlanSafety : 1e9);
+        if (budget_.error)
+            to.choice.at = within_error(to.choice.fronts, *budget_.error / kPlanSafety);
+        else if (budget_.p99) // the cheapest
+            to.choice.at.assign(to.choice.fronts.size(), 0);
         else
             to.choice.at = within_cost(to.choice.fronts, clock_->cost_within(*budget_.cpu_ms / kTimeSafety));
         if (budget_.p99)
@@ -233,11 +241,11 @@ class Planner {
         }
         if (budget_.p99)
             to.p99 = tail_of(to.probe, settings);
+        to.mean_holds = !budget_.error || to.error * kPlanSafety <= *budget_.error;
         if (budget_.error || budget_.p99) // errors go first
-            to.holds =
-                (!budget_.error || to.error * kPlanSafety <= *budget_.error) && (!budget_.p99 || *to.p99 * kTailSafety <= *budget_.p99);
+            to.holds = to.mean_holds && (!budget_.p99 || *to.p99 * kTailSafety <= *budget_.p99);
         else
-            to.holds = clock_->ms_of(to.cost) <= *budget_.cpu_ms;
+            to.holds = clock_->ms_of(to.cost) <= *budget_.cpu_ms / kTimeSafety;
     }
 
     AreaLightsStep step_of_area(const ProbedAreaLights& area) const

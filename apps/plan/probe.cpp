@@ -218,7 +218,7 @@ class Prober {
     void put_noise(const Noisy& noisy, double share, ProbedAreaLights& to) const
     {
         for (const double mean : noisy.mean)
-            to.error.push_back(mean * share);
+            to.error.push_back(std::min(1.0, mean * share));
         if (by_pixel_)
             for (std::size_t p = 0; p < materials_.of.size(); ++p)
                 to.of_pixel.push_back(static_cast<float>(static_cast<double>(noisy.between.f32()[p]) * noisy.of_pixel * share));
@@ -243,7 +243,11 @@ class Prober {
 
     // Returns true for a material whose prefiltered techniques follow light through a whole body. mc samples one interface, so it tells no
     // errors of those.
-    bool is_body(std::size_t m) const { return small_.glass != 0 && session_.scene().materials[m].transmission > 0.0f; }
+    bool is_body(std::size_t m) const
+    {
+        const Material& of = session_.scene().materials[m];
+        return small_.glass != 0 && of.transmission > 0.0f && of.ior > 0.0f && !of.unlit;
+    }
 
     // any_prefiltered: a body takes no other settings.
     void put_setting(const MaterialTechnique& s, bool any_prefiltered)

@@ -104,6 +104,8 @@ Result<std::optional<Plan>> plan_frame(const RenderOptions& options, FrameDesc& 
 void note_plan(const RenderOptions& options, const FrameDesc& desc, const std::optional<Plan>& plan, RenderFigures& figures)
 {
     figures.planned = !desc.by_material.empty();
+    if (figures.planned && !options.fixes_area_lights)
+        figures.area_lights = AreaLightsSetting{desc.area_way, static_cast<int>(desc.light_samples)};
     if (plan && plan->aside.empty())
         figures.plan = PlanFigures{options.budget, options.budget_p99, options.budget_ms,  plan->error,
                                    plan->p99,      plan->cost,         plan->default_cost, plan->cpu_ms};

@@ -30,7 +30,10 @@ void add_settings(const RenderOptions& options, const RenderFigures& figures, Js
     const FrameDesc& frame = options.frame;
     json["roughness"] = frame.roughness >= 0.0f ? Json(shortest_decimal(frame.roughness)) : Json();
     json["anisotropy"] = frame.override_anisotropy ? Json(shortest_decimal(frame.anisotropy)) : Json();
-    json.update(parameters_json(frame));
+    FrameDesc drawn = frame;
+    if (figures.area_lights)
+        drawn.area_way = figures.area_lights->way, drawn.light_samples = static_cast<std::uint32_t>(figures.area_lights->samples);
+    json.update(parameters_json(drawn));
     json["backend"] = options.backend;
     json["device"] = figures.device;
     json["isa"] = isa_name(options.isa);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/options/options.h"
+#include "apps/plan/probe.h"
 #include "apps/report/json.h"
 #include "raster/tile/tile_types.h"
 #include "shading/bake/environment/environment.h"
@@ -34,6 +35,7 @@ struct RenderFigures {
     bool environment_from_cache = false;
     std::vector<ExtractedLight> extracted_lights; // as the turned environment has them
     bool planned = false;                         // drawn by a plan
+    std::optional<AreaLightsSetting> area_lights; // chosen by the plan
     std::optional<PlanFigures> plan;              // of --budget
     std::optional<LaneWork> work;                 // of one frame, with --count-operations
     std::vector<std::string> warnings;            // as they were said, or would have been without --quiet

@@ -75,6 +75,7 @@ def area_lit(bench):
         check(error <= budget and error <= 1.3 * plan["predicted_flip"], f"the error is {error}, predicted {plan['predicted_flip']}, the budget {budget}")
         check(re.search(r"budget +area lights: .*, error [\d.]+ over the picture; next ", done.err), done.err)
         ways.append(plan["area_lights"]["method"])
+        check((stats["area_lights"], stats["light_samples"]) == (ways[-1], plan["area_lights"]["samples"]), f"{budget}: the figures name {stats['area_lights']}")
         # The plan file and the step of an animation take the same method
         bench.run(*LIT, "--plan", "plan.json", "--stats", "b.json").expect(0)
         check(stats["pixel_hash"] == stats_of(bench, "b.json")["pixel_hash"], f"{budget}: another picture by the plan file")

@@ -27,7 +27,8 @@ DirectionTensor direction_tensor(const Image& image, std::size_t texel, int powe
     if (!(length2 >= 1e-4f && std::isfinite(length2) && std::isfinite(b))) // float images may hold NaN
         return {};
     const float s2 = b * b, weight = (power == 2 ? s2 : s2 * s2) / length2;
-    return {weight * x * x, weight * y * y, weight * x * y};
+    const auto finite = [](float value) { return std::isfinite(value) ? value : 0.0f; };
+    return {finite(weight * x * x), finite(weight * y * y), finite(weight * x * y)};
 }
 
 Image anisotropy_tensor(const Image& image, int power)

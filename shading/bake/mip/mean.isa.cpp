@@ -113,8 +113,9 @@ void directions(const work::DirectionWork& w)
         const real weights[2] = {s2 / whole, s2 * s2 / whole};
         for (std::size_t k = 0; k < 2; ++k) {
             float* const to = w.tensors + 3 * k * w.stride + at;
-            store(to, select(any, weights[k] * x * x, zero)), store(to + w.stride, select(any, weights[k] * y * y, zero));
-            store(to + 2 * w.stride, select(any, weights[k] * x * y, zero));
+            const real parts[3] = {weights[k] * x * x, weights[k] * y * y, weights[k] * x * y};
+            for (std::size_t c = 0; c < 3; ++c)
+                store(to + c * w.stride, select(both(any, abs(parts[c]) <= most), parts[c], zero));
         }
     }
 }

@@ -305,7 +305,8 @@ TEST(mip, maps_of_codes_are_read_as_their_values)
     const int width = 33, height = 5;
     for (const int codes : {256, 65536}) {
         Maps floats_of = rough_maps(width, height, 9), of;
-        for (const auto& [from, to] : {std::pair(&floats_of.normal, &of.normal), {&floats_of.roughness, &of.roughness}}) {
+        for (const auto& [from, to] :
+             {std::pair(&floats_of.normal, &of.normal), {&floats_of.roughness, &of.roughness}, {&floats_of.direction, &of.direction}}) {
             *to = make_image(width, height, 3, codes == 256 ? PixelType::u8 : PixelType::u16);
             for (std::size_t i = 0; i < 3u * width * height; ++i) {
                 const int code = static_cast<int>(from->f32()[i] * static_cast<float>(codes - 1) + 0.5f);
@@ -316,7 +317,6 @@ TEST(mip, maps_of_codes_are_read_as_their_values)
                     reinterpret_cast<std::uint16_t*>(to->bytes.data())[i] = static_cast<std::uint16_t>(code);
             }
         }
-        of.direction = floats_of.direction;
         const MipSource a(of.of()), b(floats_of.of());
         EXPECT_EQ(a.hash(Jobs(1)), b.hash(Jobs(1)));
         std::vector<MipPoint> row(static_cast<std::size_t>(width));
@@ -368,6 +368,36 @@ TEST(mip, rows_of_smaller_maps_are_their_points)
                 }
             }
         }
+}
+
+// The same for maps of directions: of any number of channels, with values that are not finite or too large.
+TEST(mip, rows_of_directions_are_their_points)
+{
+    Maps maps;
+    maps.normal = floats(7, 6, [](int, int) { return code_of(0.0f, 0.0f); });
+    for (const int channels : {1, 2, 3})
+        for (const auto& [width, height] : {std::pair(3, 2), {7, 6}, {7, 3}, {20, 2}})
+            for (const WrapMode wrap : {WrapMode::repeat, WrapMode::clamp}) {
+                maps.direction = make_image(width, height, channels, PixelType::f32);
+                const std::size_t values = maps.direction.bytes.size() / sizeof(float);
+                for (std::size_t i = 0; i < values; ++i)
+                    maps.direction.f32()[i] = static_cast<float>(i * 7 % 11) / 10.0f;
+                maps.direction.f32()[0] = NAN, maps.direction.f32()[values - 1] = 1e10f, maps.direction.f32()[values / 2] = -INFINITY;
+                MipMaps of = maps.of();
+                of.wrap_s = of.wrap_t = wrap, of.anisotropy_strength = 0.8f;
+                const MipSource source(of);
+                std::vector<MipPoint> row(static_cast<std::size_t>(source.width()));
+                for (int y = 0; y < source.height(); ++y) {
+                    source.row(y, row.data());
+                    for (int x = 0; x < source.width(); ++x) {
+                        const MipPoint one = source.at(x, y), in_row = row[static_cast<std::size_t>(x)];
+                        EXPECT_TRUE(std::isfinite(one.s.xx) && std::isfinite(one.s.yy) && std::isfinite(one.s.xy)) << x << ", " << y;
+                        EXPECT_EQ(one.s.xx, in_row.s.xx) << x << ", " << y;
+                        EXPECT_EQ(one.s.yy, in_row.s.yy) << x << ", " << y;
+                        EXPECT_EQ(one.s.xy, in_row.s.xy) << x << ", " << y;
+                    }
+                }
+            }
 }
 
 // Where the net is far from the reference, closed forms are kept. A representative sample of the material decides, at any size.

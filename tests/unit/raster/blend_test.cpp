@@ -130,6 +130,7 @@ double time_of_sheets(int count)
     const Stage stage(sheets_of(sheets, -4.0f), 0.0f);
     Result<Session> session = Session::make(stage.parts(), {});
     double least = 1e30;
+    EXPECT_TRUE(session);
     for (int k = 0; k < 5; ++k) {
         const std::clock_t begin = std::clock();
         const Result<Frame> frame = session->render(desc_with(1));
