@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/math/scalar_math.h"
+#include "shading/lang/tables.h"
 
 namespace burnish {
 namespace {

@@ -64,7 +64,7 @@ TEST(filtered_textures, are_the_same_bytes_by_threads_and_alone)
                     const std::vector<KeptWeights> kept = kept_weights_by_material(scene, mips, Jobs(1));
                     const std::vector<PyramidKey> keys = used_pyramids(scene, mips, kept);
                     const auto made = make_pyramids(scene, mips, kept, keys, Jobs(1), nullptr);
-                    const auto expect_equal = [&](const auto& others, std::size_t first) {
+                    const auto expect_equal = [&, width = width, height = height](const auto& others, std::size_t first) {
                         for (std::size_t k = 0; k < others.size(); ++k) {
                             const TexturePyramid &a = *made[first + k], &b = *others[k];
                             ASSERT_EQ(a.texels.size(), b.texels.size());
